@@ -1,0 +1,48 @@
+//! The macro door: a spec file becomes a module where the macro stands.
+
+use std::path::Path;
+
+use proc_macro::TokenStream;
+use quote::quote;
+use syn::LitStr;
+
+/// Generates the module of a manipulator from its spec file, given relative to the crate's `Cargo.toml`.
+///
+/// ```ignore
+/// abbe_macro::manipulator!("specs/arm.toml");
+/// let (pose, error_jacobian) = arm::error_jacobian(&q, &arm::Parameters::NOMINAL)?;
+/// ```
+///
+/// The crate is compiled anew when the file changes. Mistakes in the file are shown as compile errors, with
+/// their place in it.
+#[proc_macro]
+pub fn manipulator(input: TokenStream) -> TokenStream {
+    let file = match syn::parse2::<LitStr>(input.into()) {
+        Ok(file) => file,
+        Err(error) => return error.into_compile_error().into(),
+    };
+    expand(&file).unwrap_or_else(syn::Error::into_compile_error).into()
+}
+
+fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
+    let fail = |message: &str| Err(syn::Error::new(file.span(), message));
+    let Some(root) = std::env::var_os("CARGO_MANIFEST_DIR") else {
+        return fail("CARGO_MANIFEST_DIR is not set: build with cargo");
+    };
+    let path = Path::new(&root).join(file.value());
+    match abbe_codegen::spec::Spec::read(&path) {
+        Ok(spec) => {
+            let module = abbe_codegen::emit::rust_tokens(&spec);
+            let path = path.to_string_lossy();
+            // The compiler watches files that are included.
+            Ok(quote! {
+                #module
+                const _: &str = include_str!(#path);
+            })
+        }
+        Err(mut diagnostics) => {
+            diagnostics.path = file.value();
+            fail(&format!("mistakes in the spec\n{diagnostics}"))
+        }
+    }
+}

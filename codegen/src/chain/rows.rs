@@ -1,0 +1,67 @@
+//! Rows 4–6 of a Jacobian from a small rotation.
+
+use crate::graph::{Frame, Graph, Node, Vector};
+use crate::spec::Orientation;
+
+/// What turns a small rotation ω in `F_0` into rows 4–6.
+pub(super) enum Rows {
+    /// ω itself.
+    RotationVector,
+    /// Changes of spin σ, roll ρ and pitch π.
+    EulerYzx(EulerYzx),
+}
+
+/// With `R_T = R_y(σ) R_z(ρ) R_x(π)`, its first column is `(cos σ cos ρ, sin ρ, −sin σ cos ρ)`, and
+///
+/// ```text
+/// ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂
+/// π̇ = (r11 ωx + r31 ωz) / cos² ρ      ρ̇ = (r11 ωz − r31 ωx) / cos ρ      σ̇ = ωy − r21 π̇
+/// ```
+pub(super) struct EulerYzx {
+    /// `cos ρ = √(r11² + r31²)`: where it is 0 there are no rows.
+    pub(super) margin: Node,
+    /// `(r11, r31) / cos ρ`.
+    roll: [Node; 2],
+    /// `(r11, r31) / cos² ρ`.
+    pitch: [Node; 2],
+    /// `r21 = sin ρ`.
+    sine: Node,
+}
+
+impl Rows {
+    pub(super) fn new(graph: &mut Graph, orientation: Orientation, tool: &Frame) -> Self {
+        if orientation == Orientation::RotationVector {
+            return Self::RotationVector;
+        }
+        let [r11, sine, r31] = tool.axes[0];
+        let (first, second) = (graph.mul(r11, r11), graph.mul(r31, r31));
+        let square = graph.add(first, second);
+        let margin = graph.sqrt(square);
+        graph.propose(margin, || "cos_roll".to_owned());
+        let one = graph.constant(1.0);
+        let inverse = graph.div(one, margin);
+        let roll = [r11, r31].map(|entry| graph.mul(entry, inverse));
+        let pitch = roll.map(|entry| graph.mul(entry, inverse));
+        Self::EulerYzx(EulerYzx { margin, roll, pitch, sine })
+    }
+
+    pub(super) fn of(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
+        let Self::EulerYzx(EulerYzx { roll, pitch, sine, .. }) = self else {
+            return omega;
+        };
+        let [x, y, z] = omega;
+        let (first, second) = (graph.mul(pitch[0], x), graph.mul(pitch[1], z));
+        let pitch = graph.add(first, second);
+        let (first, second) = (graph.mul(roll[0], z), graph.mul(roll[1], x));
+        let roll = graph.sub(first, second);
+        let part = graph.mul(*sine, pitch);
+        [graph.sub(y, part), roll, pitch]
+    }
+
+    /// A column from the velocity of the tool point and the rotation ω.
+    pub(super) fn column(&self, graph: &mut Graph, velocity: Vector, omega: Vector) -> [Node; 6] {
+        let [x, y, z] = velocity;
+        let [four, five, six] = self.of(graph, omega);
+        [x, y, z, four, five, six]
+    }
+}

@@ -1,0 +1,145 @@
+//! Along the chain, one factor after the other: equation (2).
+
+use crate::expr::{Elementary, Motion};
+use crate::graph::{Frame, Graph, Node, Vector};
+use crate::spec::Factor;
+
+/// A factor as it stands in the chain, everything in `F_0`.
+pub(super) enum Step {
+    /// A translation by `amount` along `direction`.
+    Translation { direction: Vector, amount: Node },
+    /// A rotation by `amount` about `axis` through the point `at`.
+    Rotation { axis: Vector, at: Vector, amount: Node },
+    /// Any other rigid motion, from the frame `before` it to the point `after` it.
+    Matrix { before: Frame, local: Frame, after: Vector },
+}
+
+/// Extends the pose `frame` by a product of factors.
+pub(super) fn walk(graph: &mut Graph, frame: Frame, factors: &[Factor], steps: &mut Vec<Step>) -> Frame {
+    let mut frame = frame;
+    let mut rest = factors;
+    while let [factor, ..] = rest {
+        let constant = rest.iter().take_while(|factor| is_constant_rotation(factor)).count();
+        if rest[..constant].iter().filter(|factor| !is_quarter_turn(graph, factor)).count() > 1 {
+            // Several constant rotations are folded into one.
+            let identity = graph.identity();
+            let folded = rest[..constant].iter().fold(identity, |f, factor| apply(graph, f, factor).0);
+            frame = graph.then(&frame, &folded);
+            rest = &rest[constant..];
+            continue;
+        }
+        let (next, step) = apply(graph, frame, factor);
+        frame = next;
+        steps.push(step);
+        rest = &rest[1..];
+    }
+    frame
+}
+
+/// The motion of a product of factors by itself: a local `A_i`, from `F_i` to `F_{i-1}`.
+pub fn transform(graph: &mut Graph, factors: &[Factor]) -> Frame {
+    let identity = graph.identity();
+    factors.iter().fold(identity, |frame, factor| apply(graph, frame, factor).0)
+}
+
+fn apply(graph: &mut Graph, frame: Frame, factor: &Factor) -> (Frame, Step) {
+    match factor {
+        Factor::Elementary(Elementary { motion: Motion::Translation, axis, amount }) => {
+            let amount = graph.lower(amount);
+            let step = Step::Translation { direction: frame.axes[*axis], amount };
+            (graph.moved(&frame, *axis, amount), step)
+        }
+        Factor::Elementary(Elementary { motion: Motion::Rotation, axis, amount }) => {
+            let amount = graph.lower(amount);
+            let step = Step::Rotation { axis: frame.axes[*axis], at: frame.position, amount };
+            (graph.turned(&frame, *axis, amount), step)
+        }
+        Factor::About { motion, axis, amount } => {
+            let amount = graph.lower(amount);
+            let local = axis.map(|component| graph.constant(component));
+            let direction = graph.turn(&frame.axes, local);
+            match motion {
+                Motion::Translation => {
+                    let offset = graph.scale(amount, direction);
+                    let position = graph.add_vectors(frame.position, offset);
+                    (Frame { position, ..frame }, Step::Translation { direction, amount })
+                }
+                Motion::Rotation => {
+                    let rotation = about(graph, *axis, amount);
+                    let axes = rotation.map(|column| graph.turn(&frame.axes, column));
+                    (Frame { axes, ..frame }, Step::Rotation { axis: direction, at: frame.position, amount })
+                }
+            }
+        }
+        Factor::Matrix(matrix) => {
+            let entry = |graph: &mut Graph, column: usize| {
+                [0, 1, 2].map(|row| graph.lower(&matrix.rows[row][column]))
+            };
+            let local =
+                Frame { axes: [0, 1, 2].map(|column| entry(graph, column)), position: entry(graph, 3) };
+            let next = graph.then(&frame, &local);
+            (next, Step::Matrix { before: frame, local, after: next.position })
+        }
+    }
+}
+
+/// The columns of `R = cos θ I + sin θ [a] + (1 − cos θ) a aᵀ`.
+fn about(graph: &mut Graph, axis: [f64; 3], angle: Node) -> [Vector; 3] {
+    let (sine, cosine, one) = (graph.sin(angle), graph.cos(angle), graph.constant(1.0));
+    let versine = graph.sub(one, cosine);
+    std::array::from_fn(|j| {
+        std::array::from_fn(|i| {
+            let (square, skew) = (graph.constant(axis[i] * axis[j]), graph.constant(skew(axis, i, j)));
+            let (first, second) = (graph.mul(square, versine), graph.mul(skew, sine));
+            let sum = graph.add(first, second);
+            if i == j { graph.add(cosine, sum) } else { sum }
+        })
+    })
+}
+
+/// Entry (i, j) of the matrix `[a]` with `[a] v = a × v`.
+fn skew(a: [f64; 3], i: usize, j: usize) -> f64 {
+    match (3 + j - i) % 3 {
+        0 => 0.0,
+        1 => -a[(j + 1) % 3],
+        _ => a[(i + 1) % 3],
+    }
+}
+
+fn is_constant_rotation(factor: &Factor) -> bool {
+    matches!(factor, Factor::Elementary(Elementary { motion: Motion::Rotation, amount, .. })
+        if amount.constant().is_some())
+}
+
+fn is_quarter_turn(graph: &mut Graph, factor: &Factor) -> bool {
+    let Factor::Elementary(Elementary { amount, .. }) = factor else {
+        return false;
+    };
+    let angle = graph.lower(amount);
+    let sine = graph.sin(angle);
+    graph.value(sine).is_some_and(|sine| sine.fract() == 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Symbol;
+
+    #[test]
+    fn rotation_about_any_axis_agrees_with_the_elementary_ones() {
+        let mut graph = Graph::new();
+        let angle = graph.symbol(Symbol::Variable(0));
+        for axis in 0..3 {
+            let mut unit = [0.0; 3];
+            unit[axis] = 1.0;
+            let general = about(&mut graph, unit, angle);
+            let identity = graph.identity();
+            let elementary = graph.turned(&identity, axis, angle).axes;
+            let both: Vec<Node> = general.into_iter().chain(elementary).flatten().collect();
+            let values = graph.evaluate(&both, |_| 0.7);
+            for (a, b) in values[..9].iter().zip(&values[9..]) {
+                assert!((a - b).abs() < 1e-15, "{values:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The build script's door: every spec of a folder becomes a module.
+
+use std::fmt;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::emit;
+use crate::spec::Spec;
+
+/// Generates a module for every `*.toml` in a folder, for `abbe::include_manipulators!()` to include.
+///
+/// To be called by a build script, which fails with all mistakes shown if there are any.
+pub fn compile(specs: impl AsRef<Path>) {
+    let specs = specs.as_ref();
+    println!("cargo:rerun-if-changed={}", specs.display());
+    let out = std::env::var_os("OUT_DIR").map(PathBuf::from);
+    let result = match &out {
+        Some(out) => compile_into(specs, out),
+        None => Err(CompileError::NotABuildScript),
+    };
+    match result {
+        Ok(files) => {
+            for file in files {
+                println!("cargo:rerun-if-changed={}", file.display());
+            }
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            std::process::exit(1);
+        }
+    }
+}
+
+/// Generates a module for every `*.toml` in `specs`, and `abbe_manipulators.rs` that includes them, in `out`.
+///
+/// Returns the specs read, in order of their names. Files whose contents stay the same are not touched. Nothing
+/// is written if any spec has a mistake.
+pub fn compile_into(specs: &Path, out: &Path) -> Result<Vec<PathBuf>, CompileError> {
+    let files = spec_files(specs)?;
+    let mut read: Vec<Spec> = Vec::new();
+    let mut mistaken = Vec::new();
+    for file in &files {
+        match Spec::read(file) {
+            Ok(spec) => match read.iter().find(|other| other.name == spec.name) {
+                Some(other) => {
+                    let message =
+                        format!("`{}` is the name of the manipulator in `{}` too", spec.name, other.file);
+                    let mistake = Diagnostic::whole_file(message).help("rename one of them");
+                    let path = file.display().to_string();
+                    mistaken.push(Diagnostics { path, text: "".into(), list: vec![mistake] });
+                }
+                None => read.push(spec),
+            },
+            Err(diagnostics) => mistaken.push(diagnostics),
+        }
+    }
+    if !mistaken.is_empty() {
+        return Err(CompileError::Specs(mistaken));
+    }
+    let mut index = String::new();
+    for spec in &read {
+        let file = format!("abbe_{}.rs", spec.name);
+        write_if_changed(&out.join(&file), &emit::rust(spec))?;
+        index.push_str(&format!("include!(concat!(env!(\"OUT_DIR\"), \"/{file}\"));\n"));
+    }
+    write_if_changed(&out.join("abbe_manipulators.rs"), &index)?;
+    Ok(files)
+}
+
+fn spec_files(specs: &Path) -> Result<Vec<PathBuf>, CompileError> {
+    let failed = |error| CompileError::Io(specs.to_owned(), error);
+    let mut files = Vec::new();
+    for entry in fs::read_dir(specs).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            files.push(path);
+        }
+    }
+    if files.is_empty() {
+        return Err(CompileError::NoSpecs(specs.to_owned()));
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Leaves a file alone that is right already, and never leaves one half written.
+fn write_if_changed(path: &Path, text: &str) -> Result<(), CompileError> {
+    let failed = |error| CompileError::Io(path.to_owned(), error);
+    if fs::read_to_string(path).is_ok_and(|found| found == text) {
+        return Ok(());
+    }
+    let partial = path.with_extension("partial");
+    fs::write(&partial, text).map_err(failed)?;
+    fs::rename(&partial, path).map_err(failed)
+}
+
+/// Why a folder of specs could not be compiled.
+#[derive(Debug)]
+pub enum CompileError {
+    /// A folder or file could not be read or written.
+    Io(PathBuf, io::Error),
+    /// The folder holds no `*.toml`.
+    NoSpecs(PathBuf),
+    /// `OUT_DIR` is not set, as it is in build scripts.
+    NotABuildScript,
+    /// Specs have mistakes.
+    Specs(Vec<Diagnostics>),
+}
+
+impl std::error::Error for CompileError {}
+
+impl fmt::Display for CompileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(path, error) => write!(f, "error: {}: {error}", path.display()),
+            Self::NoSpecs(path) => write!(f, "error: there is no spec (*.toml) in {}", path.display()),
+            Self::NotABuildScript => {
+                write!(f, "error: OUT_DIR is not set: call `compile` from a build script")
+            }
+            Self::Specs(all) => {
+                let shown: Vec<String> = all.iter().map(Diagnostics::to_string).collect();
+                write!(f, "{}", shown.join("\n\n"))
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Mistakes in an input file, with their places, shown as rustc would show them.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+
+/// A range of bytes of the input file.
+pub type Span = Range<usize>;
+
+/// The most mistakes shown at once; what lies beyond is counted.
+const SHOWN: usize = 20;
+
+/// One mistake: what is wrong, where, and a way out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// What is wrong, in one sentence.
+    pub message: String,
+    /// Where; none if the file could not be read at all.
+    pub span: Option<Span>,
+    /// What stands under the caret.
+    pub label: String,
+    /// Other places that matter, such as the first of two equal names.
+    pub context: Vec<(Span, String)>,
+    /// The way out.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// A mistake at `span`.
+    pub fn new(span: Span, message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            span: Some(span),
+            label: String::new(),
+            context: Vec::new(),
+            help: None,
+        }
+    }
+
+    /// A mistake of the file as a whole.
+    pub fn whole_file(message: impl Into<String>) -> Self {
+        Self { span: None, ..Self::new(0..0, message) }
+    }
+
+    /// Says under the caret what is wrong there.
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Shows another place.
+    pub fn context(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.context.push((span, label.into()));
+        self
+    }
+
+    /// Says a way out.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+/// All mistakes that one stage found in one file. Displays as plain text, one mistake after the other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostics {
+    /// The file's name as the user gave it.
+    pub path: String,
+    /// The file's text, empty if it could not be read.
+    pub text: Arc<str>,
+    /// At least one mistake, in the order of the file.
+    pub list: Vec<Diagnostic>,
+}
+
+impl std::error::Error for Diagnostics {}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl Diagnostics {
+    /// The text for people, with colours if `styled`.
+    pub fn render(&self, styled: bool) -> String {
+        let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
+        let renderer = renderer.decor_style(DecorStyle::Ascii);
+        let mut shown: Vec<String> = self.list[..self.list.len().min(SHOWN)]
+            .iter()
+            .map(|diagnostic| renderer.render(&self.report(diagnostic)))
+            .collect();
+        if self.list.len() > SHOWN {
+            shown.push(format!("… and {} more", self.list.len() - SHOWN));
+        }
+        shown.join("\n\n")
+    }
+
+    fn report<'a>(&'a self, diagnostic: &'a Diagnostic) -> Vec<Group<'a>> {
+        let mut group = Group::with_title(Level::ERROR.primary_title(&*diagnostic.message));
+        group = match &diagnostic.span {
+            None => group.element(Origin::path(&*self.path)),
+            Some(span) => {
+                let primary = AnnotationKind::Primary.span(self.clip(span)).label(&*diagnostic.label);
+                let context = diagnostic
+                    .context
+                    .iter()
+                    .map(|(span, label)| AnnotationKind::Context.span(self.clip(span)).label(&**label));
+                let snippet =
+                    Snippet::source(&*self.text).path(&*self.path).annotation(primary).annotations(context);
+                group.element(snippet)
+            }
+        };
+        if let Some(help) = &diagnostic.help {
+            group = group.element(Level::HELP.message(&**help));
+        }
+        vec![group]
+    }
+
+    /// The part of a span that is worth a caret: its first line, on character boundaries.
+    fn clip(&self, span: &Span) -> Span {
+        let start = self.text.floor_char_boundary(span.start.min(self.text.len()));
+        let end = self.text.ceil_char_boundary(span.end.clamp(start, self.text.len()));
+        let line = self.text[start..end].find(['\n', '\r']).map_or(end, |newline| start + newline);
+        start..line
+    }
+}
+
+/// The nearest of `known` to a word that is not among them, as the second half of a help text.
+pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(word, candidate), candidate))
+        .filter(|(similarity, _)| *similarity > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
+
+/// `did you mean …?`, or else the list of what is known.
+pub(crate) fn suggestion(word: &str, known: &[&str], what: &str) -> String {
+    match nearest(word, known.iter().copied()) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None if known.is_empty() => format!("there is no {what} here"),
+        None => format!("{what}: {}", known.join(", ")),
+    }
+}

@@ -1,0 +1,345 @@
+//! A TOML file with the place of everything in it: the cursor with which spec and study files are read.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
+use crate::expr::{Dimension, Entry, Expression, Place, Scope, parse_expression};
+
+/// The largest file that is read; a chain of a hundred frames takes some 30 kB.
+const LARGEST: u64 = 4 << 20;
+
+/// A file's name and text, and the mistakes found in it so far.
+#[derive(Debug)]
+pub struct Document {
+    /// The file's name as the user gave it.
+    pub path: String,
+    /// The file's text.
+    pub text: Arc<str>,
+    /// The mistakes found so far.
+    pub found: Vec<Diagnostic>,
+}
+
+impl Document {
+    /// A text that has been read already.
+    pub fn new(path: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
+        Self { path: path.into(), text: text.into(), found: Vec::new() }
+    }
+
+    /// Reads a file. Missing, unreadable, too large and not UTF-8 are [`Diagnostics`] like any other mistake.
+    pub fn read(path: &Path) -> Result<Self, Diagnostics> {
+        let name = path.display().to_string();
+        let fail =
+            |text: Arc<str>, diagnostic| Diagnostics { path: name.clone(), text, list: vec![diagnostic] };
+        let mut bytes = Vec::new();
+        let metadata = fs::metadata(path);
+        if metadata.as_ref().is_ok_and(fs::Metadata::is_dir) {
+            let mistake = Diagnostic::whole_file("this is a directory, not a file").help("name a file in it");
+            return Err(fail(Arc::from(""), mistake));
+        }
+        if let Err(error) =
+            fs::File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+        {
+            let mistake = Diagnostic::whole_file(format!("cannot read this file: {error}"))
+                .help("give the path of a TOML file");
+            return Err(fail(Arc::from(""), mistake));
+        }
+        if bytes.len() as u64 > LARGEST {
+            let first: Arc<str> = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).into();
+            let mistake = Diagnostic::new(0..0, format!("this file is larger than {} MiB", LARGEST >> 20))
+                .label("no spec is that long")
+                .help("is this the file you meant?");
+            return Err(fail(first, mistake));
+        }
+        let bytes = match String::from_utf8(bytes) {
+            Ok(text) => return Ok(Self::new(name, text)),
+            Err(error) => error,
+        };
+        let valid = bytes.utf8_error().valid_up_to();
+        let text: Arc<str> = String::from_utf8_lossy(bytes.as_bytes()).into();
+        let mistake = Diagnostic::new(valid..valid + 1, "this file is not UTF-8 text")
+            .label("the first byte that is no text")
+            .help("specs are TOML files in UTF-8");
+        Err(fail(text, mistake))
+    }
+
+    /// The tables of `text`, which is the document's own, or every mistake of syntax.
+    pub fn tables<'t>(&mut self, text: &'t str) -> Option<Spanned<DeTable<'t>>> {
+        let (table, errors) = DeTable::parse_recoverable(text);
+        for error in &errors {
+            let end = text.len();
+            let message = error.message().lines().collect::<Vec<_>>().join(", ");
+            let span = error.span().unwrap_or(end..end);
+            self.found
+                .push(Diagnostic::new(span, message).help("the file is TOML: `key = value`, `[table]`"));
+        }
+        errors.is_empty().then_some(table)
+    }
+
+    /// Notes a mistake.
+    pub fn mistake(&mut self, diagnostic: Diagnostic) {
+        self.found.push(diagnostic);
+    }
+
+    /// Ends the reading: the result, or everything that was found, in the order of the file.
+    pub fn finish<T>(self, result: Option<T>) -> Result<T, Diagnostics> {
+        match result {
+            Some(result) if self.found.is_empty() => Ok(result),
+            _ => {
+                let mut list = self.found;
+                list.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
+                list.dedup();
+                Err(Diagnostics { path: self.path, text: self.text, list })
+            }
+        }
+    }
+
+    fn wrong_type(&mut self, item: &Item<'_>, expected: &str) {
+        let found = item.value.get_ref().type_str();
+        let message = format!("`{}` must be {expected}, not {}", item.key, with_article(found));
+        self.mistake(Diagnostic::new(item.span(), message).label(format!("expected {expected}")));
+    }
+
+    /// A string.
+    pub fn string(&mut self, item: &Item<'_>) -> Option<String> {
+        if let DeValue::String(text) = item.value.get_ref() {
+            return Some(text.to_string());
+        }
+        self.wrong_type(item, "a string");
+        None
+    }
+
+    /// `true` or `false`.
+    pub fn boolean(&mut self, item: &Item<'_>) -> Option<bool> {
+        if let DeValue::Boolean(value) = item.value.get_ref() {
+            return Some(*value);
+        }
+        self.wrong_type(item, "true or false");
+        None
+    }
+
+    /// One of a few words.
+    pub fn choice<T: Copy>(&mut self, item: &Item<'_>, choices: &[(&str, T)]) -> Option<T> {
+        let word = self.string(item)?;
+        if let Some((_, value)) = choices.iter().find(|(name, _)| *name == word) {
+            return Some(*value);
+        }
+        let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+        let message = format!("`{}` cannot be `{}`", item.key, word.escape_debug());
+        let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
+        self.mistake(
+            Diagnostic::new(item.span(), message)
+                .label(format!("expected {quoted}"))
+                .help(suggestion(&word, &names, "choices")),
+        );
+        None
+    }
+
+    /// A table.
+    pub fn section<'d>(&mut self, item: &Item<'d>) -> Option<Section<'d>> {
+        if let DeValue::Table(table) = item.value.get_ref() {
+            return Some(Section { table, span: item.key_span.clone(), name: item.key.clone() });
+        }
+        self.wrong_type(item, "a table");
+        None
+    }
+
+    /// An array, with its entries as items of the same key.
+    pub fn array<'d>(&mut self, item: &Item<'d>, expected: &str) -> Option<Vec<Item<'d>>> {
+        if let DeValue::Array(array) = item.value.get_ref() {
+            let array: &DeArray<'_> = array;
+            return Some(
+                array
+                    .iter()
+                    .map(|value| Item { key: item.key.clone(), key_span: item.key_span.clone(), value })
+                    .collect(),
+            );
+        }
+        self.wrong_type(item, expected);
+        None
+    }
+
+    /// An array of exactly `N` entries.
+    pub fn entries<'d, const N: usize>(&mut self, item: &Item<'d>, expected: &str) -> Option<[Item<'d>; N]> {
+        let entries = self.array(item, expected)?;
+        let count = entries.len();
+        entries.try_into().ok().or_else(|| {
+            let message = format!("`{}` must be {expected}; this has {count} entries", item.key);
+            self.mistake(
+                Diagnostic::new(item.span(), message).label(format!("expected {N} entries, found {count}")),
+            );
+            None
+        })
+    }
+
+    /// A string with its place in the file.
+    pub(crate) fn text<'d>(&mut self, item: &Item<'d>) -> Option<(&'d str, Place)> {
+        let DeValue::String(text) = item.value.get_ref() else {
+            self.wrong_type(item, "a string");
+            return None;
+        };
+        let span = item.span();
+        let raw = &self.text[span.clone()];
+        // Quotes stand before the text; escapes make it differ from what stands in the file.
+        let place = match raw.find(&**text) {
+            Some(offset) if !text.is_empty() && offset <= 4 => Place::Exact(span.start + offset),
+            _ => Place::Within(span),
+        };
+        Some((text, place))
+    }
+
+    /// A number or an expression in a string.
+    pub fn expression(&mut self, item: &Item<'_>, scope: &Scope, entry: Entry<'_>) -> Option<Expression> {
+        let span = item.span();
+        let (text, place) = match item.value.get_ref() {
+            DeValue::String(_) => {
+                let (text, place) = self.text(item)?;
+                if text.trim().is_empty() {
+                    let message = format!("{} is missing", entry.what);
+                    self.mistake(
+                        Diagnostic::new(span, message).label("this is empty").help("write 0 for nothing"),
+                    );
+                    return None;
+                }
+                return parse_expression(text, &place, scope, entry, &mut self.found);
+            }
+            DeValue::Integer(number) => (number.to_string(), span.clone()),
+            DeValue::Float(number) => (number.to_string(), span.clone()),
+            _ => {
+                self.wrong_type(item, "a number or an expression in quotes");
+                return None;
+            }
+        };
+        let value = match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Some(value),
+            Ok(value) => {
+                let what = if value.is_nan() { "NaN" } else { "infinite, or too large for a number" };
+                self.mistake(
+                    Diagnostic::new(span.clone(), format!("{} cannot be {what}", entry.what))
+                        .label("expected a finite number")
+                        .help("leave the entry out where there is no limit"),
+                );
+                None
+            }
+            Err(_) => {
+                self.mistake(Diagnostic::new(span.clone(), "numbers are written in decimal here"));
+                None
+            }
+        };
+        let dimension = entry.dimension.unwrap_or(Dimension::NONE);
+        if !dimension.takes_bare(value?) {
+            let message = format!("{} must be {dimension}, not a pure number", entry.what);
+            let help =
+                format!("give it a unit, in quotes: `\"{text} {}\"`", dimension.unit(scope.length.symbol()));
+            self.mistake(Diagnostic::new(span, message).label("this has no unit").help(help));
+            return None;
+        }
+        Some(Expression::number(value?, dimension, place))
+    }
+
+    /// A constant: its value in the coherent system and its dimension.
+    pub fn constant(&mut self, item: &Item<'_>, scope: &Scope, entry: Entry<'_>) -> Option<(f64, Dimension)> {
+        let expression = self.expression(item, scope, entry)?;
+        expression.constant().zip(expression.whole().dimension)
+    }
+}
+
+/// A key and its value.
+#[derive(Clone, Debug)]
+pub struct Item<'d> {
+    /// The key.
+    pub key: String,
+    /// Where the key stands.
+    pub key_span: Span,
+    value: &'d Spanned<DeValue<'d>>,
+}
+
+impl Item<'_> {
+    /// Where the value stands.
+    pub fn span(&self) -> Span {
+        self.value.span()
+    }
+
+    /// Whether the value is a table.
+    pub fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
+    }
+}
+
+/// A table of the file.
+#[derive(Clone, Debug)]
+pub struct Section<'d> {
+    table: &'d DeTable<'d>,
+    /// Where its name stands.
+    pub span: Span,
+    /// Its name.
+    pub name: String,
+}
+
+impl<'d> Section<'d> {
+    /// The file itself.
+    pub fn root(table: &'d Spanned<DeTable<'d>>) -> Self {
+        Self { table: table.get_ref(), span: 0..0, name: "this file".to_owned() }
+    }
+
+    /// All its items, in order.
+    pub fn items(&self) -> impl Iterator<Item = Item<'d>> + use<'d> {
+        self.table.iter().map(|(key, value)| Item {
+            key: key.get_ref().to_string(),
+            key_span: key.span(),
+            value,
+        })
+    }
+
+    /// The item of that key.
+    pub fn get(&self, key: &str) -> Option<Item<'d>> {
+        self.table.get_key_value(key).map(|(key, value)| Item {
+            key: key.get_ref().to_string(),
+            key_span: key.span(),
+            value,
+        })
+    }
+
+    /// The item of that key, or a mistake that says it is missing.
+    pub fn required(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
+        self.get(key).or_else(|| {
+            let message = format!("`{key}` is missing in {}", self.name);
+            document.mistake(
+                Diagnostic::new(self.span.clone(), message)
+                    .label(format!("`{key}` belongs here"))
+                    .help(format!("add `{key} = …`")),
+            );
+            None
+        })
+    }
+
+    /// The text of that key in one line, empty if there is none.
+    pub fn optional_text(&self, key: &str, document: &mut Document) -> String {
+        let text = self.get(key).and_then(|item| document.string(&item)).unwrap_or_default();
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    /// Notes every key that is not known, with the nearest that is.
+    pub fn check_keys(&self, known: &[&str], document: &mut Document) {
+        for item in self.items().filter(|item| !known.contains(&item.key.as_str())) {
+            let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
+            document.mistake(
+                Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(suggestion(
+                    &item.key,
+                    known,
+                    "known keys",
+                )),
+            );
+        }
+    }
+}
+
+fn with_article(name: &str) -> String {
+    let article = if name.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+    format!("{article} {name}")
+}

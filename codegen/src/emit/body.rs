@@ -1,0 +1,146 @@
+//! The statements of a program.
+//!
+//! A step that is used once and has no name of its own is written where it is used, as long as the expression
+//! stays short; the order of the arithmetic, and so every bit of the result, stays the same.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::literal::number;
+use super::names::Names;
+use crate::expr::Function;
+use crate::program::{Action, Operand, Program, Step};
+
+/// How many operations one expression may hold.
+const LONGEST: usize = 6;
+
+/// How strongly the outermost operator of an expression binds.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+#[derive(Clone)]
+struct Written {
+    tokens: TokenStream,
+    binding: Binding,
+    operations: usize,
+}
+
+/// The statements of a program, and its outputs as expressions.
+pub(super) struct Body {
+    pub(super) statements: Vec<TokenStream>,
+    pub(super) outputs: Vec<TokenStream>,
+}
+
+pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
+    let mut writer = Writer { names, registers: vec![None; program.registers] };
+    let mut statements = Vec::new();
+    // Results are written as they are, without arithmetic.
+    let mut returned = vec![false; program.registers];
+    for output in &program.outputs {
+        if let Operand::Register(register) = output {
+            returned[*register] = true;
+        }
+    }
+    for step in &program.steps {
+        if let Action::SinCos(operand) = step.action {
+            let angle = writer.operand(operand).at_least(Binding::Atom);
+            let (sine, cosine) = writer.names.sine_and_cosine(operand);
+            writer.registers[step.register] = Some(Written::name(&sine));
+            writer.registers[step.register + 1] = Some(Written::name(&cosine));
+            statements.push(quote!(let (#sine, #cosine) = #angle.sin_cos();));
+            continue;
+        }
+        let written = writer.write(step);
+        let once = program.uses[step.register] == 1 && !returned[step.register];
+        if once && step.name.is_none() && written.operations < LONGEST {
+            writer.registers[step.register] = Some(written);
+        } else {
+            let (name, tokens) = (writer.names.step(step.name.as_deref()), written.tokens);
+            statements.push(quote!(let #name = #tokens;));
+            writer.registers[step.register] = Some(Written::name(&name));
+        }
+    }
+    let outputs = program.outputs.iter().map(|output| writer.output(*output)).collect();
+    Body { statements, outputs }
+}
+
+struct Writer<'w, 's> {
+    names: &'w mut Names<'s>,
+    /// How each register is written where it is used: its name, or the whole expression.
+    registers: Vec<Option<Written>>,
+}
+
+impl Writer<'_, '_> {
+    fn write(&self, step: &Step) -> Written {
+        match step.action {
+            Action::Neg(a) => {
+                let a = self.operand(a);
+                let operations = a.operations + 1;
+                let a = a.at_least(Binding::Sign);
+                Written { tokens: quote!(-#a), binding: Binding::Sign, operations }
+            }
+            Action::Add(a, b) => self.infix(a, b, &quote!(+), Binding::Sum, Binding::Product),
+            Action::Sub(a, b) => self.infix(a, b, &quote!(-), Binding::Sum, Binding::Product),
+            Action::Mul(a, b) => self.infix(a, b, &quote!(*), Binding::Product, Binding::Sign),
+            Action::Div(a, b) => self.infix(a, b, &quote!(/), Binding::Product, Binding::Sign),
+            Action::Pow(a, b) => self.method(a, "powf", Some(b)),
+            Action::Atan2(a, b) => self.method(a, "atan2", Some(b)),
+            Action::Call(function, a) => self.method(a, function.name(), None),
+            Action::SinCos(a) => self.method(a, Function::Sin.name(), None),
+        }
+    }
+
+    /// `a op b`; the right operand needs a stronger operator, so that nothing is reassociated.
+    fn infix(&self, a: Operand, b: Operand, sign: &TokenStream, own: Binding, right: Binding) -> Written {
+        let (a, b) = (self.operand(a), self.operand(b));
+        let operations = a.operations + b.operations + 1;
+        let (a, b) = (a.at_least(own), b.at_least(right));
+        Written { tokens: quote!(#a #sign #b), binding: own, operations }
+    }
+
+    fn method(&self, a: Operand, name: &str, argument: Option<Operand>) -> Written {
+        let name = format_ident!("{name}");
+        let a = self.operand(a);
+        let argument = argument.map(|argument| self.operand(argument));
+        let operations = a.operations + argument.as_ref().map_or(0, |b| b.operations) + 1;
+        let (a, argument) = (a.at_least(Binding::Atom), argument.map(|argument| argument.tokens));
+        Written { tokens: quote!(#a.#name(#argument)), binding: Binding::Atom, operations }
+    }
+
+    fn operand(&self, operand: Operand) -> Written {
+        match operand {
+            Operand::Constant(value) => {
+                let value = number(value);
+                Written { tokens: quote!(T::constant(#value)), binding: Binding::Atom, operations: 0 }
+            }
+            Operand::Symbol(symbol) => Written::name(self.names.symbol(symbol)),
+            // Every step comes after those it uses.
+            Operand::Register(register) => self.registers[register].clone().expect("a step that came before"),
+        }
+    }
+
+    fn output(&self, operand: Operand) -> TokenStream {
+        match operand {
+            Operand::Constant(0.0) => quote!(zero),
+            Operand::Constant(1.0) => quote!(one),
+            operand => self.operand(operand).tokens,
+        }
+    }
+}
+
+impl Written {
+    fn name(name: &Ident) -> Self {
+        Self { tokens: quote!(#name), binding: Binding::Atom, operations: 0 }
+    }
+
+    /// The expression as an operand of something that needs at least this binding.
+    fn at_least(self, binding: Binding) -> TokenStream {
+        let tokens = self.tokens;
+        if self.binding >= binding { tokens } else { quote!((#tokens)) }
+    }
+}

@@ -1,0 +1,48 @@
+//! Numbers as Rust writes them.
+
+use std::f64::consts;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+
+/// The constants that have a name in Rust.
+const NAMED: [(f64, &str); 10] = [
+    (consts::PI, "PI"),
+    (consts::TAU, "TAU"),
+    (consts::FRAC_PI_2, "FRAC_PI_2"),
+    (consts::FRAC_PI_3, "FRAC_PI_3"),
+    (consts::FRAC_PI_4, "FRAC_PI_4"),
+    (consts::FRAC_PI_6, "FRAC_PI_6"),
+    (consts::FRAC_PI_8, "FRAC_PI_8"),
+    (consts::SQRT_2, "SQRT_2"),
+    (consts::FRAC_1_SQRT_2, "FRAC_1_SQRT_2"),
+    (consts::E, "E"),
+];
+
+/// A number by its name if it has one, else with the digits that give it back exactly.
+pub(super) fn number(value: f64) -> TokenStream {
+    if value.is_infinite() {
+        return if value > 0.0 { quote!(f64::INFINITY) } else { quote!(f64::NEG_INFINITY) };
+    }
+    let magnitude = match NAMED.iter().find(|(named, _)| *named == value.abs()) {
+        Some((_, name)) => {
+            let name = format_ident!("{name}");
+            quote!(::core::f64::consts::#name)
+        }
+        None => digits(value.abs()).to_token_stream(),
+    };
+    if value < 0.0 { quote!(-#magnitude) } else { magnitude }
+}
+
+fn digits(value: f64) -> Literal {
+    let plain = format!("{value:?}");
+    plain.parse().unwrap_or_else(|_| Literal::f64_unsuffixed(value))
+}
+
+/// Whether clippy would take a number for a badly written π or √2.
+pub(super) fn looks_like_named(value: f64) -> bool {
+    NAMED.iter().any(|(named, _)| {
+        let difference = (value.abs() - named).abs() / named;
+        difference > 0.0 && difference < 5e-3
+    })
+}

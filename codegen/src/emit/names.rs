@@ -1,0 +1,83 @@
+//! What symbols and steps are called in generated code.
+
+use std::collections::HashSet;
+
+use proc_macro2::Ident;
+use quote::format_ident;
+
+use crate::expr::Symbol;
+use crate::program::Operand;
+use crate::spec::Spec;
+
+/// Names that a function's arguments and constants have.
+const TAKEN: [&str; 10] =
+    ["q", "s", "u", "zero", "one", "pose", "transforms", "columns", "effects", "errors"];
+
+/// The names of one function.
+pub(super) struct Names<'s> {
+    spec: &'s Spec,
+    used: HashSet<String>,
+    counter: usize,
+    variables: Vec<Ident>,
+    parameters: Vec<Ident>,
+    inputs: Vec<Ident>,
+}
+
+impl<'s> Names<'s> {
+    pub(super) fn new(spec: &'s Spec) -> Self {
+        let used = TAKEN.iter().map(|name| (*name).to_owned()).collect();
+        let mut names =
+            Self { spec, used, counter: 0, variables: vec![], parameters: vec![], inputs: vec![] };
+        names.variables = spec.variables.iter().map(|variable| names.free(&variable.name)).collect();
+        names.parameters = spec.parameters.iter().map(|parameter| names.free(&parameter.name)).collect();
+        names.inputs = spec.inputs.iter().map(|input| names.free(&input.name)).collect();
+        names
+    }
+
+    /// A variable, parameter or input.
+    pub(super) fn symbol(&self, symbol: Symbol) -> &Ident {
+        match symbol {
+            Symbol::Variable(i) => &self.variables[i],
+            Symbol::Parameter(i) => &self.parameters[i],
+            Symbol::Input(i) => &self.inputs[i],
+            Symbol::Error(_) => unreachable!("generalized errors stand in no generated program"),
+        }
+    }
+
+    /// The result of a step: its own name, or else the next `t…`.
+    pub(super) fn step(&mut self, proposed: Option<&str>) -> Ident {
+        match proposed {
+            Some(name) => self.free(name),
+            None => {
+                self.counter += 1;
+                self.free(&format!("t{}", self.counter))
+            }
+        }
+    }
+
+    /// Sine and cosine: `s2` and `c2` of the variable of frame 2, `sin_x` and `cos_x` of a parameter x.
+    pub(super) fn sine_and_cosine(&mut self, angle: Operand) -> (Ident, Ident) {
+        let of = |name: &str| (format!("sin_{name}"), format!("cos_{name}"));
+        let (sine, cosine) = match angle {
+            Operand::Symbol(Symbol::Variable(i)) => {
+                let frame = self.spec.variables[i].frame + 1;
+                (format!("s{frame}"), format!("c{frame}"))
+            }
+            Operand::Symbol(Symbol::Parameter(i)) => of(&self.spec.parameters[i].name),
+            Operand::Symbol(Symbol::Input(i)) => of(&self.spec.inputs[i].name),
+            _ => {
+                self.counter += 1;
+                of(&self.counter.to_string())
+            }
+        };
+        (self.free(&sine), self.free(&cosine))
+    }
+
+    fn free(&mut self, name: &str) -> Ident {
+        let mut name = name.to_owned();
+        while !self.used.insert(name.clone()) {
+            name.push('_');
+        }
+        format_ident!("{name}")
+    }
+}

@@ -1,0 +1,249 @@
+//! Makes the terms of an expression: names and dimensions are checked and constants folded as each is made.
+
+use super::function::FUNCTION_NAMES;
+use super::scope::Allowed;
+use super::{Binary, Dimension, Entry, Expression, Function, Kind, Scope, Term, UNIT_NAMES, Unit};
+use crate::diagnostic::{Diagnostic, Span, nearest};
+
+/// Terms under construction. Mistakes of meaning go to `found` and do not stop the construction.
+pub(super) struct Builder<'b> {
+    scope: &'b Scope,
+    found: &'b mut Vec<Diagnostic>,
+    terms: Vec<Term>,
+    allowed: Allowed,
+}
+
+impl<'b> Builder<'b> {
+    pub(super) fn new(scope: &'b Scope, found: &'b mut Vec<Diagnostic>) -> Self {
+        Self { scope, found, terms: Vec::new(), allowed: Allowed::Nothing }
+    }
+
+    /// Begins an entry that may use the given names.
+    pub(super) fn begin(&mut self, allowed: Allowed) {
+        self.terms.clear();
+        self.allowed = allowed;
+    }
+
+    /// Ends the entry whose last term is `whole`, and checks its dimension.
+    pub(super) fn finish(&mut self, whole: usize, entry: Entry<'_>) -> Expression {
+        debug_assert_eq!(whole + 1, self.terms.len(), "the whole is made last");
+        let whole = &mut self.terms[whole];
+        if let (Some(expected), Some(found)) = (entry.dimension, whole.dimension)
+            && expected != found
+        {
+            if whole.bare && whole.value.is_some_and(|value| expected.takes_bare(value)) {
+                // A bare number that is a whole entry takes the entry's unit.
+                whole.dimension = Some(expected);
+            } else {
+                let unit = expected.unit(self.scope.length.symbol());
+                let message = format!("{} must be {expected}, not {found}", entry.what);
+                let mistake = Diagnostic::new(whole.span.clone(), message).label(format!("this is {found}"));
+                let help = if expected == Dimension::NONE {
+                    "angles and slopes are pure numbers: `0.1`, `5 deg`, `d1/(1600 mm)`".to_owned()
+                } else {
+                    format!("give it in {unit} or a unit that converts to it")
+                };
+                self.found.push(mistake.help(help));
+            }
+        }
+        Expression::new(std::mem::take(&mut self.terms))
+    }
+
+    pub(super) fn number(&mut self, value: f64, unit: Option<Unit>, span: Span) -> usize {
+        let bare = unit.is_none();
+        let unit = unit.unwrap_or(Unit::NONE);
+        let value = unit.convert(value, self.scope.length);
+        let term = Term {
+            kind: Kind::Number(value),
+            dimension: Some(unit.dimension),
+            value: Some(value),
+            span,
+            bare,
+        };
+        self.push(term)
+    }
+
+    pub(super) fn name(&mut self, name: &str, span: Span) -> Result<usize, Diagnostic> {
+        if name == "pi" {
+            let value = Some(std::f64::consts::PI);
+            let kind = Kind::Number(std::f64::consts::PI);
+            return Ok(self.push(Term { kind, dimension: Some(Dimension::NONE), value, span, bare: false }));
+        }
+        let Some(declared) = self.scope.names.get(name) else {
+            let mistake = if Unit::named(name).is_some() {
+                Diagnostic::new(span, format!("the unit `{name}` must follow a number"))
+                    .help(format!("write `1 {name}`"))
+            } else if FUNCTION_NAMES.contains(&name) {
+                Diagnostic::new(span, format!("the function `{name}` needs its argument in parentheses"))
+                    .help(format!("write `{name}(…)`"))
+            } else {
+                unknown(name, span, self.scope)
+            };
+            return Err(mistake);
+        };
+        if let Err(reason) = self.allowed.check(declared.symbol) {
+            return Err(Diagnostic::new(span, format!("`{name}` may not be used here"))
+                .context(declared.span.clone(), "declared here")
+                .help(reason));
+        }
+        let kind = Kind::Symbol(declared.symbol);
+        Ok(self.push(Term { kind, dimension: declared.dimension, value: None, span, bare: false }))
+    }
+
+    pub(super) fn neg(&mut self, operand: usize, sign: &Span) -> usize {
+        let term = &self.terms[operand];
+        let (dimension, bare) = (term.dimension, term.bare);
+        let span = sign.start..term.span.end.max(sign.end);
+        let value = term.value.map(|value| -value);
+        self.push(Term { kind: Kind::Neg(operand), dimension, value, span, bare })
+    }
+
+    pub(super) fn call(&mut self, function: Function, operand: usize, span: Span) -> usize {
+        let found = self.terms[operand].dimension;
+        let dimension = found.and_then(|found| match function {
+            Function::Abs => Some(found),
+            Function::Sqrt => found.power(0.5).or_else(|| {
+                self.mistake(operand, format!("the square root of {found} has no unit"), "");
+                None
+            }),
+            _ if found == Dimension::NONE => Some(found),
+            _ => {
+                let message = format!("`{}` takes a pure number, not {found}", function.name());
+                self.mistake(operand, message, "divide by a length, such as `d1/(1600 mm)`");
+                None
+            }
+        });
+        let value = self.terms[operand].value.map(|value| function.of(value));
+        self.push_folded(Kind::Call(function, operand), dimension, value, span)
+    }
+
+    pub(super) fn atan2(&mut self, y: usize, x: usize, span: Span) -> usize {
+        let dimension =
+            self.equal(y, x, "the two arguments of `atan2` must be of one kind").map(|_| Dimension::NONE);
+        let value = self.both(y, x).map(|(y, x)| y.atan2(x));
+        self.push_folded(Kind::Binary(Binary::Atan2, y, x), dimension, value, span)
+    }
+
+    pub(super) fn binary(&mut self, operator: Binary, left: usize, right: usize) -> usize {
+        let span = self.terms[left].span.start..self.terms[right].span.end;
+        let (l, r) = (self.terms[left].dimension, self.terms[right].dimension);
+        let both = l.zip(r);
+        let dimension = match operator {
+            Binary::Add => self.equal(left, right, "only quantities of one kind can be added"),
+            Binary::Sub => self.equal(left, right, "only quantities of one kind can be subtracted"),
+            Binary::Mul => both.and_then(|(l, r)| self.or_absurd(l.times(r), &span)),
+            Binary::Div => both.and_then(|(l, r)| self.or_absurd(l.over(r), &span)),
+            Binary::Pow => self.power(left, right),
+            Binary::Atan2 => l,
+        };
+        let value = self.both(left, right).map(|(l, r)| match operator {
+            Binary::Add => l + r,
+            Binary::Sub => l - r,
+            Binary::Mul => l * r,
+            Binary::Div => l / r,
+            Binary::Pow => l.powf(r),
+            Binary::Atan2 => l.atan2(r),
+        });
+        if operator == Binary::Div && self.terms[right].value == Some(0.0) {
+            self.mistake(right, "division by zero".to_owned(), "");
+            return self.push(Term {
+                kind: Kind::Binary(operator, left, right),
+                dimension: None,
+                value: None,
+                span,
+                bare: false,
+            });
+        }
+        self.push_folded(Kind::Binary(operator, left, right), dimension, value, span)
+    }
+
+    fn power(&mut self, base: usize, exponent: usize) -> Option<Dimension> {
+        let Some(value) = self.terms[exponent].value else {
+            self.mistake(
+                exponent,
+                "an exponent must be a number".to_owned(),
+                "names may stand in the base only",
+            );
+            return None;
+        };
+        if self.terms[exponent].dimension? != Dimension::NONE {
+            self.mistake(exponent, "an exponent must be a pure number".to_owned(), "");
+            return None;
+        }
+        let dimension = self.terms[base].dimension?;
+        dimension.power(value).or_else(|| {
+            let message = format!("{dimension} to the power {value} has no unit");
+            self.mistake(exponent, message, "divide the base by a reference first: `(F/(1 N))^0.7`");
+            None
+        })
+    }
+
+    /// The dimension of two terms that must have the same.
+    fn equal(&mut self, left: usize, right: usize, message: &str) -> Option<Dimension> {
+        let (l, r) = (self.terms[left].dimension?, self.terms[right].dimension?);
+        if l == r {
+            return Some(l);
+        }
+        let unit = self.scope.length.symbol();
+        let bare = |term: &Term| matches!(term.kind, Kind::Number(_)) && term.bare;
+        let help = match (bare(&self.terms[left]), bare(&self.terms[right])) {
+            (true, _) => format!("give the number its unit, such as `{}`", r.unit(unit)),
+            (_, true) => format!("give the number its unit, such as `{}`", l.unit(unit)),
+            _ => "both sides must have the same unit, up to its prefix".to_owned(),
+        };
+        let mistake = Diagnostic::new(self.terms[right].span.clone(), message)
+            .label(format!("this is {r}"))
+            .context(self.terms[left].span.clone(), format!("this is {l}"))
+            .help(help);
+        self.found.push(mistake);
+        None
+    }
+
+    fn or_absurd(&mut self, dimension: Option<Dimension>, span: &Span) -> Option<Dimension> {
+        if dimension.is_none() {
+            self.found.push(Diagnostic::new(span.clone(), "the unit of this product is absurd"));
+        }
+        dimension
+    }
+
+    fn both(&self, left: usize, right: usize) -> Option<(f64, f64)> {
+        self.terms[left].value.zip(self.terms[right].value)
+    }
+
+    fn mistake(&mut self, term: usize, message: String, help: &str) {
+        let mistake = Diagnostic::new(self.terms[term].span.clone(), message);
+        self.found.push(if help.is_empty() { mistake } else { mistake.help(help) });
+    }
+
+    /// Pushes a term, unless its constant value is not a number one can compute with.
+    fn push_folded(
+        &mut self,
+        kind: Kind,
+        dimension: Option<Dimension>,
+        value: Option<f64>,
+        span: Span,
+    ) -> usize {
+        if let Some(value) = value.filter(|value| !value.is_finite()) {
+            let what = if value.is_nan() { "has no real value" } else { "is too large for a number" };
+            self.found.push(Diagnostic::new(span.clone(), format!("this {what}")));
+            return self.push(Term { kind, dimension: None, value: None, span, bare: false });
+        }
+        self.push(Term { kind, dimension, value, span, bare: false })
+    }
+
+    fn push(&mut self, term: Term) -> usize {
+        self.terms.push(term);
+        self.terms.len() - 1
+    }
+}
+
+fn unknown(name: &str, span: Span, scope: &Scope) -> Diagnostic {
+    let names = scope.names.keys().map(String::as_str);
+    let mistake = Diagnostic::new(span, format!("there is no variable, parameter or input `{name}`"));
+    let candidates = names.clone().chain(FUNCTION_NAMES).chain(UNIT_NAMES);
+    match nearest(name, candidates) {
+        Some(near) => mistake.help(format!("did you mean `{near}`?")),
+        None if scope.names.is_empty() => mistake.help("this spec declares no names"),
+        None => mistake.help(format!("declared names: {}", names.collect::<Vec<_>>().join(", "))),
+    }
+}

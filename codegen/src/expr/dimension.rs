@@ -1,0 +1,106 @@
+//! Physical dimensions: what may be added to what.
+
+use std::fmt;
+
+/// A physical dimension as exponents of length, mass, time and temperature. Angles are pure numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Dimension {
+    /// Twice the exponents, so that square roots stay exact.
+    halves: [i8; 4],
+}
+
+impl Dimension {
+    /// A pure number, an angle or a slope.
+    pub const NONE: Self = Self { halves: [0; 4] };
+    /// A length.
+    pub const LENGTH: Self = Self { halves: [2, 0, 0, 0] };
+    /// A mass.
+    pub const MASS: Self = Self { halves: [0, 2, 0, 0] };
+    /// A time.
+    pub const TIME: Self = Self { halves: [0, 0, 2, 0] };
+    /// A temperature difference.
+    pub const TEMPERATURE: Self = Self { halves: [0, 0, 0, 2] };
+    /// A force.
+    pub const FORCE: Self = Self { halves: [2, 2, -4, 0] };
+    /// A pressure.
+    pub const PRESSURE: Self = Self { halves: [-2, 2, -4, 0] };
+
+    /// Whether a bare number that is a whole entry of this dimension says what it means.
+    ///
+    /// Lengths are in the spec's unit and angles in rad; for a force, say, the coherent unit is nobody's guess.
+    pub(crate) fn takes_bare(self, number: f64) -> bool {
+        number == 0.0 || self == Self::NONE || self == Self::LENGTH
+    }
+
+    /// The dimension of a product; none if an exponent is absurd.
+    pub fn times(self, other: Self) -> Option<Self> {
+        self.combine(other, i8::checked_add)
+    }
+
+    /// The dimension of a quotient; none if an exponent is absurd.
+    pub fn over(self, other: Self) -> Option<Self> {
+        self.combine(other, i8::checked_sub)
+    }
+
+    /// The dimension of a power; none if it has no whole or half exponents.
+    pub fn power(self, exponent: f64) -> Option<Self> {
+        let mut halves = [0; 4];
+        for (power, half) in halves.iter_mut().zip(self.halves) {
+            let exact = f64::from(half) * exponent;
+            if exact.fract() != 0.0 || exact.abs() > 100.0 {
+                return None;
+            }
+            *power = exact as i8;
+        }
+        Some(Self { halves })
+    }
+
+    /// The exponent of length.
+    pub fn length_exponent(self) -> i32 {
+        i32::from(self.halves[0]) / 2
+    }
+
+    /// The coherent unit in a system whose length unit is `length`: empty for a pure number.
+    pub fn unit(self, length: &str) -> String {
+        let names = [length, "kg", "s", "K"];
+        let power = |halves: i8, name: &str| match halves {
+            2 => name.to_owned(),
+            whole if whole % 2 == 0 => format!("{name}^{}", whole / 2),
+            half => format!("{name}^({half}/2)"),
+        };
+        let part = |sign: i8| -> Vec<String> {
+            let exponents = self.halves.iter().zip(names);
+            exponents.filter(|(h, _)| **h * sign > 0).map(|(h, name)| power(h * sign, name)).collect()
+        };
+        match (part(1).join("*"), part(-1)) {
+            (above, below) if below.is_empty() => above,
+            (above, below) if above.is_empty() => format!("1/{}", below.join("/")),
+            (above, below) => format!("{above}/{}", below.join("/")),
+        }
+    }
+
+    fn combine(self, other: Self, with: fn(i8, i8) -> Option<i8>) -> Option<Self> {
+        let mut halves = [0; 4];
+        for (i, half) in halves.iter_mut().enumerate() {
+            *half = with(self.halves[i], other.halves[i]).filter(|h| h.abs() <= 100)?;
+        }
+        Some(Self { halves })
+    }
+}
+
+/// Names the dimension in words: `a length`, `a pure number`, `mm^2/s`.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = match *self {
+            Self::NONE => "a pure number",
+            Self::LENGTH => "a length",
+            Self::MASS => "a mass",
+            Self::TIME => "a time",
+            Self::TEMPERATURE => "a temperature",
+            Self::FORCE => "a force",
+            Self::PRESSURE => "a pressure",
+            other => return write!(f, "a quantity in {}", other.unit("m")),
+        };
+        f.write_str(name)
+    }
+}

@@ -1,0 +1,26 @@
+//! Expressions: text to checked terms. Every mistake has its place; every term its dimension.
+//!
+//! `+ - * / ^`, functions, `pi`, numbers with an optional unit, names. [`tokens`] cuts the text, [`parse`]
+//! finds its structure, [`build`] checks names and dimensions and folds constants as the terms are made.
+
+mod build;
+mod dimension;
+mod expression;
+mod function;
+mod parse;
+mod scope;
+mod tokens;
+mod transform;
+mod unit;
+
+pub use dimension::Dimension;
+pub use expression::{Binary, Expression, Kind, Term};
+pub use function::Function;
+pub use scope::{Allowed, Entry, Name, Scope, Symbol};
+pub use transform::{Elementary, Motion};
+pub use unit::{LengthUnit, UNIT_NAMES, Unit};
+
+pub(crate) use function::FUNCTION_NAMES;
+pub(crate) use parse::parse_expression;
+pub(crate) use tokens::Place;
+pub(crate) use transform::parse_transform;

@@ -1,0 +1,302 @@
+//! The grammar of expressions, by recursive descent of bounded depth.
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = signed { ("*" | "/") signed }
+//! signed  = ("+" | "-") signed | power
+//! power   = atom [ "^" signed ]
+//! atom    = number [unit] | name | "pi" | function "(" sum { "," sum } ")" | "(" sum ")"
+//! unit    = [factor] { ("*" | "/") factor }      factor = unit-name ["^" ["-"] digits] | "(" unit ")"
+//! ```
+
+use super::build::Builder;
+use super::function::FUNCTION_NAMES;
+use super::tokens::{Token, tokens};
+use super::{Binary, Entry, Expression, Function, Place, Scope, Unit};
+use crate::diagnostic::{Diagnostic, Span};
+
+/// How deep parentheses, functions, signs and powers may nest.
+const DEPTH: usize = 100;
+
+/// Parses and checks a text that is a whole entry. Mistakes go to `found`; any mistake gives none.
+pub(crate) fn parse_expression(
+    text: &str,
+    place: &Place,
+    scope: &Scope,
+    entry: Entry<'_>,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Expression> {
+    let before = found.len();
+    let expression = Parser::new(text, place, scope, found).and_then(|mut parser| {
+        let expression = parser.entry(entry)?;
+        parser.expect_end()?;
+        Ok(expression)
+    });
+    match expression {
+        Ok(expression) => (found.len() == before).then_some(expression),
+        Err(diagnostic) => {
+            found.push(diagnostic);
+            None
+        }
+    }
+}
+
+/// A place in the tokens of a text, and the terms of the expression being read.
+pub(crate) struct Parser<'p> {
+    tokens: Vec<(Token<'p>, Span)>,
+    at: usize,
+    depth: usize,
+    place: &'p Place,
+    builder: Builder<'p>,
+}
+
+type Parsed<T> = Result<T, Diagnostic>;
+
+impl<'p> Parser<'p> {
+    pub(crate) fn new(
+        text: &'p str,
+        place: &'p Place,
+        scope: &'p Scope,
+        found: &'p mut Vec<Diagnostic>,
+    ) -> Parsed<Self> {
+        let tokens = tokens(text, place)?;
+        Ok(Self { tokens, at: 0, depth: 0, place, builder: Builder::new(scope, found) })
+    }
+
+    /// A sum that is a whole entry; the parser can then read another.
+    pub(crate) fn entry(&mut self, entry: Entry<'_>) -> Parsed<Expression> {
+        self.builder.begin(entry.names);
+        let whole = self.sum()?;
+        Ok(self.builder.finish(whole, entry))
+    }
+
+    pub(crate) fn peek(&self) -> Token<'p> {
+        self.tokens[self.at].0
+    }
+
+    /// The place of the next token in the file.
+    pub(crate) fn here(&self) -> Span {
+        self.place.span(self.tokens[self.at].1.clone())
+    }
+
+    pub(crate) fn advance(&mut self) -> (Token<'p>, Span) {
+        let taken = (self.peek(), self.here());
+        self.at = (self.at + 1).min(self.tokens.len() - 1);
+        taken
+    }
+
+    pub(crate) fn accept(&mut self, sign: char) -> bool {
+        let found = self.peek() == Token::Sign(sign);
+        if found {
+            self.advance();
+        }
+        found
+    }
+
+    pub(crate) fn expect(&mut self, sign: char) -> Parsed<Span> {
+        let here = self.here();
+        if self.accept(sign) { Ok(here) } else { Err(self.unexpected(&format!("`{sign}`"))) }
+    }
+
+    fn expect_end(&mut self) -> Parsed<()> {
+        match self.peek() {
+            Token::End => Ok(()),
+            Token::Word(name) if Unit::named(name).is_some() => {
+                Err(Diagnostic::new(self.here(), format!("the unit `{name}` must follow a number"))
+                    .help("units convert numbers only; a name or a product has its unit already"))
+            }
+            _ => Err(self.unexpected("an operator or the end")),
+        }
+    }
+
+    pub(crate) fn unexpected(&self, expected: &str) -> Diagnostic {
+        let found = match self.peek() {
+            Token::End => "the end of the expression".to_owned(),
+            Token::Number(_) => "a number".to_owned(),
+            Token::Word(word) => format!("`{word}`"),
+            Token::Sign(sign) => format!("`{sign}`"),
+        };
+        Diagnostic::new(self.here(), format!("expected {expected}, found {found}"))
+            .label(format!("expected {expected}"))
+    }
+
+    /// Runs one level of nesting deeper.
+    fn nested<T>(&mut self, inner: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
+        if self.depth == DEPTH {
+            return Err(Diagnostic::new(self.here(), "this expression nests too deeply")
+                .label(format!("more than {DEPTH} levels"))
+                .help("name parts of it as frames or sources of their own"));
+        }
+        self.depth += 1;
+        let result = inner(self);
+        self.depth -= 1;
+        result
+    }
+
+    fn sum(&mut self) -> Parsed<usize> {
+        let mut left = self.product()?;
+        loop {
+            let operator = match self.peek() {
+                Token::Sign('+') => Binary::Add,
+                Token::Sign('-') => Binary::Sub,
+                _ => return Ok(left),
+            };
+            self.advance();
+            let right = self.product()?;
+            left = self.builder.binary(operator, left, right);
+        }
+    }
+
+    fn product(&mut self) -> Parsed<usize> {
+        let mut left = self.signed()?;
+        loop {
+            let operator = match self.peek() {
+                Token::Sign('*') => Binary::Mul,
+                Token::Sign('/') => Binary::Div,
+                _ => return Ok(left),
+            };
+            self.advance();
+            let right = self.signed()?;
+            left = self.builder.binary(operator, left, right);
+        }
+    }
+
+    fn signed(&mut self) -> Parsed<usize> {
+        let start = self.here();
+        if self.accept('-') {
+            let operand = self.nested(Self::signed)?;
+            Ok(self.builder.neg(operand, &start))
+        } else if self.accept('+') {
+            self.nested(Self::signed)
+        } else {
+            self.power()
+        }
+    }
+
+    fn power(&mut self) -> Parsed<usize> {
+        let base = self.atom()?;
+        if self.accept('^') {
+            let exponent = self.nested(Self::signed)?;
+            return Ok(self.builder.binary(Binary::Pow, base, exponent));
+        }
+        Ok(base)
+    }
+
+    fn atom(&mut self) -> Parsed<usize> {
+        match self.peek() {
+            Token::Number(value) => {
+                let (_, mut span) = self.advance();
+                let unit = self.unit(&mut span)?;
+                Ok(self.builder.number(value, unit, span))
+            }
+            Token::Word(word) => {
+                let (_, span) = self.advance();
+                if self.peek() == Token::Sign('(') {
+                    self.call(word, span)
+                } else {
+                    self.builder.name(word, span)
+                }
+            }
+            Token::Sign('(') => {
+                self.advance();
+                let inner = self.nested(Self::sum)?;
+                self.expect(')')?;
+                Ok(inner)
+            }
+            _ => Err(self.unexpected("a number, a name or `(`")),
+        }
+    }
+
+    fn call(&mut self, word: &str, start: Span) -> Parsed<usize> {
+        if word != "atan2" && Function::named(word).is_none() {
+            return Err(Diagnostic::new(start, format!("there is no function `{word}`"))
+                .help(crate::diagnostic::suggestion(word, &FUNCTION_NAMES, "functions")));
+        }
+        self.expect('(')?;
+        let first = self.nested(Self::sum)?;
+        let second = if word == "atan2" {
+            self.expect(',')?;
+            Some(self.nested(Self::sum)?)
+        } else {
+            None
+        };
+        let end = self.expect(')')?;
+        let span = start.start..end.end;
+        Ok(match (Function::named(word), second) {
+            (Some(function), _) => self.builder.call(function, first, span),
+            (None, second) => self.builder.atan2(first, second.unwrap_or(first), span),
+        })
+    }
+
+    /// The unit that follows a number, if one does; `span` grows over it.
+    fn unit(&mut self, span: &mut Span) -> Parsed<Option<Unit>> {
+        let starts =
+            self.unit_factor_ahead(0) || (self.peek() == Token::Sign('/') && self.unit_factor_ahead(1));
+        if !starts {
+            return Ok(None);
+        }
+        let unit = self.nested(Self::unit_product)?;
+        let last = self.tokens[self.at - 1].1.clone();
+        span.end = self.place.span(last).end;
+        Ok(Some(unit))
+    }
+
+    /// Whether a unit name, possibly in parentheses, stands `ahead` tokens from here.
+    fn unit_factor_ahead(&self, ahead: usize) -> bool {
+        let mut tokens = self.tokens[self.at..].iter().skip(ahead).map(|token| token.0);
+        let first = tokens.find(|token| *token != Token::Sign('(') || ahead == 0);
+        matches!(first, Some(Token::Word(name)) if Unit::named(name).is_some())
+    }
+
+    fn unit_product(&mut self) -> Parsed<Unit> {
+        let mut unit = Unit::NONE;
+        if self.peek() != Token::Sign('/') {
+            unit = self.unit_factor(unit, 1)?;
+        }
+        while self.unit_factor_ahead(1) {
+            let power = match self.peek() {
+                Token::Sign('*') => 1,
+                Token::Sign('/') => -1,
+                _ => break,
+            };
+            self.advance();
+            unit = self.unit_factor(unit, power)?;
+        }
+        Ok(unit)
+    }
+
+    /// Multiplies `unit` by the next factor, to the `sign`.
+    fn unit_factor(&mut self, unit: Unit, sign: i32) -> Parsed<Unit> {
+        let start = self.here();
+        let factor = if self.accept('(') {
+            let inner = self.nested(Self::unit_product)?;
+            self.expect(')')?;
+            inner
+        } else {
+            match self.advance() {
+                (Token::Word(name), _) if Unit::named(name).is_some() => {
+                    Unit::named(name).unwrap_or(Unit::NONE)
+                }
+                (_, span) => return Err(Diagnostic::new(span, "expected a unit").help(unit_help())),
+            }
+        };
+        let power = if self.accept('^') { self.unit_power()? } else { 1 };
+        unit.times(factor, sign * power)
+            .ok_or_else(|| Diagnostic::new(start, "this power of a unit is absurd"))
+    }
+
+    fn unit_power(&mut self) -> Parsed<i32> {
+        let negative = self.accept('-');
+        match self.advance() {
+            (Token::Number(power), _) if power.fract() == 0.0 && power.abs() <= 12.0 => {
+                Ok(if negative { -(power as i32) } else { power as i32 })
+            }
+            (_, span) => Err(Diagnostic::new(span, "the power of a unit must be a small whole number")
+                .help("write `mm^2` or `s^-1`; for a power of a whole quantity use parentheses: `(2 mm)^x`")),
+        }
+    }
+}
+
+fn unit_help() -> String {
+    format!("units: {}", super::UNIT_NAMES.join(" "))
+}

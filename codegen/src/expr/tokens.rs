@@ -1,0 +1,101 @@
+//! Cuts the text of an expression into tokens.
+
+use crate::diagnostic::{Diagnostic, Span};
+
+/// Where a text stands in its file.
+#[derive(Clone, Debug)]
+pub(crate) enum Place {
+    /// Byte for byte from this offset on.
+    Exact(usize),
+    /// Somewhere within this span: the text has escapes.
+    Within(Span),
+}
+
+impl Place {
+    /// The span in the file of a range of the text.
+    pub(crate) fn span(&self, range: Span) -> Span {
+        match self {
+            Self::Exact(start) => start + range.start..start + range.end,
+            Self::Within(span) => span.clone(),
+        }
+    }
+}
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Token<'t> {
+    Number(f64),
+    Word(&'t str),
+    Sign(char),
+    End,
+}
+
+/// The tokens of a text with their places in it, the last being [`Token::End`].
+pub(crate) fn tokens<'t>(text: &'t str, place: &Place) -> Result<Vec<(Token<'t>, Span)>, Diagnostic> {
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    while let Some(character) = text[at..].chars().next() {
+        let length = match character {
+            c if c.is_whitespace() => {
+                at += c.len_utf8();
+                continue;
+            }
+            '0'..='9' | '.' => number_length(&text[at..]),
+            c if c.is_alphabetic() || c == '_' => {
+                text[at..].find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len() - at)
+            }
+            c => c.len_utf8(),
+        };
+        let range = at..at + length;
+        let piece = &text[range.clone()];
+        let token = match character {
+            '0'..='9' | '.' => Token::Number(number(piece, || place.span(range.clone()))?),
+            c if c.is_alphabetic() || c == '_' => Token::Word(piece),
+            '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => Token::Sign(character),
+            other => {
+                let help = match other {
+                    '−' | '–' => "write minus as `-`",
+                    '·' | '×' => "write a product as `*`",
+                    '°' => "write degrees as `deg`",
+                    '²' | '³' => "write a power as `^2`",
+                    '=' => "an entry is an expression, not an equation",
+                    _ => "an expression has names, numbers, + - * / ^ , and parentheses",
+                };
+                let message = format!("`{}` has no place in an expression", other.escape_debug());
+                return Err(Diagnostic::new(place.span(range), message).help(help));
+            }
+        };
+        tokens.push((token, range.clone()));
+        at = range.end;
+    }
+    tokens.push((Token::End, text.len()..text.len()));
+    Ok(tokens)
+}
+
+/// The length of the number at the beginning of `text`: digits, a point, an exponent.
+fn number_length(text: &str) -> usize {
+    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let mut end = digits(0);
+    if text[end..].starts_with('.') {
+        end += 1;
+        end += digits(end);
+    }
+    if text[end..].starts_with(['e', 'E']) {
+        let sign = usize::from(text[end + 1..].starts_with(['+', '-']));
+        let exponent = digits(end + 1 + sign);
+        if exponent > 0 {
+            end += 1 + sign + exponent;
+        }
+    }
+    end
+}
+
+fn number(text: &str, span: impl Fn() -> Span) -> Result<f64, Diagnostic> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(Diagnostic::new(span(), format!("`{text}` is too large for a number"))
+            .help("the largest number is about 1.8e308")),
+        Err(_) => Err(Diagnostic::new(span(), format!("`{text}` is not a number"))
+            .help("write a number as `12`, `0.5` or `2.354e13`")),
+    }
+}

@@ -1,0 +1,78 @@
+//! Products of elementary motions: `Tx(d1) Ry(q4) Tz(300 mm)`.
+
+use super::parse::Parser;
+use super::scope::Allowed;
+use super::tokens::Token;
+use super::{Dimension, Entry, Expression, Place, Scope};
+use crate::diagnostic::{Diagnostic, suggestion};
+
+/// What an elementary motion does along or about its axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Moves along it.
+    Translation,
+    /// Turns about it.
+    Rotation,
+}
+
+/// One factor of a transform.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elementary {
+    /// Translation or rotation.
+    pub motion: Motion,
+    /// 0 = x, 1 = y, 2 = z.
+    pub axis: usize,
+    /// How far, in the spec's length unit or rad.
+    pub amount: Expression,
+}
+
+const NAMES: [&str; 6] = ["Tx", "Ty", "Tz", "Rx", "Ry", "Rz"];
+
+/// Parses and checks a product of elementary motions. Mistakes go to `found`; any mistake gives none.
+pub(crate) fn parse_transform(
+    text: &str,
+    place: &Place,
+    scope: &Scope,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Vec<Elementary>> {
+    let before = found.len();
+    let factors = Parser::new(text, place, scope, found).and_then(|mut parser| {
+        let mut factors = Vec::new();
+        while parser.peek() != Token::End {
+            factors.push(factor(&mut parser)?);
+            parser.accept('*');
+        }
+        Ok(factors)
+    });
+    match factors {
+        Ok(factors) => (found.len() == before).then_some(factors),
+        Err(diagnostic) => {
+            found.push(diagnostic);
+            None
+        }
+    }
+}
+
+fn factor(parser: &mut Parser<'_>) -> Result<Elementary, Diagnostic> {
+    let expected = "Tx, Ty, Tz, Rx, Ry or Rz";
+    let Token::Word(name) = parser.peek() else {
+        return Err(parser.unexpected(expected));
+    };
+    let Some(index) = NAMES.iter().position(|known| *known == name) else {
+        return Err(Diagnostic::new(parser.here(), format!("there is no motion `{name}`"))
+            .label(format!("expected {expected}"))
+            .help(suggestion(name, &NAMES, "motions")));
+    };
+    parser.advance();
+    let axis = index % 3;
+    let (motion, dimension, verb) = if index < 3 {
+        (Motion::Translation, Dimension::LENGTH, "translation along")
+    } else {
+        (Motion::Rotation, Dimension::NONE, "rotation about")
+    };
+    let what = format!("the {verb} {}", ["x", "y", "z"][axis]);
+    parser.expect('(')?;
+    let amount = parser.entry(Entry { dimension: Some(dimension), what: &what, names: Allowed::Geometry })?;
+    parser.expect(')')?;
+    Ok(Elementary { motion, axis, amount })
+}

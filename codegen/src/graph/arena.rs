@@ -1,0 +1,144 @@
+//! The arena of nodes.
+
+use indexmap::{IndexMap, IndexSet};
+
+use crate::expr::{Function, Symbol};
+
+/// A handle to a node of a [`Graph`]. Operands have smaller handles than the node that uses them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Node(pub(super) u32);
+
+impl Node {
+    /// Its place in the graph, from 0.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a node does. Numbers are held as bits, so that equal ones are one node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// A number.
+    Constant(u64),
+    /// A variable, parameter, input or generalized error.
+    Symbol(Symbol),
+    /// A change of sign.
+    Neg(Node),
+    /// A sum.
+    Add(Node, Node),
+    /// A difference.
+    Sub(Node, Node),
+    /// A product.
+    Mul(Node, Node),
+    /// A quotient.
+    Div(Node, Node),
+    /// A power whose exponent is a constant that is no whole number.
+    Pow(Node, Node),
+    /// The angle of the point (second, first).
+    Atan2(Node, Node),
+    /// A function of one operand.
+    Call(Function, Node),
+}
+
+impl Op {
+    /// The operands, none, one or two.
+    pub fn operands(self) -> impl Iterator<Item = Node> + Clone {
+        let (first, second) = match self {
+            Self::Constant(_) | Self::Symbol(_) => (None, None),
+            Self::Neg(a) | Self::Call(_, a) => (Some(a), None),
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Pow(a, b)
+            | Self::Atan2(a, b) => (Some(a), Some(b)),
+        };
+        first.into_iter().chain(second)
+    }
+}
+
+/// An arena of nodes in which equal operations on equal operands are one node.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    ops: IndexSet<Op>,
+    names: IndexMap<Node, String>,
+}
+
+impl Graph {
+    /// An empty graph.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// What a node does.
+    pub fn op(&self, node: Node) -> Op {
+        self.ops[node.index()]
+    }
+
+    /// How many nodes there are.
+    pub fn len(&self) -> usize {
+        self.ops.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.ops.is_empty()
+    }
+
+    /// All operations, each after its operands.
+    pub fn ops(&self) -> impl Iterator<Item = Op> {
+        self.ops.iter().copied()
+    }
+
+    /// The name that generated code should give the node at a place in the graph.
+    pub fn name_at(&self, index: usize) -> Option<&str> {
+        self.names.get(&Node(index as u32)).map(String::as_str)
+    }
+
+    /// Proposes a name for a node; the first proposal stays, and numbers and symbols keep their own.
+    pub fn propose(&mut self, node: Node, name: impl FnOnce() -> String) {
+        if !matches!(self.op(node), Op::Constant(_) | Op::Symbol(_)) {
+            self.names.entry(node).or_insert_with(name);
+        }
+    }
+
+    /// The value of a constant node.
+    pub fn value(&self, node: Node) -> Option<f64> {
+        match self.op(node) {
+            Op::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// The node of an operation as it is, without simplification.
+    pub(super) fn intern(&mut self, op: Op) -> Node {
+        Node(u32::try_from(self.ops.insert_full(op).0).expect("a graph holds fewer than 2³² nodes"))
+    }
+
+    /// The node of an operation if there is one already.
+    pub(crate) fn find(&self, op: Op) -> Option<Node> {
+        self.ops.get_index_of(&op).map(|index| Node(index as u32))
+    }
+
+    /// For every node up to `last`, whether it depends on one of the symbols that `chosen` picks.
+    pub fn depends(&self, last: Node, chosen: impl Fn(Symbol) -> bool) -> Vec<bool> {
+        let mut depends: Vec<bool> = Vec::with_capacity(last.index() + 1);
+        for op in self.ops.iter().take(last.index() + 1) {
+            depends.push(match *op {
+                Op::Symbol(symbol) => chosen(symbol),
+                op => op.operands().any(|operand| depends[operand.index()]),
+            });
+        }
+        depends
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_operation_is_small() {
+        assert_eq!(size_of::<Op>(), 16);
+    }
+}

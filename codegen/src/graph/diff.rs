@@ -1,0 +1,138 @@
+//! The derivative of a node by a symbol, by forward accumulation.
+
+use super::{Graph, Node, Op};
+use crate::expr::{Function, Symbol};
+
+impl Graph {
+    /// `∂f/∂x`.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # let mut g = Graph::new();
+    /// let x = g.symbol(Symbol::Variable(0));
+    /// let sine = g.sin(x);
+    /// assert_eq!(g.diff(sine, Symbol::Variable(0)), g.cos(x));
+    /// ```
+    pub fn diff(&mut self, f: Node, x: Symbol) -> Node {
+        self.diff_all(&[f], x)[0]
+    }
+
+    /// The derivatives of several nodes by one symbol, in one pass over the graph.
+    pub fn diff_all(&mut self, nodes: &[Node], x: Symbol) -> Vec<Node> {
+        let Some(last) = nodes.iter().copied().max() else {
+            return Vec::new();
+        };
+        let zero = self.zero();
+        let needed = self.reached_from(nodes, last);
+        let depends = self.depends(last, |symbol| symbol == x);
+        let mut derivatives = vec![zero; last.index() + 1];
+        for index in 0..=last.index() {
+            if depends[index] && needed[index] {
+                let node = Node(index as u32);
+                derivatives[index] = self.derivative(node, |operand| derivatives[operand.index()]);
+            }
+        }
+        nodes.iter().map(|node| derivatives[node.index()]).collect()
+    }
+
+    fn reached_from(&self, nodes: &[Node], last: Node) -> Vec<bool> {
+        let mut reached = vec![false; last.index() + 1];
+        for node in nodes {
+            reached[node.index()] = true;
+        }
+        for index in (0..=last.index()).rev() {
+            if reached[index] {
+                for operand in self.op(Node(index as u32)).operands() {
+                    reached[operand.index()] = true;
+                }
+            }
+        }
+        reached
+    }
+
+    /// The derivative of one node, given those of its operands.
+    fn derivative(&mut self, node: Node, of: impl Fn(Node) -> Node) -> Node {
+        match self.op(node) {
+            Op::Constant(_) => self.zero(),
+            // Only nodes that depend on x come here, so a symbol is x itself.
+            Op::Symbol(_) => self.constant(1.0),
+            // (-a)' = -a'
+            Op::Neg(a) => self.neg(of(a)),
+            // (a ± b)' = a' ± b'
+            Op::Add(a, b) => self.add(of(a), of(b)),
+            Op::Sub(a, b) => self.sub(of(a), of(b)),
+            // (ab)' = a'b + ab'
+            Op::Mul(a, b) => {
+                let (left, right) = (self.mul(of(a), b), self.mul(a, of(b)));
+                self.add(left, right)
+            }
+            // (a/b)' = (a' - (a/b) b') / b
+            Op::Div(a, b) => {
+                let part = self.mul(node, of(b));
+                let above = self.sub(of(a), part);
+                self.div(above, b)
+            }
+            // (aⁿ)' = n aⁿ⁻¹ a'; exponents are constants
+            Op::Pow(a, n) => {
+                let exponent = self.value(n).unwrap_or(f64::NAN);
+                let lower = self.power(a, exponent - 1.0);
+                let slope = self.mul(n, lower);
+                self.mul(slope, of(a))
+            }
+            // atan2(y, x)' = (x y' - y x') / (x² + y²)
+            Op::Atan2(y, x) => {
+                let (first, second) = (self.mul(x, of(y)), self.mul(y, of(x)));
+                let (xx, yy) = (self.mul(x, x), self.mul(y, y));
+                let (above, below) = (self.sub(first, second), self.add(xx, yy));
+                self.div(above, below)
+            }
+            Op::Call(function, a) => {
+                let slope = self.slope(function, a, node);
+                self.mul(slope, of(a))
+            }
+        }
+    }
+
+    /// `f'(a)`, where `value` is `f(a)`.
+    fn slope(&mut self, function: Function, a: Node, value: Node) -> Node {
+        let one = self.constant(1.0);
+        match function {
+            // sin' = cos
+            Function::Sin => self.cos(a),
+            // cos' = -sin
+            Function::Cos => {
+                let sine = self.sin(a);
+                self.neg(sine)
+            }
+            // tan' = 1 + tan²
+            Function::Tan => {
+                let square = self.mul(value, value);
+                self.add(one, square)
+            }
+            // asin' = 1/√(1 - a²), acos' = -asin'
+            Function::Asin | Function::Acos => {
+                let square = self.mul(a, a);
+                let difference = self.sub(one, square);
+                let root = self.sqrt(difference);
+                let slope = self.div(one, root);
+                if function == Function::Asin { slope } else { self.neg(slope) }
+            }
+            // atan' = 1/(1 + a²)
+            Function::Atan => {
+                let square = self.mul(a, a);
+                let below = self.add(one, square);
+                self.div(one, below)
+            }
+            // √' = 1/(2√)
+            Function::Sqrt => {
+                let two = self.constant(2.0);
+                let below = self.mul(two, value);
+                self.div(one, below)
+            }
+            // |a|' = sign a
+            Function::Abs => self.call(Function::Sign, a),
+            // sign' = 0 but where it jumps
+            Function::Sign => self.zero(),
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The values of nodes at given values of the symbols: for checks, not for speed.
+
+use super::{Graph, Node, Op};
+use crate::expr::Symbol;
+
+impl Graph {
+    /// The values of some nodes.
+    pub fn evaluate(&self, nodes: &[Node], symbol: impl Fn(Symbol) -> f64) -> Vec<f64> {
+        let count = nodes.iter().map(|node| node.index() + 1).max().unwrap_or(0);
+        let mut values: Vec<f64> = Vec::with_capacity(count);
+        for op in self.ops().take(count) {
+            let of = |node: Node| values[node.index()];
+            values.push(match op {
+                Op::Constant(bits) => f64::from_bits(bits),
+                Op::Symbol(s) => symbol(s),
+                Op::Neg(a) => -of(a),
+                Op::Add(a, b) => of(a) + of(b),
+                Op::Sub(a, b) => of(a) - of(b),
+                Op::Mul(a, b) => of(a) * of(b),
+                Op::Div(a, b) => of(a) / of(b),
+                Op::Pow(a, b) => of(a).powf(of(b)),
+                Op::Atan2(a, b) => of(a).atan2(of(b)),
+                Op::Call(function, a) => function.of(of(a)),
+            });
+        }
+        nodes.iter().map(|node| values[node.index()]).collect()
+    }
+}

@@ -1,0 +1,33 @@
+//! Brings a checked expression into the graph.
+
+use super::{Graph, Node};
+use crate::expr::{Binary, Expression, Kind};
+
+impl Graph {
+    /// The node of an expression.
+    pub fn lower(&mut self, expression: &Expression) -> Node {
+        let mut nodes: Vec<Node> = Vec::with_capacity(expression.terms().len());
+        for term in expression.terms() {
+            let node = match term.kind {
+                Kind::Number(value) => self.constant(value),
+                Kind::Symbol(symbol) => self.symbol(symbol),
+                Kind::Neg(a) => self.neg(nodes[a]),
+                Kind::Call(function, a) => self.call(function, nodes[a]),
+                Kind::Binary(operator, a, b) => {
+                    let (a, b, exponent) = (nodes[a], nodes[b], expression.terms()[b].value);
+                    match (operator, exponent) {
+                        (Binary::Add, _) => self.add(a, b),
+                        (Binary::Sub, _) => self.sub(a, b),
+                        (Binary::Mul, _) => self.mul(a, b),
+                        (Binary::Div, _) => self.div(a, b),
+                        (Binary::Atan2, _) => self.atan2(a, b),
+                        // Checked: every exponent has a value.
+                        (Binary::Pow, exponent) => self.power(a, exponent.unwrap_or(1.0)),
+                    }
+                }
+            };
+            nodes.push(node);
+        }
+        nodes[nodes.len() - 1]
+    }
+}

@@ -1,0 +1,94 @@
+//! Three-dimensional arithmetic on nodes.
+
+use super::{Graph, Node};
+
+/// Three nodes: x, y, z.
+pub type Vector = [Node; 3];
+
+/// A rigid motion as nodes: its axes as columns, and its position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// The x, y and z axis.
+    pub axes: [Vector; 3],
+    /// The origin.
+    pub position: Vector,
+}
+
+impl Graph {
+    /// No motion.
+    pub fn identity(&mut self) -> Frame {
+        let (zero, one) = (self.zero(), self.constant(1.0));
+        Frame { axes: [[one, zero, zero], [zero, one, zero], [zero, zero, one]], position: [zero; 3] }
+    }
+
+    /// `a + b`.
+    pub fn add_vectors(&mut self, a: Vector, b: Vector) -> Vector {
+        std::array::from_fn(|i| self.add(a[i], b[i]))
+    }
+
+    /// `a - b`.
+    pub fn sub_vectors(&mut self, a: Vector, b: Vector) -> Vector {
+        std::array::from_fn(|i| self.sub(a[i], b[i]))
+    }
+
+    /// `k a`.
+    pub fn scale(&mut self, k: Node, a: Vector) -> Vector {
+        a.map(|component| self.mul(k, component))
+    }
+
+    /// `-a`.
+    pub fn neg_vector(&mut self, a: Vector) -> Vector {
+        a.map(|component| self.neg(component))
+    }
+
+    /// `a · b`.
+    pub fn dot(&mut self, a: Vector, b: Vector) -> Node {
+        let products: [Node; 3] = std::array::from_fn(|i| self.mul(a[i], b[i]));
+        let sum = self.add(products[0], products[1]);
+        self.add(sum, products[2])
+    }
+
+    /// `a × b`.
+    pub fn cross(&mut self, a: Vector, b: Vector) -> Vector {
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let (left, right) = (self.mul(a[j], b[k]), self.mul(a[k], b[j]));
+            self.sub(left, right)
+        })
+    }
+
+    /// `R v`, where the columns of `R` are `axes`.
+    pub fn turn(&mut self, axes: &[Vector; 3], v: Vector) -> Vector {
+        let [x, y, z] = [0, 1, 2].map(|i| self.scale(v[i], axes[i]));
+        let sum = self.add_vectors(x, y);
+        self.add_vectors(sum, z)
+    }
+
+    /// The product of two motions.
+    pub fn then(&mut self, a: &Frame, b: &Frame) -> Frame {
+        let offset = self.turn(&a.axes, b.position);
+        Frame {
+            axes: b.axes.map(|axis| self.turn(&a.axes, axis)),
+            position: self.add_vectors(a.position, offset),
+        }
+    }
+
+    /// A motion turned about its own axis 0, 1 or 2: two columns change.
+    pub fn turned(&mut self, frame: &Frame, axis: usize, angle: Node) -> Frame {
+        let (sine, cosine) = (self.sin(angle), self.cos(angle));
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        let (u, v) = (frame.axes[j], frame.axes[k]);
+        let [uc, us, vc, vs] = [(cosine, u), (sine, u), (cosine, v), (sine, v)]
+            .map(|(factor, vector)| self.scale(factor, vector));
+        let mut turned = *frame;
+        turned.axes[j] = self.add_vectors(uc, vs);
+        turned.axes[k] = self.sub_vectors(vc, us);
+        turned
+    }
+
+    /// A motion moved along its own axis 0, 1 or 2.
+    pub fn moved(&mut self, frame: &Frame, axis: usize, distance: Node) -> Frame {
+        let offset = self.scale(distance, frame.axes[axis]);
+        Frame { axes: frame.axes, position: self.add_vectors(frame.position, offset) }
+    }
+}

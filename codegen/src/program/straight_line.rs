@@ -1,0 +1,168 @@
+//! From the nodes of a result to the steps that compute it.
+
+use crate::expr::{Function, Symbol};
+use crate::graph::{Graph, Node, Op};
+
+/// Where a value comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operand {
+    /// A number.
+    Constant(f64),
+    /// A variable, parameter or input.
+    Symbol(Symbol),
+    /// The result of the step that defines this register.
+    Register(usize),
+}
+
+/// What a step does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// `-a`.
+    Neg(Operand),
+    /// `a + b`.
+    Add(Operand, Operand),
+    /// `a - b`.
+    Sub(Operand, Operand),
+    /// `a · b`.
+    Mul(Operand, Operand),
+    /// `a / b`.
+    Div(Operand, Operand),
+    /// `a ^ b`.
+    Pow(Operand, Operand),
+    /// The angle of the point (second, first).
+    Atan2(Operand, Operand),
+    /// A function.
+    Call(Function, Operand),
+    /// Sine, and in the next register cosine.
+    SinCos(Operand),
+}
+
+impl Action {
+    /// The operands, one or two.
+    pub fn operands(self) -> impl Iterator<Item = Operand> {
+        let (first, second) = match self {
+            Self::Neg(a) | Self::Call(_, a) | Self::SinCos(a) => (a, None),
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Pow(a, b)
+            | Self::Atan2(a, b) => (a, Some(b)),
+        };
+        [Some(first), second].into_iter().flatten()
+    }
+}
+
+/// One operation of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// The register it defines; [`Action::SinCos`] defines the next one too.
+    pub register: usize,
+    /// What it does.
+    pub action: Action,
+    /// What generated code should call the result.
+    pub name: Option<String>,
+}
+
+/// A straight-line program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// Each after the steps it uses; every one is needed.
+    pub steps: Vec<Step>,
+    /// The values it returns.
+    pub outputs: Vec<Operand>,
+    /// How many registers the steps define.
+    pub registers: usize,
+    /// How often each register is used, as an operand or output.
+    pub uses: Vec<usize>,
+}
+
+impl Program {
+    /// The steps that compute some nodes, and nothing else, in the order in which the nodes were made.
+    pub fn new(graph: &Graph, outputs: &[Node]) -> Self {
+        let count = outputs.iter().map(|node| node.index() + 1).max().unwrap_or(0);
+        let ops: Vec<Op> = graph.ops().take(count).collect();
+        let mut needed = vec![false; count];
+        outputs.iter().for_each(|node| needed[node.index()] = true);
+        for (index, op) in ops.iter().enumerate().rev() {
+            if needed[index] {
+                op.operands().for_each(|operand| needed[operand.index()] = true);
+            }
+        }
+        let mut program = Self { steps: Vec::new(), outputs: Vec::new(), registers: 0, uses: Vec::new() };
+        let mut values: Vec<Option<Operand>> = vec![None; count];
+        for index in 0..count {
+            if needed[index] && values[index].is_none() {
+                let partner = partner(graph, &ops, &needed, index);
+                program.translate(graph, &ops, &mut values, index, partner);
+            }
+        }
+        program.outputs = outputs.iter().filter_map(|node| values[node.index()]).collect();
+        program.count_uses();
+        program
+    }
+
+    fn translate(
+        &mut self,
+        graph: &Graph,
+        ops: &[Op],
+        values: &mut [Option<Operand>],
+        index: usize,
+        partner: Option<usize>,
+    ) {
+        // Operands come before the nodes that use them, so their values are known.
+        let of = |node: Node| values[node.index()].unwrap_or(Operand::Constant(f64::NAN));
+        let action = match ops[index] {
+            Op::Constant(bits) => {
+                values[index] = Some(Operand::Constant(f64::from_bits(bits)));
+                return;
+            }
+            Op::Symbol(symbol) => {
+                values[index] = Some(Operand::Symbol(symbol));
+                return;
+            }
+            Op::Neg(a) => Action::Neg(of(a)),
+            Op::Add(a, b) => Action::Add(of(a), of(b)),
+            Op::Sub(a, b) => Action::Sub(of(a), of(b)),
+            Op::Mul(a, b) => Action::Mul(of(a), of(b)),
+            Op::Div(a, b) => Action::Div(of(a), of(b)),
+            Op::Pow(a, b) => Action::Pow(of(a), of(b)),
+            Op::Atan2(a, b) => Action::Atan2(of(a), of(b)),
+            Op::Call(_, a) if partner.is_some() => Action::SinCos(of(a)),
+            Op::Call(function, a) => Action::Call(function, of(a)),
+        };
+        let register = self.registers;
+        self.registers += 1;
+        values[index] = Some(Operand::Register(register));
+        if let Some(partner) = partner {
+            self.registers += 1;
+            values[partner] = Some(Operand::Register(register + 1));
+            if matches!(ops[index], Op::Call(Function::Cos, _)) {
+                values.swap(index, partner);
+            }
+        }
+        let name = graph.name_at(index).map(str::to_owned);
+        self.steps.push(Step { register, action, name });
+    }
+
+    fn count_uses(&mut self) {
+        let mut uses = vec![0; self.registers];
+        let operands = self.steps.iter().flat_map(|step| step.action.operands());
+        for operand in operands.chain(self.outputs.iter().copied()) {
+            if let Operand::Register(register) = operand {
+                uses[register] += 1;
+            }
+        }
+        self.uses = uses;
+    }
+}
+
+/// The cosine that goes with a sine, or the other way round, if both are needed.
+fn partner(graph: &Graph, ops: &[Op], needed: &[bool], index: usize) -> Option<usize> {
+    let Op::Call(function @ (Function::Sin | Function::Cos), angle) = ops[index] else {
+        return None;
+    };
+    let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
+    let partner = graph.find(Op::Call(other, angle))?.index();
+    (partner < needed.len() && needed[partner]).then_some(partner)
+}

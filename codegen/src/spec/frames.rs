@@ -1,0 +1,248 @@
+//! The ways to write an `A_i`, all of which become a product of [`Factor`]s.
+
+use super::{Factor, Matrix, VariableKind, rigid};
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item, Section};
+use crate::expr::{
+    Allowed, Dimension, Elementary, Entry, Expression, Motion, Scope, Symbol, parse_transform,
+};
+
+/// The keys of which a frame or tool has one; `axis` goes with `origin`.
+pub(super) const FORMS: [&str; 6] = ["transform", "matrix", "dh", "mdh", "origin", "axis"];
+
+/// What a variable brings to an `origin`/`axis` frame.
+pub(super) type OwnVariable = Option<(usize, VariableKind)>;
+
+/// Reads the transform of a frame or tool.
+pub(super) fn read_factors(
+    section: &Section<'_>,
+    own: OwnVariable,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
+    let forms: Vec<Item<'_>> = FORMS[..5].iter().filter_map(|form| section.get(form)).collect();
+    let axis = section.get("axis");
+    if let [first, second, ..] = &forms[..] {
+        let message = format!("{} has both `{}` and `{}`", section.name, first.key, second.key);
+        document.mistake(
+            Diagnostic::new(second.key_span.clone(), message)
+                .label("one too many")
+                .context(first.key_span.clone(), "the first one")
+                .help("keep one of them"),
+        );
+        return None;
+    }
+    if let (Some(axis), Some(form)) = (&axis, forms.first().filter(|form| form.key != "origin")) {
+        let message = format!("`axis` belongs to `origin`, not to `{}`", form.key);
+        document.mistake(Diagnostic::new(axis.key_span.clone(), message).help("leave `axis` out"));
+        return None;
+    }
+    let Some(form) = forms.first() else {
+        if axis.is_some() {
+            return about_axis(axis.as_ref(), section, own, scope, document);
+        }
+        document.mistake(
+            Diagnostic::new(section.span.clone(), format!("{} has no transform", section.name))
+                .label("how does one get here from the frame before?")
+                .help("give one of `transform`, `matrix`, `dh`, `mdh`, `origin`"),
+        );
+        return None;
+    };
+    match form.key.as_str() {
+        "transform" => {
+            let (text, place) = document.text(form)?;
+            let factors = parse_transform(text, &place, scope, &mut document.found)?;
+            if factors.is_empty() {
+                document.mistake(
+                    Diagnostic::new(form.span(), "this transform is empty")
+                        .label("expected a product of Tx, Ty, Tz, Rx, Ry, Rz")
+                        .help("write `Tx(0)` for a frame in the same place"),
+                );
+                return None;
+            }
+            Some(factors.into_iter().map(Factor::Elementary).collect())
+        }
+        "matrix" => read_matrix(form, scope, document).map(|matrix| vec![Factor::Matrix(Box::new(matrix))]),
+        // Rz(theta) Tz(d) Tx(a) Rx(alpha)
+        "dh" => denavit_hartenberg(
+            form,
+            scope,
+            document,
+            [("theta", R, 2), ("d", T, 2), ("a", T, 0), ("alpha", R, 0)],
+        ),
+        // Rx(alpha) Tx(a) Rz(theta) Tz(d)
+        "mdh" => denavit_hartenberg(
+            form,
+            scope,
+            document,
+            [("alpha", R, 0), ("a", T, 0), ("theta", R, 2), ("d", T, 2)],
+        ),
+        _ => {
+            let mut factors = origin(form, scope, document);
+            let motion = about_axis(axis.as_ref(), section, own, scope, document);
+            factors.as_mut()?.extend(motion?);
+            factors
+        }
+    }
+}
+
+const T: Motion = Motion::Translation;
+const R: Motion = Motion::Rotation;
+
+fn dimension_of(motion: Motion) -> Dimension {
+    match motion {
+        Motion::Translation => Dimension::LENGTH,
+        Motion::Rotation => Dimension::NONE,
+    }
+}
+
+fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Matrix> {
+    let rows: [Item<'_>; 4] = document.entries(item, "four rows of four entries")?;
+    let mut read = Vec::new();
+    let mut complete = true;
+    for (i, row) in rows.iter().enumerate() {
+        let Some(entries) = document.entries::<4>(row, "four rows of four entries") else {
+            complete = false;
+            continue;
+        };
+        for (j, entry) in entries.iter().enumerate() {
+            let (dimension, what) = match (i, j) {
+                (3, _) => (Dimension::NONE, "an entry of the last row"),
+                (_, 3) => (Dimension::LENGTH, "an entry of the position column"),
+                _ => (Dimension::NONE, "an entry of the rotation"),
+            };
+            let expected = Entry { dimension: Some(dimension), what, names: Allowed::Geometry };
+            match document.expression(entry, scope, expected) {
+                Some(expression) => read.push(expression),
+                None => complete = false,
+            }
+        }
+    }
+    if !complete {
+        return None;
+    }
+    for (j, entry) in read.split_off(12).iter().enumerate() {
+        let expected = if j == 3 { 1.0 } else { 0.0 };
+        if entry.constant() != Some(expected) {
+            document.mistake(
+                Diagnostic::new(entry.span(), "the last row of a rigid motion is 0 0 0 1")
+                    .label(format!("expected {expected}"))
+                    .help("rotations stand in the upper left 3×3, the position in the last column"),
+            );
+            return None;
+        }
+    }
+    let mut entries = read.into_iter();
+    let mut next = || entries.next().map(Some);
+    let mut rows: [[Option<Expression>; 4]; 3] = Default::default();
+    for entry in rows.iter_mut().flatten() {
+        *entry = next()?;
+    }
+    let rows = rows.map(|row| row.map(|entry| entry.expect("twelve entries were read")));
+    let matrix = Matrix { rows, span: item.span() };
+    Some(matrix)
+}
+
+fn denavit_hartenberg(
+    item: &Item<'_>,
+    scope: &Scope,
+    document: &mut Document,
+    order: [(&str, Motion, usize); 4],
+) -> Option<Vec<Factor>> {
+    let mut section = document.section(item)?;
+    section.name = format!("`{}`", item.key);
+    section.check_keys(&["theta", "d", "a", "alpha"], document);
+    let factors = order.map(|(key, motion, axis)| {
+        let what = format!("`{key}`");
+        let expected = Entry { dimension: Some(dimension_of(motion)), what: &what, names: Allowed::Geometry };
+        let entry = section.required(key, document)?;
+        let amount = document.expression(&entry, scope, expected)?;
+        Some(Factor::Elementary(Elementary { motion, axis, amount }))
+    });
+    factors.into_iter().collect()
+}
+
+/// URDF: `T(xyz) Rz(y) Ry(p) Rx(r)`.
+fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
+    let mut section = document.section(item)?;
+    section.name = "`origin`".to_owned();
+    section.check_keys(&["xyz", "rpy"], document);
+    let mut three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
+        let Some(item) = section.get(key) else {
+            return Some(Vec::new());
+        };
+        let entries: [Item<'_>; 3] = document.entries(&item, "three numbers")?;
+        let what = format!("an entry of `{key}`");
+        let expected = Entry { dimension: Some(dimension_of(motion)), what: &what, names: Allowed::Geometry };
+        let amounts = entries.map(|entry| document.expression(&entry, scope, expected));
+        let factor = |(axis, amount): (usize, Option<Expression>)| {
+            Some(Factor::Elementary(Elementary { motion, axis, amount: amount? }))
+        };
+        amounts.into_iter().enumerate().map(factor).collect()
+    };
+    let (translations, rotations) = (three("xyz", T), three("rpy", R));
+    let mut factors = translations?;
+    factors.extend(rotations?.into_iter().rev());
+    Some(factors)
+}
+
+/// The motion of the frame's own variable along or about its axis.
+fn about_axis(
+    item: Option<&Item<'_>>,
+    section: &Section<'_>,
+    own: OwnVariable,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
+    let Some((variable, kind)) = own else {
+        if let Some(item) = item {
+            document.mistake(
+                Diagnostic::new(
+                    item.key_span.clone(),
+                    format!("{} has an axis but no variable", section.name),
+                )
+                .label("nothing moves along or about it")
+                .help("add `variable = { … }`, or leave `axis` out"),
+            );
+            return None;
+        }
+        return Some(Vec::new());
+    };
+    let (motion, dimension) = match kind {
+        VariableKind::Revolute => (R, Dimension::NONE),
+        VariableKind::Prismatic => (T, Dimension::LENGTH),
+    };
+    let mut axis = [1.0, 0.0, 0.0];
+    if let Some(item) = item {
+        let entries: [Item<'_>; 3] = document.entries(item, "three numbers")?;
+        let what = "an entry of `axis`";
+        let expected = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
+        let read = entries.map(|entry| document.constant(&entry, scope, expected).map(|read| read.0));
+        let [Some(x), Some(y), Some(z)] = read else {
+            return None;
+        };
+        axis = [x, y, z];
+        let length = (x * x + y * y + z * z).sqrt();
+        if (length - 1.0).abs() > rigid::TOLERANCE {
+            let help = if length > 0.0 {
+                format!("of length 1 is [{}, {}, {}]", x / length, y / length, z / length)
+            } else {
+                "an axis is a unit vector such as [0, 0, 1]".to_owned()
+            };
+            document.mistake(
+                Diagnostic::new(item.span(), "`axis` must be of length 1")
+                    .label(format!("its length is {length}"))
+                    .help(help),
+            );
+            return None;
+        }
+    }
+    let span = item.map_or(section.span.clone(), Item::span);
+    let amount = Expression::symbol(Symbol::Variable(variable), Some(dimension), span);
+    let principal = (0..3).find(|&i| axis[i].abs() == 1.0);
+    Some(vec![match principal {
+        Some(i) if axis[i] > 0.0 => Factor::Elementary(Elementary { motion, axis: i, amount }),
+        Some(i) => Factor::Elementary(Elementary { motion, axis: i, amount: amount.negated() }),
+        None => Factor::About { motion, axis, amount },
+    }])
+}

@@ -1,0 +1,240 @@
+//! What a checked spec holds. Numbers are in its coherent system: its length unit, kg, s, rad, K.
+
+use crate::diagnostic::Span;
+use crate::expr::{Dimension, Elementary, Expression, LengthUnit, Motion};
+
+/// A manipulator as its file describes it.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    /// Its name: a lower snake case identifier.
+    pub name: String,
+    /// Its name for people.
+    pub title: String,
+    /// What it is.
+    pub description: String,
+    /// Where its numbers come from.
+    pub reference: String,
+    /// The unit of every length.
+    pub length: LengthUnit,
+    /// What rows 4–6 of the Jacobians are.
+    pub orientation: Orientation,
+    /// The structural parameters `s`.
+    pub parameters: Vec<Parameter>,
+    /// The inputs `u`.
+    pub inputs: Vec<Input>,
+    /// The joint variables `q`, in the order of the frames that declare them.
+    pub variables: Vec<Variable>,
+    /// `A_1 … A_n`, base to tip.
+    pub frames: Vec<Frame>,
+    /// `T`, from `F_n` to the tool point; no factors if there is none.
+    pub tool: Vec<Factor>,
+    /// The physical errors, those that are switched off among them.
+    pub sources: Vec<Source>,
+    /// The file's name, without its folder.
+    pub file: String,
+    /// SHA-256 of the file's text, in hexadecimal.
+    pub hash: String,
+}
+
+/// What rows 4–6 of a Jacobian are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// The small rotation in `F_0` axes.
+    RotationVector,
+    /// Spin, roll, pitch of `R_T = R_y(σ) R_z(ρ) R_x(π)`.
+    EulerYzx,
+}
+
+/// A structural parameter.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its nominal value.
+    pub value: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Its coherent unit, empty for a pure number or an angle.
+    pub unit: String,
+    /// What it is.
+    pub description: String,
+}
+
+/// An input.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// Its default value.
+    pub value: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Its coherent unit, empty for a pure number or an angle.
+    pub unit: String,
+    /// Lower and upper end of its range, infinite if it has none.
+    pub range: [f64; 2],
+    /// What it is.
+    pub description: String,
+}
+
+/// Whether a variable turns or slides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VariableKind {
+    /// An angle.
+    Revolute,
+    /// A length.
+    Prismatic,
+}
+
+/// A joint variable.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// Revolute or prismatic.
+    pub kind: VariableKind,
+    /// Lower and upper limit, infinite if it has none.
+    pub limits: [f64; 2],
+    /// Its value at home.
+    pub home: f64,
+    /// What it is.
+    pub description: String,
+    /// The frame that declares it, from 0.
+    pub frame: usize,
+}
+
+/// A frame `F_i` and the way to it from `F_{i-1}`.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// The variable that it declares.
+    pub variable: Option<usize>,
+    /// `A_i` as a product.
+    pub factors: Vec<Factor>,
+}
+
+/// A factor of an `A_i`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Factor {
+    /// A motion along or about x, y or z.
+    Elementary(Elementary),
+    /// A motion along or about any other axis.
+    About {
+        /// Translation or rotation.
+        motion: Motion,
+        /// The axis, of length 1.
+        axis: [f64; 3],
+        /// How far.
+        amount: Expression,
+    },
+    /// Any rigid motion.
+    Matrix(Box<Matrix>),
+}
+
+/// The upper three rows of a homogeneous matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Matrix {
+    /// Three rows of four.
+    pub rows: [[Expression; 4]; 3],
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl Factor {
+    /// Every expression in it.
+    pub fn expressions(&self) -> Vec<&Expression> {
+        match self {
+            Self::Elementary(factor) => vec![&factor.amount],
+            Self::About { amount, .. } => vec![amount],
+            Self::Matrix(matrix) => matrix.rows.iter().flatten().collect(),
+        }
+    }
+}
+
+/// Whether an error is the same every time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// Same value and sign at every visit of a configuration.
+    Repeatable,
+    /// Unpredictable.
+    Random(Distribution),
+}
+
+/// How a random error is distributed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distribution {
+    /// The value is the half-width.
+    Uniform,
+    /// The value is the standard deviation.
+    Normal,
+}
+
+/// A physical error.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Its name.
+    pub name: String,
+    /// Repeatable or random.
+    pub class: Class,
+    /// Whether it takes part; a named alternative does not.
+    pub enabled: bool,
+    /// What it is.
+    pub description: String,
+    /// Where its numbers come from.
+    pub reference: String,
+    /// The generalized errors that it causes, in the order of the file; at least one.
+    pub effects: Vec<Effect>,
+}
+
+/// One generalized error that a source causes.
+#[derive(Clone, Debug)]
+pub struct Effect {
+    /// The frame, from 0.
+    pub frame: usize,
+    /// Which of its six errors.
+    pub component: Component,
+    /// Its value: length or rad.
+    pub value: Expression,
+}
+
+/// The six generalized errors of a frame, in the order of ε. **Spin is about y, roll about z, pitch about x.**
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Component {
+    /// Translation along x.
+    X,
+    /// Translation along y.
+    Y,
+    /// Translation along z.
+    Z,
+    /// Rotation about y.
+    Spin,
+    /// Rotation about z.
+    Roll,
+    /// Rotation about x.
+    Pitch,
+}
+
+impl Component {
+    /// All six, in the order of ε.
+    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Spin, Self::Roll, Self::Pitch];
+
+    /// `e_x` … `e_p`.
+    pub fn name(self) -> &'static str {
+        ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p"][self as usize]
+    }
+
+    /// Translation or rotation, and its axis: the one place in this crate that knows.
+    pub fn motion(self) -> (Motion, usize) {
+        match self {
+            Self::X => (Motion::Translation, 0),
+            Self::Y => (Motion::Translation, 1),
+            Self::Z => (Motion::Translation, 2),
+            Self::Spin => (Motion::Rotation, 1),
+            Self::Roll => (Motion::Rotation, 2),
+            Self::Pitch => (Motion::Rotation, 0),
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Runs a spec without rustc: the same programs as the generated code, a block of configurations at a time.
+//!
+//! ```
+//! use abbe::Manipulator;
+//! use abbe_codegen::spec::Spec;
+//! use abbe_interpreter::Interpreter;
+//!
+//! let spec = Spec::parse("slide.toml", r#"
+//!     [manipulator]
+//!     name = "slide"
+//!     length = "mm"
+//!     [[frame]]
+//!     name = "carriage"
+//!     variable = { name = "d1", kind = "prismatic" }
+//!     transform = "Tx(d1)"
+//! "#)?;
+//! let slide = Interpreter::new(&spec);
+//! assert_eq!(slide.pose(&[12.0], &[])?.position(), [12.0, 0.0, 0.0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! `tape` is a program with its registers packed; `lanes` evaluates it; `describe` turns a spec into the
+//! description that generated code has as a constant.
+
+mod describe;
+mod interpreter;
+mod lanes;
+mod tape;
+
+pub use interpreter::Interpreter;

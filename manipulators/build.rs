@@ -1,0 +1,4 @@
+//! Generates the module of every spec.
+fn main() {
+    abbe_codegen::compile("specs");
+}

@@ -1,0 +1,47 @@
+//! The files themselves, for programs that read specs at run time.
+
+use abbe::Manipulator;
+
+/// A shipped manipulator.
+#[derive(Clone, Copy)]
+pub struct Shipped {
+    /// Its name.
+    pub name: &'static str,
+    /// The text of `specs/NAME.toml`.
+    pub spec: &'static str,
+    /// The text of `studies/NAME.toml`, if it has a study of its own.
+    pub study: Option<&'static str>,
+    /// Its generated code.
+    pub compiled: &'static (dyn Manipulator + Sync),
+}
+
+macro_rules! shipped {
+    ($($name:ident: $type:ident $(with $study:ident)?),+ $(,)?) => {
+        /// Every shipped manipulator, in alphabetical order.
+        pub const SHIPPED: &[Shipped] = &[$(Shipped {
+            name: stringify!($name),
+            spec: include_str!(concat!("../specs/", stringify!($name), ".toml")),
+            study: shipped!(@study $name $($study)?),
+            compiled: &crate::$name::$type,
+        }),+];
+    };
+    (@study $name:ident study) => {
+        Some(include_str!(concat!("../studies/", stringify!($name), ".toml")))
+    };
+    (@study $name:ident) => {
+        None
+    };
+}
+
+shipped! {
+    general6r: General6r,
+    iiwa: Iiwa,
+    machine3: Machine3,
+    panda: Panda,
+    pps: Pps with study,
+    puma560: Puma560,
+    scara: Scara,
+    stanford: Stanford,
+    ur5: Ur5,
+    wam: Wam,
+}

@@ -1,0 +1,137 @@
+//! How many combinations of the generalized errors a set of measurements can tell apart.
+
+use nalgebra::DMatrix;
+
+use super::{Configuration, Unevaluated, sampling};
+use crate::{Component, Error, Manipulator, Orientation, Pose, Quantity};
+
+/// Singular values at or below this share of the largest count as zero.
+pub const RANK_THRESHOLD: f64 = 1e-9;
+
+/// What is measured at every configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measurement {
+    /// The pose of the tool point: six rows. Three targets that are not in line say the same.
+    Pose,
+    /// The tool point alone: three rows.
+    Point,
+}
+
+/// The rank of the stacked error Jacobians.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identifiability {
+    /// How many combinations of the unknowns the measurements determine.
+    pub rank: usize,
+    /// How many unknowns there are: 6 per frame, and 6 of the base frame if asked for.
+    pub unknowns: usize,
+    /// All singular values, largest first, of the matrix with columns of unit length. The rank is theirs
+    /// above [`RANK_THRESHOLD`] times the first.
+    pub singular_values: Vec<f64>,
+}
+
+impl Identifiability {
+    /// The smallest singular value that counts and the largest that does not: a gap of many orders of
+    /// magnitude says that the rank is certain.
+    pub fn gap(&self) -> (Option<f64>, Option<f64>) {
+        let last = self.rank.checked_sub(1).and_then(|i| self.singular_values.get(i));
+        (last.copied(), self.singular_values.get(self.rank).copied())
+    }
+}
+
+/// How many of the errors `ε` (with `base`, also those of a frame `E_0` at `F_0`) can be told apart by
+/// measuring at these configurations.
+///
+/// Take them from [`joint_samples`](super::joint_samples) with the joints that will be moved; some 50
+/// show the rank of any arm. Columns are normalized, so that mm and rad weigh the same.
+pub fn identifiable(
+    manipulator: &dyn Manipulator,
+    configurations: &[Configuration],
+    measurement: Measurement,
+    base: bool,
+) -> Result<Identifiability, Unevaluated> {
+    let at = |configuration, error| Unevaluated { configuration, error };
+    let description = manipulator.description();
+    let nominal = sampling::nominal_parameters(&description);
+    let arm = sampling::arm_length(manipulator, &nominal).map_err(|error| at(None, error))?;
+    let own = 6 * description.frames.len();
+    let unknowns = own + if base { 6 } else { 0 };
+    let rows = match measurement {
+        Measurement::Pose => 6,
+        Measurement::Point => 3,
+    };
+
+    // Only the triangle R of the stack's QR decomposition is kept: same singular values, bounded memory.
+    let mut triangle = DMatrix::<f64>::zeros(0, unknowns);
+    let mut columns = vec![[0.0; 6]; own];
+    for (b, block) in configurations.chunks(super::BLOCK).enumerate() {
+        let above = triangle.nrows();
+        let mut stack = triangle.resize_vertically(above + rows * block.len(), 0.0);
+        for (i, Configuration { q, s }) in block.iter().enumerate() {
+            let index = Some(b * super::BLOCK + i);
+            let pose = manipulator.error_jacobian(q, s, &mut columns).map_err(|error| at(index, error))?;
+            let own = columns.iter().map(|column| twist(description.orientation, &pose, column));
+            let base = Component::ALL.iter().filter(|_| base).map(|c| base_column(*c, &pose));
+            for (j, column) in own.chain(base).enumerate() {
+                for k in 0..rows {
+                    // Lengths in arm lengths, so that position and orientation rows compare.
+                    let value = if k < 3 { column[k] / arm } else { column[k] };
+                    if !value.is_finite() {
+                        let error = Error::NotFinite { quantity: Quantity::Jacobian, index: j };
+                        return Err(at(index, error));
+                    }
+                    stack[(above + rows * i + k, j)] = value;
+                }
+            }
+        }
+        triangle = if stack.is_empty() { stack } else { stack.qr().r() };
+    }
+
+    for mut column in triangle.column_iter_mut() {
+        let norm = column.norm();
+        if norm > 0.0 {
+            column /= norm;
+        }
+    }
+    let mut singular_values = match triangle.is_empty() {
+        true => Vec::new(),
+        false => triangle.singular_values().as_slice().to_vec(),
+    };
+    singular_values.sort_by(|a, b| b.total_cmp(a));
+    let threshold = singular_values.first().map_or(0.0, |largest| largest * RANK_THRESHOLD);
+    let rank = singular_values.iter().filter(|&&value| value > threshold).count();
+    Ok(Identifiability { rank, unknowns, singular_values })
+}
+
+/// A column with its rows 4–6 as the small rotation ω in `F_0` axes.
+///
+/// For Euler rows: `R_yᵀ(σ) ω = (cos ρ dπ, dσ + sin ρ dπ, dρ)`.
+fn twist(orientation: Orientation, pose: &Pose, column: &[f64; 6]) -> [f64; 6] {
+    match orientation {
+        Orientation::RotationVector => *column,
+        Orientation::EulerYzx => {
+            // The x axis of the tool is (cos σ cos ρ, sin ρ, −sin σ cos ρ).
+            let [x, sin_roll, z] = pose.0[0];
+            let cos_roll = x.hypot(z);
+            let (sin_spin, cos_spin) = (-z / cos_roll, x / cos_roll);
+            let [p_x, p_y, p_z, spin, roll, pitch] = *column;
+            let (x, y, z) = (cos_roll * pitch, spin + sin_roll * pitch, roll);
+            [p_x, p_y, p_z, cos_spin * x + sin_spin * z, y, cos_spin * z - sin_spin * x]
+        }
+    }
+}
+
+/// The column of an error of `E_0`: `(e; 0)` for a translation, `(a × p_T; a)` for a rotation.
+fn base_column(component: Component, pose: &Pose) -> [f64; 6] {
+    let axis = component.axis();
+    let mut column = [0.0; 6];
+    if component.is_rotation() {
+        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+        let point = pose.position();
+        column[next] = -point[last];
+        column[last] = point[next];
+        column[3 + axis] = 1.0;
+    } else {
+        column[axis] = 1.0;
+    }
+    column
+}

@@ -1,0 +1,46 @@
+//! What every manipulator checks, generated or interpreted, before and after its arithmetic.
+
+use crate::{Error, Input, MINIMUM_MARGIN, Quantity};
+
+/// The values of an argument as an array, if there are exactly `N` and all are finite.
+pub fn argument<const N: usize>(quantity: Quantity, values: &[f64]) -> Result<&[f64; N], Error> {
+    let array = values.try_into().map_err(|_| count(quantity, N, values.len()))?;
+    finite(quantity, values)?;
+    Ok(array)
+}
+
+/// A result slice as an array to be filled, if it holds exactly `N`.
+pub fn result<T, const N: usize>(quantity: Quantity, values: &mut [T]) -> Result<&mut [T; N], Error> {
+    let found = values.len();
+    values.try_into().map_err(|_| count(quantity, N, found))
+}
+
+/// Whether all values are finite; if not, which is the first that is not.
+pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
+    // 0 · x is 0 for every finite x: a sum without branches, taken apart only where something is wrong.
+    if values.iter().map(|value| 0.0 * value).sum::<f64>() == 0.0 {
+        return Ok(());
+    }
+    let index = values.iter().position(|value| !value.is_finite()).unwrap_or(0);
+    Err(Error::NotFinite { quantity, index })
+}
+
+/// Whether Euler rows exist at this margin `cos ρ`.
+pub fn margin(margin: f64) -> Result<(), Error> {
+    if margin >= MINIMUM_MARGIN { Ok(()) } else { Err(Error::EulerSingularity { margin }) }
+}
+
+/// Whether every input is within its range.
+pub fn inputs(description: &[Input<'_>], u: &[f64]) -> Result<(), Error> {
+    for (input, (declared, &value)) in description.iter().zip(u).enumerate() {
+        let [lower, upper] = declared.range;
+        if !(lower..=upper).contains(&value) {
+            return Err(Error::OutOfRange { input, value, range: declared.range });
+        }
+    }
+    Ok(())
+}
+
+fn count(quantity: Quantity, expected: usize, found: usize) -> Error {
+    Error::Count { quantity, expected, found }
+}

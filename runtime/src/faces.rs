@@ -1,0 +1,59 @@
+//! nalgebra faces of the plain arrays: Jacobians as views without copying, poses as isometries.
+
+use nalgebra::{
+    Const, Dyn, Isometry3, Matrix3, MatrixView, Rotation3, SMatrixView, Translation3, U6, UnitQuaternion,
+};
+
+use crate::Pose;
+
+/// A Jacobian with a known number of columns as a 6 × N nalgebra view; nothing is copied.
+///
+/// ```
+/// // A 6 × 12 error Jacobian: two frames, six columns each.
+/// let columns = [[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]; 12];
+/// let jacobian = abbe::jacobian_view(&columns);
+/// assert_eq!(jacobian.shape(), (6, 12));
+/// assert_eq!(jacobian[(1, 0)], 2.0);
+///
+/// let errors = nalgebra::SVector::<f64, 12>::repeat(0.5);
+/// let deviation: nalgebra::Vector6<f64> = jacobian * errors;
+/// assert_eq!(deviation[0], 6.0);
+/// ```
+pub fn jacobian_view<const N: usize>(columns: &[[f64; 6]; N]) -> SMatrixView<'_, f64, 6, N> {
+    MatrixView::from_slice_generic(columns.as_flattened(), Const::<6>, Const::<N>)
+}
+
+/// A Jacobian as a 6 × columns nalgebra view; nothing is copied.
+///
+/// ```
+/// let columns = vec![[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]; 36];
+/// let jacobian = abbe::jacobian_view_dynamic(&columns);
+/// assert_eq!(jacobian.shape(), (6, 36));
+/// assert_eq!((jacobian * jacobian.transpose())[(1, 1)], 36.0);
+/// ```
+pub fn jacobian_view_dynamic(columns: &[[f64; 6]]) -> MatrixView<'_, f64, U6, Dyn> {
+    MatrixView::from_slice_generic(columns.as_flattened(), Const::<6>, Dyn(columns.len()))
+}
+
+impl Pose {
+    /// The same motion as an nalgebra isometry, in the same length unit.
+    ///
+    /// ```
+    /// let quarter = abbe::Pose([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [5.0, 0.0, 0.0]]);
+    /// let point = quarter.isometry() * nalgebra::Point3::new(1.0, 0.0, 0.0);
+    /// assert!((point - nalgebra::Point3::new(5.0, 1.0, 0.0)).norm() < 1e-15);
+    /// ```
+    pub fn isometry(&self) -> Isometry3<f64> {
+        let [x, y, z, position] = self.0;
+        let rotation =
+            Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x.into(), y.into(), z.into()]));
+        let turn = UnitQuaternion::from_rotation_matrix(&rotation);
+        Isometry3::from_parts(Translation3::from(position), turn)
+    }
+}
+
+impl From<&Pose> for Isometry3<f64> {
+    fn from(pose: &Pose) -> Self {
+        pose.isometry()
+    }
+}

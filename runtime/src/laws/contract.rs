@@ -1,0 +1,141 @@
+//! What the trait promises besides derivatives: one pose, finite outputs, batches, guarded inputs.
+
+use super::samples::{Sample, Subject};
+use super::{Discrepancy, Failure};
+use crate::{Error, Manipulator, Pose};
+
+/// The pose, wherever it is returned, against the product of the transforms.
+pub fn pose(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
+    let subject = Subject::new(manipulator)?;
+    let (samples, skipped) = subject.samples(samples)?;
+    let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Default::default() };
+    for at in &samples {
+        for pose in Outputs::at(&subject, at)?.poses {
+            discrepancy.add(difference(&subject, &pose, &at.pose), &at.q);
+        }
+    }
+    Ok(discrepancy)
+}
+
+/// Every output is finite, batches say what single configurations say and ε is the sum of the repeatable effects
+/// (the discrepancy is between those), and NaN or a slice of the wrong length is refused.
+pub fn contract(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
+    let subject = Subject::new(manipulator)?;
+    let (samples, skipped) = subject.samples(samples)?;
+    let description = manipulator.description();
+    let (columns_each, effects_each) = (6 * description.frames.len(), description.effects.len());
+
+    let q = samples.iter().flat_map(|at| at.q.iter().copied()).collect::<Vec<_>>();
+    let (s, u) = (subject.s.repeat(samples.len()), subject.u.repeat(samples.len()));
+    let mut poses = vec![Pose::IDENTITY; samples.len()];
+    let mut columns = vec![[0.0; 6]; columns_each * samples.len()];
+    let mut effects = vec![0.0; effects_each * samples.len()];
+    manipulator.error_models(&q, &s, &u, &mut poses, &mut columns, &mut effects).map_err(|(i, error)| {
+        let q = samples.get(i).map(|at| at.q.clone()).unwrap_or_default();
+        Failure::Evaluation { q, error }
+    })?;
+
+    let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Default::default() };
+    for (i, at) in samples.iter().enumerate() {
+        guarded(&subject, at)?;
+        let single = Outputs::at(&subject, at)?;
+        discrepancy.add(difference(&subject, &poses[i], &single.poses[1]), &at.q);
+        let columns = columns[i * columns_each..][..columns_each].as_flattened();
+        for (batch, single) in columns.iter().zip(single.columns.as_flattened()) {
+            discrepancy.add((batch - single).abs() / single.abs().max(1.0), &at.q);
+        }
+        let [errors, sums] = single.errors.each_ref().map(|errors| errors.as_flattened());
+        for (error, sum) in errors.iter().zip(sums) {
+            discrepancy.add((error - sum).abs() / sum.abs().max(1.0), &at.q);
+        }
+        let effects = &effects[i * effects_each..][..effects_each];
+        for (batch, single) in effects.iter().zip(&single.effects) {
+            discrepancy.add((batch - single).abs() / single.abs().max(1.0), &at.q);
+        }
+    }
+    Ok(discrepancy)
+}
+
+/// What the methods give at one configuration, all of it finite.
+struct Outputs {
+    /// From `pose`, `error_jacobian`, `joint_jacobian` and `parameter_jacobian`.
+    poses: [Pose; 4],
+    /// `J_e`.
+    columns: Vec<[f64; 6]>,
+    effects: Vec<f64>,
+    /// ε from `generalized_errors`, and as the sum of the repeatable effects.
+    errors: [Vec<[f64; 6]>; 2],
+}
+
+impl Outputs {
+    fn at(subject: &Subject, at: &Sample) -> Result<Self, Failure> {
+        let Subject { manipulator, s, u, .. } = subject;
+        let description = manipulator.description();
+        let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+        let mut joint_columns = vec![[0.0; 6]; description.variables.len()];
+        let mut parameter_columns = vec![[0.0; 6]; description.parameters.len()];
+        let mut effects = vec![0.0; description.effects.len()];
+        let mut errors = [vec![[0.0; 6]; description.frames.len()], vec![[0.0; 6]; description.frames.len()]];
+        let mut evaluate = || -> Result<[Pose; 4], Error> {
+            manipulator.effects(&at.q, s, u, &mut effects)?;
+            manipulator.generalized_errors(&at.q, s, u, &mut errors[0])?;
+            Ok([
+                manipulator.pose(&at.q, s)?,
+                manipulator.error_jacobian(&at.q, s, &mut columns)?,
+                manipulator.joint_jacobian(&at.q, s, &mut joint_columns)?,
+                manipulator.parameter_jacobian(&at.q, s, &mut parameter_columns)?,
+            ])
+        };
+        let poses = evaluate().map_err(|error| Failure::Evaluation { q: at.q.clone(), error })?;
+        description.generalized_errors(&effects, &mut errors[1]);
+
+        for (method, values) in [
+            ("pose", poses.each_ref().map(|pose| pose.0).as_flattened().as_flattened()),
+            ("error_jacobian", columns.as_flattened()),
+            ("joint_jacobian", joint_columns.as_flattened()),
+            ("parameter_jacobian", parameter_columns.as_flattened()),
+            ("effects", &effects),
+            ("generalized_errors", errors[0].as_flattened()),
+        ] {
+            if values.iter().any(|value| !value.is_finite()) {
+                return Err(Failure::NotFinite { method, q: at.q.clone() });
+            }
+        }
+        Ok(Self { poses, columns, effects, errors })
+    }
+}
+
+/// The largest difference between two poses, lengths in arm lengths.
+fn difference(subject: &Subject, a: &Pose, b: &Pose) -> f64 {
+    let scale = |i: usize| if i < 9 { 1.0 } else { subject.arm };
+    let entries = a.0.as_flattened().iter().zip(b.0.as_flattened()).enumerate();
+    let differences = entries.map(|(i, (a, b))| (a - b).abs() / scale(i));
+    differences.fold(0.0, |largest, d| if d.is_nan() { f64::INFINITY } else { largest.max(d) })
+}
+
+/// `pose`, `error_jacobian` and `effects` refuse NaN and slices that are too long.
+fn guarded(subject: &Subject, at: &Sample) -> Result<(), Failure> {
+    let Subject { manipulator, s, u, .. } = subject;
+    let description = manipulator.description();
+    let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+    let mut effects = vec![0.0; description.effects.len()];
+    let mut check = |input, q: &[f64]| {
+        for (method, accepted) in [
+            ("pose", manipulator.pose(q, s).is_ok()),
+            ("error_jacobian", manipulator.error_jacobian(q, s, &mut columns).is_ok()),
+            ("effects", manipulator.effects(q, s, u, &mut effects).is_ok()),
+        ] {
+            if accepted {
+                return Err(Failure::Unguarded { method, input });
+            }
+        }
+        Ok(())
+    };
+    check("one joint variable too many", &[at.q.as_slice(), &[0.0]].concat())?;
+    for i in 0..at.q.len() {
+        let mut q = at.q.clone();
+        q[i] = f64::NAN;
+        check("NaN as a joint variable", &q)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,71 @@
+//! Numeric derivatives, to check analytic ones against.
+
+/// Halvings of the step.
+const LEVELS: i32 = 10;
+
+/// The derivative of `f` at 0 by Ridders' method: central differences at `step`, `step / 2`, … extrapolated
+/// to a step of zero until rounding takes over.
+///
+/// `f` and its argument should be of order 1. Steps at which `f` does not exist are too large ones; none if
+/// there were only such.
+pub(super) fn derivative(step: f64, f: impl Fn(f64) -> Option<[f64; 6]>) -> Option<[f64; 6]> {
+    let mut coarser: Vec<[f64; 6]> = Vec::new();
+    let (mut best, mut uncertainty) = (None, f64::INFINITY);
+    for level in 0..LEVELS {
+        let h = step / f64::from(1 << level);
+        let (Some(after), Some(before)) = (f(h), f(-h)) else {
+            coarser.clear();
+            continue;
+        };
+        let mut finer = vec![zip(after, before, |after, before| (after - before) / (2.0 * h))];
+        let mut power = 1.0;
+        for (k, coarse) in coarser.iter().enumerate() {
+            // The error of column k falls with h^(2k+2).
+            power *= 4.0;
+            let fine = finer[k];
+            let better = zip(fine, *coarse, |fine, coarse| fine + (fine - coarse) / (power - 1.0));
+            let change = largest_change(better, fine).max(largest_change(better, *coarse));
+            if change <= uncertainty {
+                (best, uncertainty) = (Some(better), change);
+            }
+            finer.push(better);
+        }
+        let diverging = match (finer.last(), coarser.last()) {
+            (Some(fine), Some(coarse)) => largest_change(*fine, *coarse) > 2.0 * uncertainty,
+            _ => false,
+        };
+        if uncertainty < 1e-13 || diverging && level > 3 {
+            break;
+        }
+        coarser = finer;
+    }
+    best
+}
+
+fn zip(a: [f64; 6], b: [f64; 6], f: impl Fn(f64, f64) -> f64) -> [f64; 6] {
+    core::array::from_fn(|i| f(a[i], b[i]))
+}
+
+fn largest_change(a: [f64; 6], b: [f64; 6]) -> f64 {
+    zip(a, b, |a, b| (a - b).abs()).into_iter().fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::derivative;
+
+    #[test]
+    fn of_known_functions() {
+        let f = |t: f64| {
+            let inverse_sine = (0.99 + t).asin();
+            inverse_sine.is_finite().then(|| [t.sin(), t.exp(), 3.0 * t, t * t, 0.0, inverse_sine])
+        };
+        // The last one exists only for steps below 0.01.
+        let exact = [1.0, 1.0, 3.0, 0.0, 0.0, 1.0 / (1.0 - 0.99_f64 * 0.99).sqrt()];
+        let found = derivative(0.1, f).unwrap();
+        for (found, exact) in found.iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-9, "{found} instead of {exact}");
+        }
+        assert_eq!(derivative(0.1, |_| None), None);
+    }
+}

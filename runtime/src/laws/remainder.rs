@@ -1,0 +1,99 @@
+//! What `ΔX ≈ J_e ε` neglects is of second order.
+
+use super::Failure;
+use super::samples::{Sample, Subject};
+use crate::{Component, Manipulator, deviation, real_pose};
+
+/// The sizes of the errors: rad, and arm lengths.
+const SIZES: [f64; 5] = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
+
+/// The slope of the first-order remainder that is furthest from 2.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slope {
+    /// `d log ‖deviation − J_e ε‖ / d log ‖ε‖`, fitted.
+    pub slope: f64,
+    /// The joint variables where it occurs.
+    pub q: Vec<f64>,
+    /// How many configurations were fitted.
+    pub fitted: usize,
+    /// How many were left out because Euler rows are nearly singular there.
+    pub skipped: usize,
+}
+
+impl Slope {
+    /// [`Failure::Slope`] if it is further from 2 than a tolerance.
+    pub fn within(&self, tolerance: f64) -> Result<(), Failure> {
+        if (self.slope - 2.0).abs() <= tolerance {
+            return Ok(());
+        }
+        Err(Failure::Slope { slope: self.slope, q: self.q.clone() })
+    }
+}
+
+/// The slope with which `‖deviation − J_e ε‖` falls as ε shrinks, all errors at once, at the worst sample.
+///
+/// 2 if `J_e` is right; 1 if a column of it is wrong. A chain without any remainder has slope 2 by definition.
+pub fn remainder_slope(manipulator: &dyn Manipulator, samples: usize) -> Result<Slope, Failure> {
+    let subject = Subject::new(manipulator)?;
+    let (samples, skipped) = subject.samples(samples)?;
+    let mut worst = Slope { slope: 2.0, q: Vec::new(), fitted: samples.len(), skipped };
+    for (i, at) in samples.iter().enumerate() {
+        let slope = slope_at(&subject, at, i)?;
+        if (slope - 2.0).abs() >= (worst.slope - 2.0).abs() || slope.is_nan() {
+            worst.slope = if slope.is_nan() { f64::INFINITY } else { slope };
+            worst.q = at.q.clone();
+        }
+    }
+    Ok(worst)
+}
+
+fn slope_at(subject: &Subject, at: &Sample, sample: usize) -> Result<f64, Failure> {
+    let description = subject.manipulator.description();
+    let frames = description.frames.len();
+    let mut columns = vec![[0.0; 6]; 6 * frames];
+    subject
+        .manipulator
+        .error_jacobian(&at.q, &subject.s, &mut columns)
+        .map_err(|error| Failure::Evaluation { q: at.q.clone(), error })?;
+
+    let mut points = [[0.0; 2]; SIZES.len()];
+    for (point, size) in points.iter_mut().zip(SIZES) {
+        let size = size * at.margin;
+        let mut errors = vec![[0.0; 6]; frames];
+        let mut remainder = [0.0; 6];
+        for (j, column) in columns.iter().enumerate() {
+            let component = Component::ALL[j % 6];
+            let unit = if component.is_rotation() { 1.0 } else { subject.arm };
+            let value = size * unit * direction(sample * columns.len() + j);
+            errors[j / 6][component.index()] = value;
+            for (remainder, entry) in remainder.iter_mut().zip(column) {
+                *remainder -= entry * value;
+            }
+        }
+        let real = real_pose(&at.transforms, &errors);
+        let deviation = deviation(description.orientation, &at.pose, &real);
+        for (remainder, entry) in remainder.iter_mut().zip(deviation) {
+            *remainder += entry;
+        }
+        let squares = subject.scaled(remainder).map(|row| row * row);
+        *point = [size.ln(), squares.iter().sum::<f64>().sqrt()];
+    }
+    if points.iter().all(|[_, remainder]| *remainder < 1e-14) {
+        return Ok(2.0);
+    }
+    Ok(fitted_slope(points.map(|[size, remainder]| [size, remainder.ln()])))
+}
+
+/// Number `index` of a sequence that fills (−1, 1) evenly: multiples of the golden ratio.
+fn direction(index: usize) -> f64 {
+    2.0 * ((index + 1) as f64 * 0.618_033_988_749_894_9).fract() - 1.0
+}
+
+/// The slope of the least-squares line through the points.
+fn fitted_slope<const N: usize>(points: [[f64; 2]; N]) -> f64 {
+    let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / N as f64;
+    let (x, y) = (mean(0), mean(1));
+    let product = |a: &[f64; 2]| (a[0] - x) * (a[1] - y);
+    let square = |a: &[f64; 2]| (a[0] - x) * (a[0] - x);
+    points.iter().map(product).sum::<f64>() / points.iter().map(square).sum::<f64>()
+}

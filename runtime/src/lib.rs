@@ -1,0 +1,61 @@
+//! What generated manipulators and their users call.
+//!
+//! A manipulator is a chain `A_T = A_1 A_2 … A_n · T` of frames, each followed in the real machine by six
+//! small [generalized errors](Component). Generated modules (and the interpreter) give the closed form of its
+//! pose and of its error Jacobian `J_e = ∂X_T/∂ε`, so that `ΔX ≈ J_e ε`; this crate gives them their types,
+//! the exact chain to check them against, and the analysis of a machine's errors over its workspace.
+//!
+//! The core is `no_std` and never allocates. Features: `std` (default; the analysis, and the platform's own
+//! sine and cosine), `nalgebra` (default; views without copying).
+//!
+//! | convention | here |
+//! |---|---|
+//! | frames | `A_i` takes `F_i` coordinates to `F_{i-1}`; the tool comes after `E_n` |
+//! | generalized errors | `e_x e_y e_z e_s e_r e_p` per frame; spin turns about **Y**, roll about **Z**, pitch about **X** |
+//! | rows of a Jacobian | x, y, z of the tool point in `F_0`, then three of [`Orientation`] |
+//! | columns of `J_e` | six per frame, frame 1 first |
+//! | arrays | column-major: a 6 × 36 Jacobian is `[[f64; 6]; 36]`, a pose `[[f64; 3]; 4]` |
+//! | units | the spec's length unit, radians |
+#![cfg_attr(not(feature = "std"), no_std)]
+
+mod chain;
+pub mod checks;
+mod component;
+mod description;
+mod error;
+#[cfg(feature = "nalgebra")]
+mod faces;
+mod manipulator;
+mod pose;
+mod scalar;
+
+#[cfg(feature = "std")]
+pub mod analysis;
+#[cfg(feature = "std")]
+pub mod laws;
+
+pub use chain::{chain, deviation, real_pose};
+pub use component::Component;
+pub use description::{
+    Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
+    Variable, VariableKind,
+};
+pub use error::{Error, MINIMUM_MARGIN, Quantity};
+#[cfg(feature = "nalgebra")]
+pub use faces::{jacobian_view, jacobian_view_dynamic};
+pub use manipulator::Manipulator;
+pub use pose::Pose;
+pub use scalar::Scalar;
+
+/// Includes every module that `abbe_codegen::compile` generated in this crate's build script.
+///
+/// ```ignore
+/// // build.rs:   fn main() { abbe_codegen::compile("specs") }
+/// abbe::include_manipulators!();
+/// ```
+#[macro_export]
+macro_rules! include_manipulators {
+    () => {
+        include!(concat!(env!("OUT_DIR"), "/abbe_manipulators.rs"));
+    };
+}

@@ -1,0 +1,91 @@
+//! The numbers that generated code computes with.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number type for generated code: `f64` and `f32` here, dual numbers or lanes where you need them.
+///
+/// Angles are radians. `sin_cos` is what generated code calls wherever both are needed.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The nearest value to a constant of the spec.
+    fn constant(value: f64) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// Sine.
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+    /// Cosine.
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+    /// Tangent.
+    fn tan(self) -> Self;
+    /// Inverse sine, in `[-π/2, π/2]`.
+    fn asin(self) -> Self;
+    /// Inverse cosine, in `[0, π]`.
+    fn acos(self) -> Self;
+    /// Inverse tangent, in `(-π/2, π/2)`.
+    fn atan(self) -> Self;
+    /// The angle of the point `(x, self)`, in `(-π, π]`.
+    fn atan2(self, x: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// −1, 0 or 1: the derivative of the absolute value, 0 where it has none.
+    fn sign(self) -> Self;
+    /// A power with any exponent.
+    fn powf(self, exponent: Self) -> Self;
+}
+
+macro_rules! scalar {
+    ($float:ident, $($function:ident: $libm:ident),+; $sincos:ident, $atan2:ident, $pow:ident) => {
+        impl Scalar for $float {
+            #[inline]
+            fn constant(value: f64) -> Self {
+                value as $float
+            }
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                #[cfg(feature = "std")]
+                { $float::sin_cos(self) }
+                #[cfg(not(feature = "std"))]
+                { libm::$sincos(self) }
+            }
+            $(
+                #[inline]
+                fn $function(self) -> Self {
+                    #[cfg(feature = "std")]
+                    { $float::$function(self) }
+                    #[cfg(not(feature = "std"))]
+                    { libm::$libm(self) }
+                }
+            )+
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                #[cfg(feature = "std")]
+                { $float::atan2(self, x) }
+                #[cfg(not(feature = "std"))]
+                { libm::$atan2(self, x) }
+            }
+            #[inline]
+            fn sign(self) -> Self {
+                if self > 0.0 { 1.0 } else if self < 0.0 { -1.0 } else { self * 0.0 }
+            }
+            #[inline]
+            fn powf(self, exponent: Self) -> Self {
+                #[cfg(feature = "std")]
+                { $float::powf(self, exponent) }
+                #[cfg(not(feature = "std"))]
+                { libm::$pow(self, exponent) }
+            }
+        }
+    };
+}
+
+scalar!(f64, sin: sin, cos: cos, tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs;
+    sincos, atan2, pow);
+scalar!(f32, sin: sinf, cos: cosf, tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf;
+    sincosf, atan2f, powf);

@@ -1,0 +1,1 @@
+//! What crosses crates is tested in `tests/`; there is nothing here.
