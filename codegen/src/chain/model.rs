@@ -1,6 +1,7 @@
 //! Everything that is generated for a manipulator, as nodes of one graph.
 
 use super::error_jacobian;
+use super::moments::Moments;
 use super::rows::Rows;
 use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
@@ -47,11 +48,13 @@ impl Model {
         let g = &mut graph;
         let mut steps: Vec<Step> = Vec::new();
         let mut frames = Vec::with_capacity(spec.frames.len());
+        let mut ends = Vec::with_capacity(spec.frames.len());
         let mut at = g.identity();
         for (i, frame) in spec.frames.iter().enumerate() {
             at = walk(g, at, &frame.factors, &mut steps);
             name(g, &at, &(i + 1).to_string());
             frames.push(at);
+            ends.push(steps.len());
         }
         let tool = walk(g, at, &spec.tool, &mut steps);
         name(g, &tool, "t");
@@ -61,7 +64,8 @@ impl Model {
             Rows::RotationVector => None,
             Rows::EulerYzx(euler) => Some(euler.margin),
         };
-        let columns = error_jacobian::columns(g, &frames, &tool, &rows);
+        let moments = Moments::new(g, &frames, &tool, &steps, &ends);
+        let columns = error_jacobian::columns(g, &frames, moments, &rows);
         let error_jacobian = Jacobian { columns, margin };
         let mut by_symbols = |symbols: Vec<Symbol>| {
             let column = |symbol| symbol_jacobian::column(g, &steps, symbol, tool.position, &rows);

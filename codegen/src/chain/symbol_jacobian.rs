@@ -50,8 +50,11 @@ pub(super) fn column(
     rows.column(graph, velocity, rotation)
 }
 
-/// `v + ω × (p_T − p)`; nothing is formed where ω is zero.
+/// `v + ω × (p_T − p)`.
 fn swing(graph: &mut Graph, velocity: Vector, omega: Vector, tool: Vector, at: Vector) -> Vector {
+    if omega == [graph.zero(); 3] {
+        return velocity;
+    }
     let lever = graph.sub_vectors(tool, at);
     let part = graph.cross(omega, lever);
     graph.add_vectors(velocity, part)

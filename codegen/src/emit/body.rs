@@ -49,7 +49,7 @@ pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
     for step in &program.steps {
         if let Action::SinCos(operand) = step.action {
             let angle = writer.operand(operand).at_least(Binding::Atom);
-            let (sine, cosine) = writer.names.sine_and_cosine(operand);
+            let (sine, cosine) = writer.names.sine_and_cosine(operand, program);
             writer.registers[step.register] = Some(Written::name(&sine));
             writer.registers[step.register + 1] = Some(Written::name(&cosine));
             statements.push(quote!(let (#sine, #cosine) = #angle.sin_cos();));

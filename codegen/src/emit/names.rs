@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 use quote::format_ident;
 
 use crate::expr::Symbol;
-use crate::program::Operand;
+use crate::program::{Action, Operand, Program};
 use crate::spec::Spec;
 
 /// Names that a function's arguments and constants have.
@@ -55,10 +55,11 @@ impl<'s> Names<'s> {
         }
     }
 
-    /// Sine and cosine: `s2` and `c2` of the variable of frame 2, `sin_x` and `cos_x` of a parameter x.
-    pub(super) fn sine_and_cosine(&mut self, angle: Operand) -> (Ident, Ident) {
+    /// Sine and cosine: `s2` and `c2` of the variable of frame 2, with an offset or without, `sin_x` and `cos_x`
+    /// of a parameter x.
+    pub(super) fn sine_and_cosine(&mut self, angle: Operand, program: &Program) -> (Ident, Ident) {
         let of = |name: &str| (format!("sin_{name}"), format!("cos_{name}"));
-        let (sine, cosine) = match angle {
+        let (sine, cosine) = match without_offset(angle, program) {
             Operand::Symbol(Symbol::Variable(i)) => {
                 let frame = self.spec.variables[i].frame + 1;
                 (format!("s{frame}"), format!("c{frame}"))
@@ -79,5 +80,18 @@ impl<'s> Names<'s> {
             name.push('_');
         }
         format_ident!("{name}")
+    }
+}
+
+/// The variable of `variable ± something else`.
+fn without_offset(angle: Operand, program: &Program) -> Operand {
+    let is_variable = |operand: &Operand| matches!(operand, Operand::Symbol(Symbol::Variable(_)));
+    let step = program.steps.iter().find(|step| Operand::Register(step.register) == angle);
+    match step.map(|step| step.action) {
+        Some(action @ (Action::Add(..) | Action::Sub(..))) => {
+            let mut variables = action.operands().filter(is_variable);
+            variables.next().filter(|_| variables.next().is_none()).unwrap_or(angle)
+        }
+        _ => angle,
     }
 }

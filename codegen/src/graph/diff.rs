@@ -1,5 +1,7 @@
 //! The derivative of a node by a symbol, by forward accumulation.
 
+use std::collections::{HashMap, HashSet};
+
 use super::{Graph, Node, Op};
 use crate::expr::{Function, Symbol};
 
@@ -17,36 +19,31 @@ impl Graph {
         self.diff_all(&[f], x)[0]
     }
 
-    /// The derivatives of several nodes by one symbol, in one pass over the graph.
+    /// The derivatives of several nodes by one symbol, in one pass over what they are made of.
     pub fn diff_all(&mut self, nodes: &[Node], x: Symbol) -> Vec<Node> {
-        let Some(last) = nodes.iter().copied().max() else {
-            return Vec::new();
-        };
         let zero = self.zero();
-        let needed = self.reached_from(nodes, last);
-        let depends = self.depends(last, |symbol| symbol == x);
-        let mut derivatives = vec![zero; last.index() + 1];
-        for index in 0..=last.index() {
-            if depends[index] && needed[index] {
-                let node = Node(index as u32);
-                derivatives[index] = self.derivative(node, |operand| derivatives[operand.index()]);
+        // Operands have smaller handles, so that ascending order is an order of evaluation.
+        let mut derivatives: HashMap<Node, Node> = HashMap::new();
+        for node in self.reached_from(nodes) {
+            let op = self.op(node);
+            if op == Op::Symbol(x) || op.operands().any(|operand| derivatives.contains_key(&operand)) {
+                let of = |operand: Node| derivatives.get(&operand).copied().unwrap_or(zero);
+                let derivative = self.derivative(node, of);
+                derivatives.insert(node, derivative);
             }
         }
-        nodes.iter().map(|node| derivatives[node.index()]).collect()
+        nodes.iter().map(|node| derivatives.get(node).copied().unwrap_or(zero)).collect()
     }
 
-    fn reached_from(&self, nodes: &[Node], last: Node) -> Vec<bool> {
-        let mut reached = vec![false; last.index() + 1];
-        for node in nodes {
-            reached[node.index()] = true;
+    /// The nodes that some nodes are made of, they themselves among them, in ascending order.
+    fn reached_from(&self, nodes: &[Node]) -> Vec<Node> {
+        let mut reached: HashSet<Node> = nodes.iter().copied().collect();
+        let mut open: Vec<Node> = reached.iter().copied().collect();
+        while let Some(node) = open.pop() {
+            open.extend(self.op(node).operands().filter(|operand| reached.insert(*operand)));
         }
-        for index in (0..=last.index()).rev() {
-            if reached[index] {
-                for operand in self.op(Node(index as u32)).operands() {
-                    reached[operand.index()] = true;
-                }
-            }
-        }
+        let mut reached: Vec<Node> = reached.into_iter().collect();
+        reached.sort_unstable();
         reached
     }
 

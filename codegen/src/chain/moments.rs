@@ -1,0 +1,169 @@
+//! The velocity `a × (p_T − p_i)` that a small turn about an axis `a` of frame i gives the tool point.
+//!
+//! Written out it takes 6 multiplications and 3 additions. Less does it where another frame has the same axis:
+//!
+//! ```text
+//! p_i = p_j + δ        a × (p_T − p_i) = a × (p_T − p_j) − a × δ
+//! δ along a            a × δ = 0
+//! δ = d b, b ⊥ a       a × δ = d c, with c the third axis of the frame that has a and b
+//! ```
+//!
+//! The tool point itself serves as such a frame: every moment about it is 0.
+
+use super::walk::Step;
+use crate::graph::{Frame, Graph, Node, Vector};
+
+/// Everything the moments can be read from.
+pub(super) struct Moments<'m> {
+    frames: &'m [Frame],
+    tool: &'m Frame,
+    /// The translations from frame i to the next, and from the last frame to the tool: direction and distance.
+    segments: Vec<Vec<(Vector, Node)>>,
+    /// The axes of the frame before and their moments.
+    before: Vec<(Vector, Vector)>,
+}
+
+impl<'m> Moments<'m> {
+    /// `ends` says how many of the steps lead to each frame.
+    pub(super) fn new(
+        graph: &Graph,
+        frames: &'m [Frame],
+        tool: &'m Frame,
+        steps: &[Step],
+        ends: &[usize],
+    ) -> Self {
+        let mut segments = Vec::with_capacity(frames.len());
+        for (i, &start) in ends.iter().enumerate() {
+            let end = ends.get(i + 1).copied().unwrap_or(steps.len());
+            segments.push(steps[start..end].iter().flat_map(|step| translations(graph, step)).collect());
+        }
+        Self { frames, tool, segments, before: Vec::new() }
+    }
+
+    /// The moments of the three axes of frame i; frames are asked for in their order.
+    pub(super) fn of(&mut self, graph: &mut Graph, i: usize) -> [Vector; 3] {
+        let axes = self.frames[i].axes;
+        let mut known = Vec::new();
+        let moments = axes.map(|axis| {
+            let moment = self.moment(graph, i, axis);
+            known.push((axis, moment));
+            moment
+        });
+        self.before = known;
+        moments
+    }
+
+    fn moment(&self, graph: &mut Graph, i: usize, axis: Vector) -> Vector {
+        let from_tool = self.offset(graph, i, self.segments[i..].iter().flatten(), axis);
+        let mut best = from_tool.map(|part| (part.cost(), part, None));
+        for &(known, moment) in &self.before {
+            if let Some(sign) = parallel(graph, known, axis)
+                && let Some(part) = self.offset(graph, i, self.segments[i - 1].iter(), axis)
+                && best.as_ref().is_none_or(|(cost, ..)| part.cost() + part.cost() / 2 < *cost)
+            {
+                let moment = if sign { moment } else { graph.neg_vector(moment) };
+                best = Some((part.cost(), part, Some(moment)));
+            }
+        }
+        match best {
+            // From the tool point: a × δ itself.
+            Some((_, part, None)) => part.vector(graph),
+            Some((_, part, Some(moment))) => {
+                let part = part.vector(graph);
+                graph.sub_vectors(moment, part)
+            }
+            None => {
+                let lever = self.lever(graph, i);
+                graph.cross(axis, lever)
+            }
+        }
+    }
+
+    /// `a × δ` for the sum δ of some translations, if it takes at most one product of a number and an axis.
+    fn offset<'t>(
+        &self,
+        graph: &mut Graph,
+        i: usize,
+        translations: impl Iterator<Item = &'t (Vector, Node)>,
+        axis: Vector,
+    ) -> Option<Offset> {
+        let mut offset = Offset::Zero;
+        for &(direction, distance) in translations {
+            if parallel(graph, direction, axis).is_some() {
+                continue;
+            }
+            if !matches!(offset, Offset::Zero) {
+                return None;
+            }
+            offset = Offset::Along(self.cross(graph, i, axis, direction)?, distance);
+        }
+        Some(offset)
+    }
+
+    /// `a × b` for two axes of one frame, near frame i: its third axis, or the negative of it.
+    fn cross(&self, graph: &mut Graph, i: usize, a: Vector, b: Vector) -> Option<Vector> {
+        let near = self.frames[i.saturating_sub(1)..].iter().take(3).chain([self.tool]);
+        for frame in near {
+            let find = |graph: &mut Graph, v: Vector| {
+                (0..3).find_map(|k| parallel(graph, frame.axes[k], v).map(|sign| (k, sign)))
+            };
+            if let (Some((j, first)), Some((k, second))) = (find(graph, a), find(graph, b))
+                && j != k
+            {
+                let third = frame.axes[3 - j - k];
+                let cyclic = (j + 1) % 3 == k;
+                return Some(if cyclic == (first == second) { third } else { graph.neg_vector(third) });
+            }
+        }
+        None
+    }
+
+    /// `p_T − p_i`.
+    fn lever(&self, graph: &mut Graph, i: usize) -> Vector {
+        let lever = graph.sub_vectors(self.tool.position, self.frames[i].position);
+        for (node, axis) in lever.into_iter().zip("xyz".chars()) {
+            graph.propose(node, || format!("lever{}_{axis}", i + 1));
+        }
+        lever
+    }
+}
+
+/// `a × δ`.
+enum Offset {
+    Zero,
+    /// A direction times a distance.
+    Along(Vector, Node),
+}
+
+impl Offset {
+    fn cost(&self) -> usize {
+        match self {
+            Self::Zero => 0,
+            Self::Along(..) => 3,
+        }
+    }
+
+    fn vector(&self, graph: &mut Graph) -> Vector {
+        match *self {
+            Self::Zero => [graph.zero(); 3],
+            Self::Along(direction, distance) => graph.scale(distance, direction),
+        }
+    }
+}
+
+/// Whether two vectors are the same (`true`) or the negative of each other (`false`).
+fn parallel(graph: &mut Graph, a: Vector, b: Vector) -> Option<bool> {
+    if a == b {
+        return Some(true);
+    }
+    (graph.neg_vector(a) == b).then_some(false)
+}
+
+fn translations(graph: &Graph, step: &Step) -> Vec<(Vector, Node)> {
+    let candidates = match step {
+        Step::Translation { direction, amount } => vec![(*direction, *amount)],
+        Step::Rotation { .. } => Vec::new(),
+        Step::Matrix { before, local, .. } => before.axes.into_iter().zip(local.position).collect(),
+    };
+    candidates.into_iter().filter(|(_, distance)| graph.value(*distance) != Some(0.0)).collect()
+}

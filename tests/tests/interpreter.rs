@@ -1,0 +1,112 @@
+//! The interpreter and the compiled code give the same numbers.
+
+use abbe::analysis::sampling::{arm_length, joint_sample, nominal_inputs, nominal_parameters};
+use abbe::{Error, Manipulator, Pose};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+
+/// Everything a manipulator says at one configuration, row by row.
+fn everything(robot: &dyn Manipulator, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
+    let description = robot.description();
+    let mut rows = Vec::new();
+    let keep_pose = |pose: Pose, rows: &mut Vec<Vec<f64>>| {
+        rows.extend(pose.rows()[..3].iter().map(|row| row.to_vec()));
+    };
+    let keep_columns = |columns: &[[f64; 6]], rows: &mut Vec<Vec<f64>>| {
+        rows.extend((0..6).map(|row| columns.iter().map(|column| column[row]).collect()));
+    };
+    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
+    robot.transforms(q, s, &mut transforms)?;
+    for transform in transforms {
+        keep_pose(transform, &mut rows);
+    }
+    let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+    keep_pose(robot.error_jacobian(q, s, &mut columns)?, &mut rows);
+    keep_columns(&columns, &mut rows);
+    let mut columns = vec![[0.0; 6]; description.variables.len()];
+    keep_pose(robot.joint_jacobian(q, s, &mut columns)?, &mut rows);
+    keep_columns(&columns, &mut rows);
+    let mut columns = vec![[0.0; 6]; description.parameters.len()];
+    keep_pose(robot.parameter_jacobian(q, s, &mut columns)?, &mut rows);
+    keep_columns(&columns, &mut rows);
+    let mut effects = vec![0.0; description.effects.len()];
+    robot.effects(q, s, u, &mut effects)?;
+    rows.push(effects);
+    let mut errors = vec![[0.0; 6]; description.frames.len()];
+    robot.generalized_errors(q, s, u, &mut errors)?;
+    keep_columns(&errors, &mut rows);
+    Ok(rows)
+}
+
+/// The largest difference between two rows, in units in the last place of the row's largest entry.
+fn ulps(a: &[f64], b: &[f64]) -> f64 {
+    let largest = a.iter().fold(f64::MIN_POSITIVE, |largest, value| largest.max(value.abs()));
+    let ulp = largest.next_up() - largest;
+    a.iter().zip(b).fold(0.0, |worst, (a, b)| f64::max(worst, (a - b).abs() / ulp))
+}
+
+#[test]
+fn equal_to_compiled_code_on_a_thousand_configurations() {
+    for shipped in SHIPPED {
+        let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
+        let interpreter = Interpreter::new(&spec);
+        let description = interpreter.description();
+        assert_eq!(description, shipped.compiled.description(), "{}", shipped.name);
+        let (s, u) = (nominal_parameters(&description), nominal_inputs(&description));
+        let arm = arm_length(&interpreter, &s).unwrap();
+        let moved: Vec<usize> = (0..description.variables.len()).collect();
+        let mut worst: f64 = 0.0;
+        for index in 0..1000 {
+            let q = joint_sample(&description, arm, &moved, index);
+            match (everything(shipped.compiled, &q, &s, &u), everything(&interpreter, &q, &s, &u)) {
+                (Ok(compiled), Ok(interpreted)) => {
+                    assert_eq!(compiled.len(), interpreted.len());
+                    for (a, b) in compiled.iter().zip(&interpreted) {
+                        worst = worst.max(ulps(a, b));
+                    }
+                }
+                (compiled, interpreted) => assert_eq!(compiled.err(), interpreted.err(), "{}", shipped.name),
+            }
+        }
+        println!("{}: {worst} ulp", shipped.name);
+        assert!(worst <= 4.0, "{}: {worst} ulp", shipped.name);
+    }
+}
+
+#[test]
+fn a_block_says_what_single_configurations_say() {
+    // More than two blocks of lanes, and a tail.
+    let count = 150;
+    for shipped in SHIPPED {
+        let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
+        let robot = Interpreter::new(&spec);
+        let description = robot.description();
+        let (s, u) = (nominal_parameters(&description), nominal_inputs(&description));
+        let moved: Vec<usize> = (0..description.variables.len()).collect();
+        let samples: Vec<Vec<f64>> = (0..count).map(|i| joint_sample(&description, 1.0, &moved, i)).collect();
+        let (columns, effects) = (6 * description.frames.len(), description.effects.len());
+        let mut poses = vec![Pose::IDENTITY; count];
+        let mut all_columns = vec![[0.0; 6]; columns * count];
+        let mut all_effects = vec![0.0; effects * count];
+        robot
+            .error_models(
+                &samples.concat(),
+                &s.repeat(count),
+                &u.repeat(count),
+                &mut poses,
+                &mut all_columns,
+                &mut all_effects,
+            )
+            .unwrap();
+        for (i, q) in samples.iter().enumerate() {
+            let mut one_columns = vec![[0.0; 6]; columns];
+            let mut one_effects = vec![0.0; effects];
+            let pose = robot.error_jacobian(q, &s, &mut one_columns).unwrap();
+            robot.effects(q, &s, &u, &mut one_effects).unwrap();
+            assert_eq!(pose, poses[i]);
+            assert_eq!(one_columns, all_columns[i * columns..][..columns]);
+            assert_eq!(one_effects, all_effects[i * effects..][..effects]);
+        }
+    }
+}
