@@ -71,8 +71,16 @@ impl Document {
     /// The tables of `text`, which is the document's own, or every mistake of syntax.
     pub fn tables<'t>(&mut self, text: &'t str) -> Option<Spanned<DeTable<'t>>> {
         let (table, errors) = DeTable::parse_recoverable(text);
+        let mut last_line = None;
         for error in &errors {
             let end = text.len();
+            // What follows a mistake in the same line is mostly its consequence.
+            let line = error
+                .span()
+                .map(|span| text.as_bytes()[..span.start.min(end)].iter().filter(|b| **b == b'\n').count());
+            if line.is_some() && std::mem::replace(&mut last_line, line) == line {
+                continue;
+            }
             let message = error.message().lines().collect::<Vec<_>>().join(", ");
             let span = error.span().unwrap_or(end..end);
             self.found
@@ -102,7 +110,8 @@ impl Document {
     fn wrong_type(&mut self, item: &Item<'_>, expected: &str) {
         let found = item.value.get_ref().type_str();
         let message = format!("`{}` must be {expected}, not {}", item.key, with_article(found));
-        self.mistake(Diagnostic::new(item.span(), message).label(format!("expected {expected}")));
+        let help = format!("write `{} = …` with {expected}", item.key);
+        self.mistake(Diagnostic::new(item.span(), message).label(format!("expected {expected}")).help(help));
     }
 
     /// A string.
@@ -143,7 +152,12 @@ impl Document {
     /// A table.
     pub fn section<'d>(&mut self, item: &Item<'d>) -> Option<Section<'d>> {
         if let DeValue::Table(table) = item.value.get_ref() {
-            return Some(Section { table, span: item.key_span.clone(), name: item.key.clone() });
+            return Some(Section {
+                table,
+                span: item.key_span.clone(),
+                name: item.key.clone(),
+                is_root: false,
+            });
         }
         self.wrong_type(item, "a table");
         None
@@ -169,9 +183,11 @@ impl Document {
         let entries = self.array(item, expected)?;
         let count = entries.len();
         entries.try_into().ok().or_else(|| {
-            let message = format!("`{}` must be {expected}; this has {count} entries", item.key);
+            let message = format!("`{}` must be {expected}; this has {count}", item.key);
             self.mistake(
-                Diagnostic::new(item.span(), message).label(format!("expected {N} entries, found {count}")),
+                Diagnostic::new(item.span(), message)
+                    .label(format!("expected {N} entries, found {count}"))
+                    .help(format!("write {expected} in brackets")),
             );
             None
         })
@@ -227,7 +243,10 @@ impl Document {
                 None
             }
             Err(_) => {
-                self.mistake(Diagnostic::new(span.clone(), "numbers are written in decimal here"));
+                self.mistake(
+                    Diagnostic::new(span.clone(), "numbers are written in decimal here")
+                        .help("write `255`, not `0xff`"),
+                );
                 None
             }
         };
@@ -279,12 +298,13 @@ pub struct Section<'d> {
     pub span: Span,
     /// Its name.
     pub name: String,
+    is_root: bool,
 }
 
 impl<'d> Section<'d> {
     /// The file itself.
     pub fn root(table: &'d Spanned<DeTable<'d>>) -> Self {
-        Self { table: table.get_ref(), span: 0..0, name: "this file".to_owned() }
+        Self { table: table.get_ref(), span: 0..0, name: "this file".to_owned(), is_root: true }
     }
 
     /// All its items, in order.
@@ -309,10 +329,10 @@ impl<'d> Section<'d> {
     pub fn required(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
         self.get(key).or_else(|| {
             let message = format!("`{key}` is missing in {}", self.name);
+            let help =
+                if self.is_root { format!("add a table `[{key}]`") } else { format!("add `{key} = …`") };
             document.mistake(
-                Diagnostic::new(self.span.clone(), message)
-                    .label(format!("`{key}` belongs here"))
-                    .help(format!("add `{key} = …`")),
+                Diagnostic::new(self.span.clone(), message).label(format!("`{key}` belongs here")).help(help),
             );
             None
         })

@@ -25,9 +25,28 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
     Err(Error::NotFinite { quantity, index })
 }
 
-/// Whether Euler rows exist at this margin `cos ρ`.
-pub fn margin(margin: f64) -> Result<(), Error> {
+/// Whether Euler rows exist at the margin `cos ρ` that a raw function returned.
+pub fn margin(margin: impl Margin) -> Result<(), Error> {
+    let margin = margin.cosine();
     if margin >= MINIMUM_MARGIN { Ok(()) } else { Err(Error::EulerSingularity { margin }) }
+}
+
+/// How far rows 4–6 are from a singularity: raw functions return `cos ρ`, or nothing where there is none.
+pub trait Margin {
+    /// The margin, 1 where there is no singularity.
+    fn cosine(self) -> f64;
+}
+
+impl Margin for f64 {
+    fn cosine(self) -> f64 {
+        self
+    }
+}
+
+impl Margin for () {
+    fn cosine(self) -> f64 {
+        1.0
+    }
 }
 
 /// Whether every input is within its range.

@@ -23,6 +23,7 @@ pub mod checks;
 mod component;
 mod description;
 mod error;
+mod face;
 #[cfg(feature = "nalgebra")]
 mod faces;
 mod manipulator;

@@ -6,6 +6,7 @@ use abbe_codegen::chain::Model;
 use abbe_codegen::program::{FunctionKind, Operations, functions};
 use abbe_codegen::spec::{Orientation, Spec};
 use abbe_manipulators::SHIPPED;
+use expect_test::expect_file;
 
 fn shipped(name: &str) -> Spec {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap();
@@ -26,7 +27,7 @@ fn counts_of_every_function() {
             writeln!(table, "  {:<18} {}", kind.name(), program.operations()).unwrap();
         }
     }
-    insta::assert_snapshot!(table);
+    expect_file!["../golden/operations.txt"].assert_eq(&table);
 }
 
 /// What the best generators of others need for pose and `J_e` with rotation-vector rows.

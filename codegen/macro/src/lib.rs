@@ -46,3 +46,37 @@ fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use abbe_codegen::emit;
+    use abbe_codegen::spec::Spec;
+    use proc_macro2::Span;
+    use quote::ToTokens;
+
+    use super::*;
+
+    fn expanded(file: &str) -> syn::Result<proc_macro2::TokenStream> {
+        expand(&LitStr::new(file, Span::call_site()))
+    }
+
+    #[test]
+    fn the_macro_gives_the_code_that_the_other_doors_write() {
+        let file = "../../manipulators/specs/pps.toml";
+        let spec = Spec::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
+        let mut expanded: syn::File = syn::parse2(expanded(file).unwrap()).unwrap();
+        let watched = expanded.items.pop().unwrap().to_token_stream().to_string();
+        assert!(watched.contains("include_str"));
+        assert!(prettyplease::unparse(&expanded) == emit::rust(&spec));
+    }
+
+    #[test]
+    fn the_macro_shows_the_mistakes_that_the_other_doors_show() {
+        let file = "../../tests/bad-specs/several_expressions.toml";
+        let mut shown = Spec::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap_err();
+        shown.path = file.to_owned();
+        let error = expanded(file).unwrap_err().to_string();
+        assert_eq!(error, format!("mistakes in the spec\n{shown}"));
+        assert!(expanded("missing.toml").unwrap_err().to_string().contains("cannot read this file"));
+    }
+}

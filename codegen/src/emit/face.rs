@@ -187,148 +187,15 @@ fn record(name: &str, doc: &str, nominal_doc: &str, count: &str, fields: &[Field
     }
 }
 
-/// The checked functions, and the trait they come from.
-pub(super) fn functions(spec: &Spec) -> TokenStream {
+/// The checked functions and the trait: the same for all, so the runtime has them.
+pub(super) fn checked(spec: &Spec) -> TokenStream {
     let name = format_ident!("{}", type_name(&spec.name));
-    let type_doc = format!(" {}, as a [`Manipulator`].", spec.title.trim_end_matches('.'));
-    let margin = |call: TokenStream| match spec.orientation {
-        Orientation::RotationVector => quote!(#call;),
-        Orientation::EulerYzx => quote!(checks::margin(#call)?;),
-    };
-    let jacobian = |method: &str, size: &str| {
-        let (method, size) = (format_ident!("{method}"), format_ident!("{size}"));
-        let call = margin(quote!(raw::#method(q, s, &mut pose, columns)));
-        quote! {
-            fn #method(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-                let q = checks::argument::<VARIABLES>(Quantity::Variables, q)?;
-                let s = checks::argument::<PARAMETERS>(Quantity::Parameters, s)?;
-                let columns = checks::result::<_, #size>(Quantity::Jacobian, columns)?;
-                let mut pose = [[0.0; 3]; 4];
-                #call
-                checks::finite(Quantity::Pose, pose.as_flattened())?;
-                checks::finite(Quantity::Jacobian, columns.as_flattened())?;
-                Ok(Pose(pose))
-            }
-        }
-    };
-    let jacobians = [
-        jacobian("error_jacobian", "ERRORS"),
-        jacobian("joint_jacobian", "VARIABLES"),
-        jacobian("parameter_jacobian", "PARAMETERS"),
-    ];
-    let checked = checked_functions(&name);
+    let doc =
+        format!(" {}, as a [`Manipulator`](::abbe::Manipulator).", escaped(spec.title.trim_end_matches('.')));
     quote! {
-        #[doc = #type_doc]
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub struct #name;
-
-        impl Manipulator for #name {
-            fn description(&self) -> Description<'_> {
-                DESCRIPTION
-            }
-
-            fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-                let q = checks::argument::<VARIABLES>(Quantity::Variables, q)?;
-                let s = checks::argument::<PARAMETERS>(Quantity::Parameters, s)?;
-                let transforms = checks::result::<_, { FRAMES + 1 }>(Quantity::Pose, transforms)?;
-                let mut columns = [[[0.0; 3]; 4]; FRAMES + 1];
-                raw::transforms(q, s, &mut columns);
-                checks::finite(Quantity::Pose, columns.as_flattened().as_flattened())?;
-                *transforms = columns.map(Pose);
-                Ok(())
-            }
-
-            fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-                let q = checks::argument::<VARIABLES>(Quantity::Variables, q)?;
-                let s = checks::argument::<PARAMETERS>(Quantity::Parameters, s)?;
-                let mut pose = [[0.0; 3]; 4];
-                raw::pose(q, s, &mut pose);
-                checks::finite(Quantity::Pose, pose.as_flattened())?;
-                Ok(Pose(pose))
-            }
-
-            #(#jacobians)*
-
-            fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-                let q = checks::argument::<VARIABLES>(Quantity::Variables, q)?;
-                let s = checks::argument::<PARAMETERS>(Quantity::Parameters, s)?;
-                let u = checks::argument::<INPUTS>(Quantity::Inputs, u)?;
-                let effects = checks::result::<_, EFFECTS>(Quantity::Errors, effects)?;
-                checks::inputs(DESCRIPTION.inputs, u)?;
-                raw::effects(q, s, u, effects);
-                checks::finite(Quantity::Errors, effects)
-            }
-
-            fn generalized_errors(
-                &self,
-                q: &[f64],
-                s: &[f64],
-                u: &[f64],
-                errors: &mut [[f64; 6]],
-            ) -> Result<(), Error> {
-                let q = checks::argument::<VARIABLES>(Quantity::Variables, q)?;
-                let s = checks::argument::<PARAMETERS>(Quantity::Parameters, s)?;
-                let u = checks::argument::<INPUTS>(Quantity::Inputs, u)?;
-                let errors = checks::result::<_, FRAMES>(Quantity::Errors, errors)?;
-                checks::inputs(DESCRIPTION.inputs, u)?;
-                raw::generalized_errors(q, s, u, errors);
-                checks::finite(Quantity::Errors, errors.as_flattened())
-            }
-        }
-
-        #checked
-    }
-}
-
-/// Functions with arrays of the right size, which therefore cannot be called with the wrong one.
-fn checked_functions(name: &proc_macro2::Ident) -> TokenStream {
-    let jacobian = |method: &str, size: &str, doc: &str| {
-        let (method, size) = (format_ident!("{method}"), format_ident!("{size}"));
-        let doc = format!(" {doc}; [`Error`] where that does not exist.");
-        quote! {
+        ::abbe::checked_face! {
             #[doc = #doc]
-            pub fn #method(q: &[f64; VARIABLES], s: &Parameters) -> Result<(Pose, [[f64; 6]; #size]), Error> {
-                let mut columns = [[0.0; 6]; #size];
-                let pose = #name.#method(q, &s.to_array(), &mut columns)?;
-                Ok((pose, columns))
-            }
-        }
-    };
-    let jacobians = [
-        jacobian("error_jacobian", "ERRORS", "Pose and error Jacobian `J_e`, one `[f64; 6]` per column"),
-        jacobian(
-            "joint_jacobian",
-            "VARIABLES",
-            "Pose and joint Jacobian `∂X_T/∂q`, one `[f64; 6]` per variable",
-        ),
-        jacobian("parameter_jacobian", "PARAMETERS", "Pose and `∂X_T/∂s`, one `[f64; 6]` per parameter"),
-    ];
-    quote! {
-        /// The pose of the tool point in `F_0`; [`Error`] if a number is not finite.
-        pub fn pose(q: &[f64; VARIABLES], s: &Parameters) -> Result<Pose, Error> {
-            #name.pose(q, &s.to_array())
-        }
-
-        #(#jacobians)*
-
-        /// The errors that the sources cause, of random ones the magnitude, one per entry of
-        /// [`DESCRIPTION`]`.effects`; [`Error`] if an input is outside its range.
-        pub fn effects(q: &[f64; VARIABLES], s: &Parameters, u: &Inputs) -> Result<[f64; EFFECTS], Error> {
-            let mut effects = [0.0; EFFECTS];
-            #name.effects(q, &s.to_array(), &u.to_array(), &mut effects)?;
-            Ok(effects)
-        }
-
-        /// ε: the sum of the repeatable sources, `e_x e_y e_z e_s e_r e_p` of each frame; [`Error`] if an input
-        /// is outside its range.
-        pub fn generalized_errors(
-            q: &[f64; VARIABLES],
-            s: &Parameters,
-            u: &Inputs,
-        ) -> Result<[[f64; 6]; FRAMES], Error> {
-            let mut errors = [[0.0; 6]; FRAMES];
-            #name.generalized_errors(q, &s.to_array(), &u.to_array(), &mut errors)?;
-            Ok(errors)
+            #name
         }
     }
 }

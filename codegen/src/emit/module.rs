@@ -25,7 +25,7 @@ pub fn rust_tokens(spec: &Spec) -> TokenStream {
     let raw = functions.iter().map(|(kind, program)| raw_function(spec, *kind, program));
     let name = format_ident!("{}", spec.name);
     let (description, named_values, face) =
-        (face::description(spec), face::named_values(spec), face::functions(spec));
+        (face::description(spec), face::named_values(spec), face::checked(spec));
     let allowed = allowed_lints(spec, &functions);
     let imports = imports(spec);
     quote! {
@@ -81,17 +81,7 @@ fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<Toke
 }
 
 fn imports(spec: &Spec) -> Vec<TokenStream> {
-    let mut names = vec![
-        "Description",
-        "Error",
-        "Frame",
-        "LengthUnit",
-        "Manipulator",
-        "Orientation",
-        "Pose",
-        "Quantity",
-        "checks",
-    ];
+    let mut names = vec!["Description", "Frame", "LengthUnit", "Orientation"];
     if !spec.variables.is_empty() {
         names.extend(["Variable", "VariableKind"]);
     }
@@ -110,7 +100,7 @@ fn imports(spec: &Spec) -> Vec<TokenStream> {
     if spec.enabled_effects().next().is_some() {
         names.extend(["Component", "Effect"]);
     }
-    names.sort_by_key(|name| (name.chars().next().is_some_and(char::is_lowercase), *name));
+    names.sort_unstable();
     names
         .into_iter()
         .map(|name| {

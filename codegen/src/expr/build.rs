@@ -76,6 +76,8 @@ impl<'b> Builder<'b> {
             } else if FUNCTION_NAMES.contains(&name) {
                 Diagnostic::new(span, format!("the function `{name}` needs its argument in parentheses"))
                     .help(format!("write `{name}(…)`"))
+            } else if self.allowed == Allowed::Nothing {
+                Diagnostic::new(span, format!("`{name}` is not a number")).help("only numbers may stand here")
             } else {
                 unknown(name, span, self.scope)
             };
@@ -103,7 +105,11 @@ impl<'b> Builder<'b> {
         let dimension = found.and_then(|found| match function {
             Function::Abs => Some(found),
             Function::Sqrt => found.power(0.5).or_else(|| {
-                self.mistake(operand, format!("the square root of {found} has no unit"), "");
+                self.mistake(
+                    operand,
+                    format!("the square root of {found} has no unit"),
+                    "divide by a reference first",
+                );
                 None
             }),
             _ if found == Dimension::NONE => Some(found),
@@ -145,7 +151,11 @@ impl<'b> Builder<'b> {
             Binary::Atan2 => l.atan2(r),
         });
         if operator == Binary::Div && self.terms[right].value == Some(0.0) {
-            self.mistake(right, "division by zero".to_owned(), "");
+            self.mistake(
+                right,
+                "division by zero".to_owned(),
+                "divide by something else, or leave the division out",
+            );
             return self.push(Term {
                 kind: Kind::Binary(operator, left, right),
                 dimension: None,
@@ -167,7 +177,7 @@ impl<'b> Builder<'b> {
             return None;
         };
         if self.terms[exponent].dimension? != Dimension::NONE {
-            self.mistake(exponent, "an exponent must be a pure number".to_owned(), "");
+            self.mistake(exponent, "an exponent must be a pure number".to_owned(), "leave its unit out");
             return None;
         }
         let dimension = self.terms[base].dimension?;
@@ -201,7 +211,10 @@ impl<'b> Builder<'b> {
 
     fn or_absurd(&mut self, dimension: Option<Dimension>, span: &Span) -> Option<Dimension> {
         if dimension.is_none() {
-            self.found.push(Diagnostic::new(span.clone(), "the unit of this product is absurd"));
+            self.found.push(
+                Diagnostic::new(span.clone(), "the unit of this product is absurd")
+                    .help("check the units: no exponent goes beyond 50"),
+            );
         }
         dimension
     }
@@ -211,8 +224,7 @@ impl<'b> Builder<'b> {
     }
 
     fn mistake(&mut self, term: usize, message: String, help: &str) {
-        let mistake = Diagnostic::new(self.terms[term].span.clone(), message);
-        self.found.push(if help.is_empty() { mistake } else { mistake.help(help) });
+        self.found.push(Diagnostic::new(self.terms[term].span.clone(), message).help(help));
     }
 
     /// Pushes a term, unless its constant value is not a number one can compute with.
@@ -224,8 +236,14 @@ impl<'b> Builder<'b> {
         span: Span,
     ) -> usize {
         if let Some(value) = value.filter(|value| !value.is_finite()) {
-            let what = if value.is_nan() { "has no real value" } else { "is too large for a number" };
-            self.found.push(Diagnostic::new(span.clone(), format!("this {what}")));
+            let (what, help) = match (value.is_nan(), kind) {
+                (true, Kind::Call(Function::Asin | Function::Acos, _)) => {
+                    ("has no real value", "the argument must be between -1 and 1")
+                }
+                (true, _) => ("has no real value", "roots and powers need a base that is not negative"),
+                (false, _) => ("is too large for a number", "the largest number is about 1.8e308"),
+            };
+            self.found.push(Diagnostic::new(span.clone(), format!("this {what}")).help(help));
             return self.push(Term { kind, dimension: None, value: None, span, bare: false });
         }
         self.push(Term { kind, dimension, value, span, bare: false })

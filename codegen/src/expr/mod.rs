@@ -12,6 +12,7 @@ mod scope;
 mod tokens;
 mod transform;
 mod unit;
+mod value;
 
 pub use dimension::Dimension;
 pub use expression::{Binary, Expression, Kind, Term};
@@ -19,6 +20,7 @@ pub use function::Function;
 pub use scope::{Allowed, Entry, Name, Scope, Symbol};
 pub use transform::{Elementary, Motion};
 pub use unit::{LengthUnit, UNIT_NAMES, Unit};
+pub use value::{find_name, parse_value};
 
 pub(crate) use function::FUNCTION_NAMES;
 pub(crate) use parse::parse_expression;

@@ -118,6 +118,7 @@ impl<'p> Parser<'p> {
         };
         Diagnostic::new(self.here(), format!("expected {expected}, found {found}"))
             .label(format!("expected {expected}"))
+            .help("an expression is written as `0.5*d1 + 3 mm * sin(q2)`")
     }
 
     /// Runs one level of nesting deeper.
@@ -281,8 +282,10 @@ impl<'p> Parser<'p> {
             }
         };
         let power = if self.accept('^') { self.unit_power()? } else { 1 };
-        unit.times(factor, sign * power)
-            .ok_or_else(|| Diagnostic::new(start, "this power of a unit is absurd"))
+        unit.times(factor, sign * power).ok_or_else(|| {
+            Diagnostic::new(start, "this power of a unit is absurd")
+                .help("write a small whole power, as in `mm^2`")
+        })
     }
 
     fn unit_power(&mut self) -> Parsed<i32> {

@@ -78,7 +78,8 @@ impl Declarations {
         item: &Item<'_>,
         document: &mut Document,
     ) -> Option<usize> {
-        let table = document.section(item)?;
+        let mut table = document.section(item)?;
+        table.name = "`variable`".to_owned();
         table.check_keys(&["name", "kind", "limits", "home", "description"], document);
         let name_item = table.required("name", document);
         let kind = table.required("kind", document).and_then(|kind| {
@@ -172,9 +173,8 @@ impl Declarations {
         dimension: Option<Dimension>,
         document: &mut Document,
     ) {
-        if !check_identifier(name, span.clone(), document) {
-            return;
-        }
+        // A name that cannot be one is declared all the same: that it is used is not another mistake.
+        check_identifier(name, span.clone(), document);
         if let Some(first) = self.scope.names.get(name) {
             document.mistake(
                 Diagnostic::new(span, format!("the name `{name}` is used twice"))

@@ -220,9 +220,10 @@ fn read_frame_factors(
     let factors = read_factors(&frame.section, frame.own, &declarations.scope, document)?;
     check_matrices(&factors, declarations, nominal, document)?;
     if let (Some((own, _)), Some(span)) = (frame.own, &frame.variable_span)
+        && let name = &declarations.variables[own].name
+        && declarations.scope.names.get(name).is_some_and(|name| name.symbol == Symbol::Variable(own))
         && !moves(&factors, own)
     {
-        let name = &declarations.variables[own].name;
         document.mistake(
             Diagnostic::new(span.clone(), format!("`{name}` does not move its own frame"))
                 .label(format!("the transform of \"{}\" does not depend on it", frame.name))

@@ -76,8 +76,11 @@ fn laws(graph: &mut Graph, matrix: &Matrix) -> Vec<Law> {
 
 fn mistake(matrix: &Matrix, law: &Law, value: f64, at: &str) -> Diagnostic {
     let names: Vec<String> = law.rows.iter().map(|row| (row + 1).to_string()).collect();
-    let rows =
-        if names.len() == 1 { format!("row {}", names[0]) } else { format!("rows {}", names.join(" and ")) };
+    let rows = match &names[..] {
+        [row] => format!("row {row}"),
+        [first, second] => format!("rows {first} and {second}"),
+        _ => "the rows".to_owned(),
+    };
     // The last row at fault is marked, the others shown.
     let row = |i: usize| matrix.rows[i][0].span().start..matrix.rows[i][2].span().end;
     let (last, others) = law.rows.split_last().expect("a law is about at least one row");

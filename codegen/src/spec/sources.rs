@@ -41,6 +41,7 @@ pub(super) fn read_sources(
             continue;
         };
         section.span = item.span();
+        section.name = "this [[source]]".to_owned();
         let name = section.required("name", document);
         if let Some(name_item) = name
             && let Some(name) = title_of(&name_item, document)

@@ -1,0 +1,82 @@
+//! Values and names that stand outside a spec: on a command line, in a study.
+
+use super::function::FUNCTION_NAMES;
+use super::parse::parse_expression;
+use super::tokens::{Place, Token, tokens};
+use super::{Allowed, Dimension, Entry, LengthUnit, Scope, UNIT_NAMES};
+use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::document::Document;
+
+/// The value of the number, or of the expression of numbers, at `span` of the document's text.
+///
+/// It is in the coherent system with that length unit; a bare number is so already. `what` it is goes into
+/// mistakes, such as `the value of d1`.
+///
+/// ```
+/// # use abbe_codegen::document::Document;
+/// # use abbe_codegen::expr::{Dimension, LengthUnit, parse_value};
+/// let mut document = Document::new("--q", "1.2m,1200");
+/// for span in [0..4, 5..9] {
+///     let value = parse_value(&mut document, span, LengthUnit::Millimetre, Dimension::LENGTH, "the value of d1");
+///     assert_eq!(value, Some(1200.0));
+/// }
+/// ```
+pub fn parse_value(
+    document: &mut Document,
+    span: Span,
+    length: LengthUnit,
+    dimension: Dimension,
+    what: &str,
+) -> Option<f64> {
+    let whole = document.text.clone();
+    let text = whole.get(span.clone()).unwrap_or_default();
+    if text.trim().is_empty() {
+        document.mistake(Diagnostic::new(span, format!("{what} is missing")).help("write 0 for nothing"));
+        return None;
+    }
+    let place = Place::Exact(span.start);
+    let mistakes = document.found.len();
+    match tokens(text, &place) {
+        Ok(tokens) => {
+            let words = tokens.into_iter().filter_map(|(token, range)| match token {
+                Token::Word(word) => Some((word, place.span(range))),
+                _ => None,
+            });
+            let known = [&UNIT_NAMES[..], &FUNCTION_NAMES, &["pi"]].concat();
+            words.for_each(|(word, span)| {
+                find_name(document, span, word, &known, "unit or function");
+            });
+        }
+        Err(mistake) => document.mistake(mistake),
+    }
+    if document.found.len() > mistakes {
+        return None;
+    }
+    let scope = Scope { length, names: Default::default() };
+    let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
+    parse_expression(text, &place, &scope, entry, &mut document.found)?.constant()
+}
+
+/// The index of a name among those that are known, or a mistake at `span` that offers them.
+///
+/// `what` they are, in the singular: `source`.
+pub fn find_name(
+    document: &mut Document,
+    span: Span,
+    name: &str,
+    known: &[&str],
+    what: &str,
+) -> Option<usize> {
+    let found = known.iter().position(|candidate| *candidate == name);
+    if found.is_none() {
+        let near = nearest(name, known.iter().copied());
+        let near = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
+        let help = match known {
+            [] => format!("this spec has no {what}"),
+            known => format!("{near}{what}s: {}", known.join(", ")),
+        };
+        let message = format!("there is no {what} `{}`", name.escape_debug());
+        document.mistake(Diagnostic::new(span, message).help(help));
+    }
+    found
+}

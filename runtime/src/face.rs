@@ -1,0 +1,170 @@
+//! The checked face of a generated module: the same for every manipulator, so it stands here once.
+
+/// Puts checked functions, and the [`Manipulator`](crate::Manipulator) they come from, before the raw functions
+/// of a generated module.
+///
+/// Generated code calls it where `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`, `EFFECTS`,
+/// `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. Arrays have the right size by their types;
+/// numbers that are not finite, inputs outside their range and Euler singularities are [`Error`](crate::Error)s.
+#[macro_export]
+macro_rules! checked_face {
+    ($(#[$documentation:meta])* $name:ident) => {
+        $(#[$documentation])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct $name;
+
+        /// The pose of the tool point in `F_0`.
+        ///
+        /// An error if a number is not finite.
+        pub fn pose(q: &[f64; VARIABLES], s: &Parameters) -> Result<$crate::Pose, $crate::Error> {
+            $crate::Manipulator::pose(&$name, q, &s.to_array())
+        }
+
+        /// Pose and error Jacobian `J_e = ∂X_T/∂ε`: one `[f64; 6]` per column, six columns per frame.
+        ///
+        /// An error where Euler rows are singular, or if a number is not finite.
+        pub fn error_jacobian(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+        ) -> Result<($crate::Pose, [[f64; 6]; ERRORS]), $crate::Error> {
+            let mut columns = [[0.0; 6]; ERRORS];
+            let pose = $crate::Manipulator::error_jacobian(&$name, q, &s.to_array(), &mut columns)?;
+            Ok((pose, columns))
+        }
+
+        /// Pose and joint Jacobian `J_q = ∂X_T/∂q`: one `[f64; 6]` per variable.
+        ///
+        /// An error where Euler rows are singular, or if a number is not finite.
+        pub fn joint_jacobian(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+        ) -> Result<($crate::Pose, [[f64; 6]; VARIABLES]), $crate::Error> {
+            let mut columns = [[0.0; 6]; VARIABLES];
+            let pose = $crate::Manipulator::joint_jacobian(&$name, q, &s.to_array(), &mut columns)?;
+            Ok((pose, columns))
+        }
+
+        /// Pose and `∂X_T/∂s`: one `[f64; 6]` per structural parameter.
+        ///
+        /// An error where Euler rows are singular, or if a number is not finite.
+        pub fn parameter_jacobian(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+        ) -> Result<($crate::Pose, [[f64; 6]; PARAMETERS]), $crate::Error> {
+            let mut columns = [[0.0; 6]; PARAMETERS];
+            let pose = $crate::Manipulator::parameter_jacobian(&$name, q, &s.to_array(), &mut columns)?;
+            Ok((pose, columns))
+        }
+
+        /// The errors that the sources cause, of random ones the magnitude, in the order of the description's
+        /// effects.
+        ///
+        /// An error if an input is outside its range or a number is not finite.
+        pub fn effects(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+        ) -> Result<[f64; EFFECTS], $crate::Error> {
+            let mut effects = [0.0; EFFECTS];
+            $crate::Manipulator::effects(&$name, q, &s.to_array(), &u.to_array(), &mut effects)?;
+            Ok(effects)
+        }
+
+        /// ε, the sum of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
+        ///
+        /// An error if an input is outside its range or a number is not finite.
+        pub fn generalized_errors(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+        ) -> Result<[[f64; 6]; FRAMES], $crate::Error> {
+            let mut errors = [[0.0; 6]; FRAMES];
+            $crate::Manipulator::generalized_errors(&$name, q, &s.to_array(), &u.to_array(), &mut errors)?;
+            Ok(errors)
+        }
+
+        impl $crate::Manipulator for $name {
+            fn description(&self) -> $crate::Description<'_> {
+                DESCRIPTION
+            }
+
+            fn transforms(
+                &self,
+                q: &[f64],
+                s: &[f64],
+                transforms: &mut [$crate::Pose],
+            ) -> Result<(), $crate::Error> {
+                let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
+                let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
+                let transforms = $crate::checks::result($crate::Quantity::Pose, transforms)?;
+                let mut columns = [[[0.0; 3]; 4]; FRAMES + 1];
+                raw::transforms(q, s, &mut columns);
+                $crate::checks::finite($crate::Quantity::Pose, columns.as_flattened().as_flattened())?;
+                *transforms = columns.map($crate::Pose);
+                Ok(())
+            }
+
+            fn pose(&self, q: &[f64], s: &[f64]) -> Result<$crate::Pose, $crate::Error> {
+                let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
+                let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
+                let mut pose = [[0.0; 3]; 4];
+                raw::pose(q, s, &mut pose);
+                $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
+                Ok($crate::Pose(pose))
+            }
+
+            $crate::checked_face!(@jacobian error_jacobian);
+            $crate::checked_face!(@jacobian joint_jacobian);
+            $crate::checked_face!(@jacobian parameter_jacobian);
+
+            fn effects(
+                &self,
+                q: &[f64],
+                s: &[f64],
+                u: &[f64],
+                effects: &mut [f64],
+            ) -> Result<(), $crate::Error> {
+                let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
+                let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
+                let u = $crate::checks::argument($crate::Quantity::Inputs, u)?;
+                let effects = $crate::checks::result($crate::Quantity::Errors, effects)?;
+                $crate::checks::inputs(DESCRIPTION.inputs, u)?;
+                raw::effects(q, s, u, effects);
+                $crate::checks::finite($crate::Quantity::Errors, effects)
+            }
+
+            fn generalized_errors(
+                &self,
+                q: &[f64],
+                s: &[f64],
+                u: &[f64],
+                errors: &mut [[f64; 6]],
+            ) -> Result<(), $crate::Error> {
+                let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
+                let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
+                let u = $crate::checks::argument($crate::Quantity::Inputs, u)?;
+                let errors = $crate::checks::result($crate::Quantity::Errors, errors)?;
+                $crate::checks::inputs(DESCRIPTION.inputs, u)?;
+                raw::generalized_errors(q, s, u, errors);
+                $crate::checks::finite($crate::Quantity::Errors, errors.as_flattened())
+            }
+        }
+    };
+    (@jacobian $jacobian:ident) => {
+        fn $jacobian(
+            &self,
+            q: &[f64],
+            s: &[f64],
+            columns: &mut [[f64; 6]],
+        ) -> Result<$crate::Pose, $crate::Error> {
+            let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
+            let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
+            let columns = $crate::checks::result($crate::Quantity::Jacobian, columns)?;
+            let mut pose = [[0.0; 3]; 4];
+            $crate::checks::margin(raw::$jacobian(q, s, &mut pose, columns))?;
+            $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
+            $crate::checks::finite($crate::Quantity::Jacobian, columns.as_flattened())?;
+            Ok($crate::Pose(pose))
+        }
+    };
+}

@@ -1,0 +1,3 @@
+fn main() {
+    abbe_codegen::compile("specs");
+}
