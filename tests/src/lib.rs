@@ -1,6 +1,8 @@
-//! What crosses crates is tested in `tests/`. Here stands generated code as it is checked in, so that it is
-//! compiled as users compile it, with warnings denied.
+//! What crosses crates is tested in `tests/`. Here stands what several of these tests need, and generated code as
+//! it is checked in, so that it is compiled as users compile it, with warnings denied.
 #![deny(warnings, missing_docs, clippy::all)]
+
+pub mod chains;
 
 /// Generated code.
 pub mod golden {

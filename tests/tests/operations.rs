@@ -6,6 +6,7 @@ use abbe_codegen::chain::Model;
 use abbe_codegen::program::{FunctionKind, Operations, functions};
 use abbe_codegen::spec::{Orientation, Spec};
 use abbe_manipulators::SHIPPED;
+use abbe_tests::chains::general_chain;
 use expect_test::expect_file;
 
 fn shipped(name: &str) -> Spec {
@@ -41,34 +42,14 @@ fn no_more_than_others_need() {
     assert!(iiwa.mul + iiwa.add <= 240 && iiwa.sincos == 7, "{iiwa}");
 }
 
-/// A chain of `frames` frames in general position, alternating revolute and prismatic.
-fn general_chain(frames: usize) -> Spec {
-    let mut text = "[manipulator]\nname = \"chain\"\nlength = \"m\"\n".to_owned();
-    for i in 0..frames {
-        let (kind, theta, d) = if i % 2 == 0 {
-            ("revolute", format!("q{i} + 0.1"), "0.2".to_owned())
-        } else {
-            ("prismatic", "0.3".to_owned(), format!("q{i} + 0.1 m"))
-        };
-        let twist = 0.4 + 0.01 * i as f64;
-        write!(
-            text,
-            "[[frame]]\nname = \"{i}\"\nvariable = {{ name = \"q{i}\", kind = \"{kind}\" }}\n\
-             dh = {{ theta = \"{theta}\", d = \"{d}\", a = 0.{}, alpha = {twist} }}\n",
-            i + 1
-        )
-        .unwrap();
-    }
-    Spec::parse("chain.toml", &text).unwrap()
-}
-
 #[test]
 fn growth_is_linear() {
+    let chain = |frames: usize| Spec::parse("chain.toml", &general_chain(frames)).unwrap();
     let total = |spec: &Spec| {
         let count = error_jacobian(spec);
         (count.mul + count.add) as f64
     };
-    let (six, hundred) = (total(&general_chain(6)), total(&general_chain(100)));
+    let (six, hundred) = (total(&chain(6)), total(&chain(100)));
     println!("6 frames: {six} operations, 100 frames: {hundred}");
     assert!(hundred < 1.3 * 100.0 / 6.0 * six, "{six} at 6 frames, {hundred} at 100");
 }
