@@ -683,7 +683,7 @@ pub mod pps {
             columns[12] = [zero; 6];
             cos_roll
         }
-        /// The errors that the sources cause, one per entry of [`DESCRIPTION`]`.effects`.
+        /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 13 mul, 5 add, 7 div, 2 sincos, 5 neg.
         pub fn effects<T: Scalar>(

@@ -600,7 +600,7 @@ pub mod puma560 {
                 [p4_x, p4_y, p4_z],
             ];
         }
-        /// The errors that the sources cause, one per entry of [`DESCRIPTION`]`.effects`.
+        /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 0 mul, 0 add.
         pub fn effects<T: Scalar>(

@@ -200,7 +200,7 @@ pub mod slide {
                 [d1, zero, zero],
             ];
         }
-        /// The errors that the sources cause, one per entry of [`DESCRIPTION`]`.effects`.
+        /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 0 mul, 0 add.
         pub fn effects<T: Scalar>(

@@ -8,5 +8,6 @@ pub mod chains;
 pub mod golden {
     include!("../golden/pps.rs");
     include!("../golden/puma560.rs");
+    include!("../golden/self_.rs");
     include!("../golden/slide.rs");
 }

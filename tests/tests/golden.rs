@@ -22,15 +22,54 @@ variable = { name = "d1", kind = "prismatic" }
 transform = "Tx(d1)"
 "#;
 
+/// Names that generated code uses itself, constants that look like π, text that looks like markup.
+const NAMES: &str = r#"
+[manipulator]
+name = "self_"
+title = "A robot with <unlucky> [names]"
+description = "Its `names` | are those that *generated* code has: see [`nothing`] and <b>."
+length = "m"
+[parameters]
+q = { value = "3.14 m", description = "Not [quite] <pi>" }
+None = 0.5
+ERRORS = "2 m"
+T = 1.57
+zero = "1 K"
+t1 = { value = "0.7071 m^2", description = "" }
+r1_11 = 2
+EI = "5 N*m^2"
+pose = "2.718281828 s"
+_s = 1
+[inputs]
+u = { value = "20 N", range = ["-1e3 N", "1 kN"] }
+columns = { value = 6.2832, range = [-7, 7] }
+[[frame]]
+name = "first | `frame`"
+variable = { name = "Some", kind = "revolute", limits = [-1.5708, "pi/2"] }
+transform = "Rz(Some + None*T) Tx(q) Ty(ERRORS*Some) Rx(r1_11 - pi)"
+[[frame]]
+name = "x"
+variable = { name = "self_", kind = "prismatic" }
+transform = "Rz(_s) Tx(self_) Ry(atan2(self_, q)) Rx(abs(Some)^2.7)"
+[[source]]
+name = "\"quoted\" \\ name"
+class = "random"
+distribution = "normal"
+frame = "x"
+e_x = "u*q^3/(3*EI) * sqrt(t1)/q + 1e-6 m/K*zero"
+e_p = "columns * 1e-6 + 1e-6/s*pose + asin(_s/2)/tan(T)^2"
+"#;
+
 fn spec(name: &str) -> Spec {
-    let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
-    let text = shipped.map_or(SLIDE, |shipped| shipped.spec);
+    let own = [("slide", SLIDE), ("self_", NAMES)];
+    let shipped = SHIPPED.iter().map(|shipped| (shipped.name, shipped.spec));
+    let (_, text) = shipped.chain(own).find(|(known, _)| *known == name).unwrap();
     Spec::parse(&format!("{name}.toml"), text).unwrap()
 }
 
 #[test]
 fn generated_code_is_what_is_checked_in() {
-    for name in ["pps", "puma560", "slide"] {
+    for name in ["pps", "puma560", "self_", "slide"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{name}.rs"));
         expect_file![path].assert_eq(&emit::rust(&spec(name)));
     }
@@ -95,13 +134,13 @@ fn generic_over_the_scalar() {
     use golden::puma560::{self, raw};
     let q = [0.3, 0.9, -0.7, 0.4, 1.1, -0.2];
     let (pose, columns) = puma560::joint_jacobian(&q, &puma560::Parameters::NOMINAL).unwrap();
-    for joint in 0..6 {
+    for (joint, column) in columns.iter().enumerate() {
         let dual: [Dual; 6] = std::array::from_fn(|i| Dual(q[i], f64::from(i == joint)));
         let mut found = [[Dual(0.0, 0.0); 3]; 4];
         raw::pose(&dual, &[], &mut found);
         for row in 0..3 {
             assert_eq!(found[3][row].0, pose.position()[row]);
-            assert!((found[3][row].1 - columns[joint][row]).abs() < 1e-15);
+            assert!((found[3][row].1 - column[row]).abs() < 1e-15);
         }
     }
     let mut single = [[0.0_f32; 3]; 4];
@@ -217,4 +256,9 @@ impl Scalar for Dual {
     fn powf(self, exponent: Self) -> Self {
         self.chain(self.0.powf(exponent.0), exponent.0 * self.0.powf(exponent.0 - 1.0))
     }
+}
+
+#[test]
+fn unlucky_names_obey_the_laws() {
+    abbe::laws::all(&golden::self_::ManipulatorSelf, 60).unwrap();
 }

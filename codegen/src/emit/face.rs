@@ -8,11 +8,32 @@ use super::text::escaped;
 use crate::expr::LengthUnit;
 use crate::spec::{Class, Component, Distribution, Orientation, Spec, VariableKind};
 
+/// Types that a generated module has or uses already.
+const TAKEN: [&str; 16] = [
+    "Class",
+    "Component",
+    "Description",
+    "Distribution",
+    "Effect",
+    "Frame",
+    "Input",
+    "Inputs",
+    "LengthUnit",
+    "Orientation",
+    "Parameter",
+    "Parameters",
+    "Self",
+    "Source",
+    "Variable",
+    "VariableKind",
+];
+
 /// The name of the manipulator's type: `puma560` becomes `Puma560`, `my_arm` `MyArm`.
 pub(super) fn type_name(name: &str) -> String {
     let words = name.split('_').filter(|word| !word.is_empty());
     let name: String = words.map(|word| word[..1].to_ascii_uppercase() + &word[1..]).collect();
-    if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("Manipulator{name}") }
+    let is_free = name.starts_with(|c: char| c.is_ascii_alphabetic()) && !TAKEN.contains(&name.as_str());
+    if is_free { name } else { format!("Manipulator{name}") }
 }
 
 /// The counts, and [`DESCRIPTION`] with every name, unit and limit.

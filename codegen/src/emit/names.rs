@@ -9,9 +9,29 @@ use crate::expr::Symbol;
 use crate::program::{Action, Operand, Program};
 use crate::spec::Spec;
 
-/// Names that a function's arguments and constants have.
-const TAKEN: [&str; 10] =
-    ["q", "s", "u", "zero", "one", "pose", "transforms", "columns", "effects", "errors"];
+/// Names that arguments and constants have, or that are no names in a pattern.
+const TAKEN: [&str; 20] = [
+    "q",
+    "s",
+    "u",
+    "zero",
+    "one",
+    "pose",
+    "transforms",
+    "columns",
+    "effects",
+    "errors",
+    "FRAMES",
+    "ERRORS",
+    "VARIABLES",
+    "PARAMETERS",
+    "INPUTS",
+    "EFFECTS",
+    "None",
+    "Some",
+    "Ok",
+    "Err",
+];
 
 /// The names of one function.
 pub(super) struct Names<'s> {

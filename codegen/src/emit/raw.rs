@@ -169,7 +169,7 @@ fn documentation(kind: FunctionKind, program: &Program, margin: bool) -> Vec<Str
         FunctionKind::JointJacobian => "Pose and joint Jacobian `∂X_T/∂q`: one column per variable.",
         FunctionKind::ParameterJacobian => "Pose and `∂X_T/∂s`: one column per structural parameter.",
         FunctionKind::Effects => {
-            "The errors that the sources cause, one per entry of [`DESCRIPTION`]`.effects`."
+            "The errors that the sources cause, one per entry of the description's effects."
         }
         FunctionKind::GeneralizedErrors => {
             "ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame."

@@ -42,10 +42,7 @@ pub fn parse_value(
                 Token::Word(word) => Some((word, place.span(range))),
                 _ => None,
             });
-            let known = [&UNIT_NAMES[..], &FUNCTION_NAMES, &["pi"]].concat();
-            words.for_each(|(word, span)| {
-                find_name(document, span, word, &known, "unit or function");
-            });
+            document.found.extend(words.filter_map(|(word, span)| unknown_word(word, span)));
         }
         Err(mistake) => document.mistake(mistake),
     }
@@ -54,7 +51,28 @@ pub fn parse_value(
     }
     let scope = Scope { length, names: Default::default() };
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
-    parse_expression(text, &place, &scope, entry, &mut document.found)?.constant()
+    let value = parse_expression(text, &place, &scope, entry, &mut document.found)?.constant()?;
+    if !value.is_finite() {
+        document.mistake(
+            Diagnostic::new(span, format!("{what} is too large"))
+                .help(format!("it is converted to {}", dimension.unit(length.symbol()))),
+        );
+    }
+    Some(value).filter(|value| value.is_finite())
+}
+
+/// The mistake that a word is neither a unit nor a function, if it is neither.
+fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
+    let known = [&UNIT_NAMES[..], &FUNCTION_NAMES, &["pi"]].concat();
+    if known.contains(&word) {
+        return None;
+    }
+    let help = match nearest(word, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "a value is a number with or without a unit: `90deg`, `1.2m`, `pi/2`".to_owned(),
+    };
+    let message = format!("`{}` is neither a unit nor a function", word.escape_debug());
+    Some(Diagnostic::new(span, message).label("unknown here").help(help))
 }
 
 /// The index of a name among those that are known, or a mistake at `span` that offers them.
@@ -73,7 +91,7 @@ pub fn find_name(
         let near = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
         let help = match known {
             [] => format!("this spec has no {what}"),
-            known => format!("{near}{what}s: {}", known.join(", ")),
+            known => format!("{near}there are: {}", known.join(", ")),
         };
         let message = format!("there is no {what} `{}`", name.escape_debug());
         document.mistake(Diagnostic::new(span, message).help(help));
