@@ -1,2 +1,46 @@
-//! The `abbe` command.
-fn main() {}
+//! The `abbe` command: predicts, ranks and checks the errors of a manipulator from its spec.
+//!
+//! `arguments` is what it is told; `manipulator` finds the spec and `changes` what differs from it. Then one
+//! module per command. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
+//! failed, 2 for bad usage or input.
+
+mod analyze;
+mod arguments;
+mod changes;
+mod check;
+mod failure;
+mod generate;
+mod jacobian;
+mod list;
+mod manipulator;
+mod number;
+mod output;
+mod study;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use arguments::{Arguments, Command};
+use failure::Failure;
+use output::Outcome;
+
+fn main() -> ExitCode {
+    let result = run(Arguments::parse());
+    match result.and_then(|outcome| outcome.print()) {
+        Ok(status) => status,
+        Err(failure) => failure.report(),
+    }
+}
+
+fn run(arguments: Arguments) -> Result<Outcome, Failure> {
+    match &arguments.command {
+        None => Ok(Outcome::passed(Arguments::command().render_help().to_string() + "\n")),
+        Some(Command::List(arguments)) => list::run(arguments),
+        Some(Command::Check(arguments)) => check::run(arguments),
+        Some(Command::Generate(arguments)) => generate::run(arguments),
+        Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
+        Some(Command::Analyze(arguments)) => analyze::run(arguments),
+    }
+}

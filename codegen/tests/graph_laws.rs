@@ -51,7 +51,7 @@ laws! {
     a_quarter_turn_less: |g, x, y| { let q = g.constant(std::f64::consts::FRAC_PI_2); let a = g.sub(x, q); g.cos(a) }, => g.sin(x);
     a_quarter_turn_minus: |g, x, y| { let q = g.constant(std::f64::consts::FRAC_PI_2); let a = g.sub(q, x); g.sin(a) }, => g.cos(x);
     a_whole_turn: |g, x, y| { let q = g.constant(std::f64::consts::TAU); let a = g.add(x, q); g.sin(a) }, => g.sin(x);
-    not_quite_a_quarter_turn: |g, x, y| { let q = g.constant(1.5708); let a = g.add(x, q); g.sin(a) }, != g.cos(x);
+    not_quite_a_quarter_turn: |g, x, y| { let q = g.constant(1.6); let a = g.add(x, q); g.sin(a) }, != g.cos(x);
     sine_and_cosine_of_two_angles: |g, x, y| { let (s, c) = (g.sin(x), g.cos(y)); let (s, c) = (g.mul(s, s), g.mul(c, c)); g.add(s, c) }, != g.constant(1.0);
     cubes_are_products: |g, x, y| g.power(x, 3.0), => { let s = g.mul(x, x); g.mul(x, s) };
     powers_below_one: |g, x, y| g.power(x, -1.0), => { let one = g.constant(1.0); g.div(one, x) };

@@ -1,7 +1,7 @@
 //! Expressions: text to checked terms. Every mistake has its place; every term its dimension.
 //!
-//! `+ - * / ^`, functions, `pi`, numbers with an optional unit, names. [`tokens`] cuts the text, [`parse`]
-//! finds its structure, [`build`] checks names and dimensions and folds constants as the terms are made.
+//! `+ - * / ^`, functions, `pi`, numbers with an optional unit, names. `tokens` cuts the text, `parse`
+//! finds its structure, `build` checks names and dimensions and folds constants as the terms are made.
 
 mod build;
 mod dimension;

@@ -89,7 +89,8 @@ pub fn find_name(
     if found.is_none() {
         let near = nearest(name, known.iter().copied());
         let near = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
-        let help = match known {
+        let known = known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>();
+        let help = match &known[..] {
             [] => format!("this spec has no {what}"),
             known => format!("{near}there are: {}", known.join(", ")),
         };
