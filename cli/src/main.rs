@@ -27,14 +27,14 @@ use failure::Failure;
 use output::Outcome;
 
 fn main() -> ExitCode {
-    let result = run(Arguments::parse());
+    let result = run(&Arguments::parse());
     match result.and_then(|outcome| outcome.print()) {
         Ok(status) => status,
         Err(failure) => failure.report(),
     }
 }
 
-fn run(arguments: Arguments) -> Result<Outcome, Failure> {
+fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     match &arguments.command {
         None => Ok(Outcome::passed(Arguments::command().render_help().to_string() + "\n")),
         Some(Command::List(arguments)) => list::run(arguments),

@@ -130,9 +130,14 @@ impl Diagnostics {
 
 /// The nearest of `known` to a word that is not among them, as the second half of a help text.
 pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    // One slip of the finger is always near, also in words too short to be alike otherwise.
+    let similarity = |candidate: &str| match strsim::damerau_levenshtein(word, candidate) {
+        1 if word.chars().count() > 2 => 1.0,
+        _ => strsim::jaro_winkler(word, candidate),
+    };
     known
         .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(word, candidate), candidate))
+        .map(|candidate| (similarity(candidate), candidate))
         .filter(|(similarity, _)| *similarity > 0.75)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, candidate)| candidate)

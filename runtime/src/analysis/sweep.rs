@@ -117,7 +117,8 @@ fn sweep_block(
         let (mut repeatable, mut squares) = ([0.0; 6], [0.0; 6]);
         for (j, (source, deviation)) in description.sources.iter().zip(&sources).enumerate() {
             if deviation.iter().any(|row| !row.is_finite()) {
-                let error = Error::NotFinite { quantity: Quantity::Errors, index: j };
+                let index = description.effects.iter().position(|effect| effect.source == j).unwrap_or(0);
+                let error = Error::NotFinite { quantity: Quantity::Errors, index };
                 return Err(at(i, error));
             }
             match source.class {

@@ -1,0 +1,167 @@
+//! The results of every configuration as CSV: all digits, units in the heading, the coherent ones of the spec.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use abbe::analysis::{Configuration, Row};
+use abbe::{Description, VariableKind};
+use csv::Writer;
+
+use super::agreement::of_source;
+use super::{Analysis, json, unreachable};
+use crate::failure::Failure;
+use crate::output::{Pending, cannot_write};
+use crate::study::{CombinedFigure, Metric};
+
+/// The files of a folder; none appears before all are complete.
+pub(super) struct Files<'v> {
+    configurations: Writer<Pending>,
+    sources: Writer<Pending>,
+    unreachable: Writer<Pending>,
+    varying: &'v [usize],
+    /// The first thing that went wrong during the sweep.
+    failure: Option<csv::Error>,
+}
+
+impl<'v> Files<'v> {
+    /// Begins the files; makes the folder if there is none.
+    pub(super) fn create(
+        folder: &Path,
+        description: &Description,
+        varying: &'v [usize],
+    ) -> Result<Self, Failure> {
+        if folder.exists() && !folder.is_dir() {
+            let message = "this is a file, not a folder";
+            return Err(Failure::of(folder.display(), message).help("--out takes a folder"));
+        }
+        fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
+        let begin = |name: &str| Pending::create(&folder.join(name)).map(Writer::from_writer);
+        let mut files = Self {
+            configurations: begin("configurations.csv")?,
+            sources: begin("sources.csv")?,
+            unreachable: begin("unreachable.csv")?,
+            varying,
+            failure: None,
+        };
+        let unit = description.length.symbol();
+        let mut heading = vec!["configuration".to_owned()];
+        heading.extend(names(description, varying));
+        let sources = description.sources.iter().map(|source| source.name);
+        for what in ["ideal"].into_iter().chain(sources).chain(["repeatable", "random"]) {
+            heading.extend(["x", "y", "z"].map(|axis| format!("{what} {axis} ({unit})")));
+        }
+        files.keep(|files| files.configurations.write_record(&heading));
+        Ok(files)
+    }
+
+    /// Writes what the sweep sees.
+    pub(super) fn configuration(&mut self, row: &Row) {
+        let values = values(row.configuration, self.varying);
+        let pose = row.pose.position();
+        let sources = row.sources.iter().flat_map(|source| &source[..3]);
+        let together = row.repeatable[..3].iter().chain(&row.random[..3]);
+        let numbers = pose.iter().chain(sources).chain(together).map(number);
+        let record = std::iter::once(row.index.to_string()).chain(values).chain(numbers).collect::<Vec<_>>();
+        self.keep(|files| files.configurations.write_record(&record));
+    }
+
+    /// Writes the other files, and puts all in their places.
+    pub(super) fn finish(mut self, analysis: &Analysis) -> Result<(), Failure> {
+        self.keep(|files| write_sources(&mut files.sources, analysis));
+        self.keep(|files| write_unreachable(&mut files.unreachable, analysis));
+        if let Some(error) = self.failure {
+            return Err(Failure::of("--out", format!("cannot write the files: {error}")));
+        }
+        let mut complete = Vec::new();
+        for writer in [self.configurations, self.sources, self.unreachable] {
+            let pending = writer.into_inner();
+            complete.push(pending.map_err(|error| Failure::of("--out", error.error().to_string()))?);
+        }
+        complete.into_iter().try_for_each(Pending::finish)
+    }
+
+    fn keep(&mut self, write: impl FnOnce(&mut Self) -> csv::Result<()>) {
+        if self.failure.is_none() {
+            self.failure = write(self).err();
+        }
+    }
+}
+
+fn write_sources(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::Result<()> {
+    let unit = analysis.description.length.symbol();
+    let axes = ["x", "y", "z", "norm"].map(|axis| format!("{axis} ({unit})"));
+    let heading = ["source", "class", "metric"].map(str::to_owned).into_iter().chain(axes);
+    writer.write_record(heading.chain(["worst configuration".to_owned()]).collect::<Vec<_>>())?;
+    let index = |worst: Option<usize>| worst.map(|worst| worst.to_string()).unwrap_or_default();
+    for errors in &analysis.budget.sources {
+        let source = &analysis.description.sources[errors.source];
+        for (name, metric) in Metric::ALL {
+            let [x, y, z, norm] = of_source(errors, metric).map(|figure| number(&figure));
+            let worst = index(errors.worst);
+            writer.write_record([
+                source.name,
+                json::class(source.class).0,
+                name,
+                &x,
+                &y,
+                &z,
+                &norm,
+                &worst,
+            ])?;
+        }
+    }
+    let combined = &analysis.budget.combined;
+    for ((name, figure), worst) in CombinedFigure::ALL.into_iter().zip([
+        combined.repeatable_radius,
+        combined.random_radius,
+        combined.radius,
+    ]) {
+        let (axes, norm) = analysis.combined(figure);
+        let [x, y, z] = axes.map(|axis| axis.as_ref().map(number).unwrap_or_default());
+        let (norm, worst) = (number(&norm), index(worst.configuration));
+        writer.write_record(["all together", "", name, &x, &y, &z, &norm, &worst])?;
+    }
+    Ok(())
+}
+
+fn write_unreachable(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::Result<()> {
+    let Analysis { description, workspace, .. } = analysis;
+    // Here every parameter may matter: nothing is known of what varies among those that were reached.
+    let all = (0..description.parameters.len()).collect::<Vec<_>>();
+    let heading = names(description, &all).chain(["reason".to_owned()]);
+    writer.write_record(heading.collect::<Vec<_>>())?;
+    for refused in &workspace.unreachable {
+        let reason = unreachable::reason(refused, description);
+        writer.write_record(values(&refused.asked, &all).chain([reason]).collect::<Vec<_>>())?;
+    }
+    Ok(())
+}
+
+/// The headings of a configuration.
+fn names<'a>(description: &'a Description, parameters: &'a [usize]) -> impl Iterator<Item = String> + 'a {
+    let length = description.length.symbol();
+    let variables = description.variables.iter().map(move |variable| match variable.kind {
+        VariableKind::Revolute => format!("{} (rad)", variable.name),
+        VariableKind::Prismatic => format!("{} ({length})", variable.name),
+    });
+    let parameters = parameters.iter().map(|&i| match description.parameters[i] {
+        parameter if parameter.unit.is_empty() => parameter.name.to_owned(),
+        parameter => format!("{} ({})", parameter.name, parameter.unit),
+    });
+    variables.chain(parameters)
+}
+
+/// The values of a configuration.
+fn values<'a>(
+    configuration: &'a Configuration,
+    parameters: &'a [usize],
+) -> impl Iterator<Item = String> + 'a {
+    let parameters = parameters.iter().map(|&i| &configuration.s[i]);
+    configuration.q.iter().chain(parameters).map(number)
+}
+
+/// All digits; −0 is a plain 0.
+fn number(value: &f64) -> String {
+    (value + 0.0).to_string()
+}

@@ -1,0 +1,118 @@
+//! The tables of an analysis.
+
+use super::agreement::{Agreement, of_source};
+use super::{Analysis, json};
+use crate::number::{self, error_decimals, fixed, percent, short};
+use crate::study::{CombinedFigure, Metric, Published};
+use crate::table::{Table, unbroken};
+
+impl Analysis<'_> {
+    /// How many decimals errors have: three digits of the smallest source that matters.
+    pub(super) fn decimals(&self) -> usize {
+        let least = error_decimals(self.description.length);
+        let negligible = 1e-6 * self.budget.combined.radius.value;
+        let norms = self.budget.sources.iter().map(|errors| errors.plain_max.norm);
+        let smallest = norms.filter(|norm| *norm > negligible).fold(f64::INFINITY, f64::min);
+        let needed = 2.0 - smallest.log10().floor();
+        (needed.max(0.0) as usize).clamp(least, least + 4)
+    }
+}
+
+/// Three metrics of every source, and under each what is published on it.
+pub(super) fn sources(analysis: &Analysis) -> String {
+    let mut table = Table::new(&["source", "metric", "x", "y", "z", "norm", ""]);
+    for errors in &analysis.budget.sources {
+        let source = &analysis.description.sources[errors.source];
+        let mut lines = Lines::default();
+        for (name, metric) in Metric::ALL {
+            let figures = of_source(errors, metric);
+            lines.figures(analysis, name, figures.map(Some));
+            if let Some(published) = analysis.published_of(source.name, metric) {
+                lines.published(analysis, figures, published);
+            }
+        }
+        let (class, distribution) = json::class(source.class);
+        let class = distribution.map_or(class.to_owned(), |distribution| format!("{class}, {distribution}"));
+        lines.cells[0] = vec![source.name.to_owned(), class];
+        table.row(lines.joined());
+    }
+    table.right(&[2, 3, 4, 5]).unwrapped(&[1, 6]).to_string()
+}
+
+/// The configuration where each source is worst.
+pub(super) fn worst(analysis: &Analysis) -> String {
+    let tolerance = analysis.study.tolerance;
+    let mut header = vec!["source", "norm", "at (the rest as at home)"];
+    if tolerance.is_some() {
+        header.insert(2, "of tolerance");
+    }
+    let mut table = Table::new(&header);
+    let sources = analysis.budget.sources.iter().map(|errors| {
+        let name = analysis.description.sources[errors.source].name;
+        (name, errors.plain_max.norm, errors.worst)
+    });
+    let radius = analysis.budget.combined.radius;
+    for (name, norm, worst) in sources.chain([("all together", radius.value, radius.configuration)]) {
+        let at = analysis
+            .configuration(worst)
+            .filter(|_| norm > 0.0)
+            .map(|worst| number::configuration(worst, &analysis.workspace.home, &analysis.description))
+            .map(|at| unbroken(&at));
+        let mut cells = vec![name.to_owned(), fixed(norm, analysis.decimals()), at.unwrap_or_default()];
+        if let Some(tolerance) = tolerance {
+            cells.insert(2, percent(norm, tolerance));
+        }
+        table.row(cells);
+    }
+    table.right(if tolerance.is_some() { &[1, 2] } else { &[1] }).to_string()
+}
+
+pub(super) fn combined(analysis: &Analysis) -> String {
+    let mut table = Table::new(&["", "x", "y", "z", "norm", ""]);
+    let names = [
+        (CombinedFigure::Repeatable, "repeatable: sum, with signs"),
+        (CombinedFigure::Random, "random: root sum of squares"),
+        (CombinedFigure::Both, "radius: both norms, added"),
+    ];
+    for (figure, name) in names {
+        let ([x, y, z], norm) = analysis.combined(figure);
+        let mut lines = Lines::default();
+        lines.figures(analysis, name, [x, y, z, Some(norm)]);
+        if let Some(published) = analysis.published_combined(figure) {
+            lines.published(analysis, [0.0, 0.0, 0.0, norm], published);
+        }
+        table.row(lines.joined().split_off(1));
+    }
+    table.right(&[1, 2, 3, 4]).unwrapped(&[0, 5]).to_string()
+}
+
+/// The lines of one row of a table, cell by cell: name, metric, x, y, z, norm, verdict.
+#[derive(Default)]
+struct Lines {
+    cells: [Vec<String>; 7],
+}
+
+impl Lines {
+    fn push(&mut self, line: [String; 6]) {
+        for (cell, text) in self.cells[1..].iter_mut().zip(line) {
+            cell.push(text);
+        }
+    }
+
+    fn figures(&mut self, analysis: &Analysis, name: &str, figures: [Option<f64>; 4]) {
+        let decimals = analysis.decimals();
+        let [x, y, z, norm] =
+            figures.map(|figure| figure.map_or_else(String::new, |value| fixed(value, decimals)));
+        self.push([name.to_owned(), x, y, z, norm, String::new()]);
+    }
+
+    fn published(&mut self, analysis: &Analysis, found: [f64; 4], published: &Published) {
+        let [x, y, z, norm] = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+        let verdict = Agreement::of(found, published).text(analysis);
+        self.push([format!("  {}", analysis.publisher()), x, y, z, norm, verdict]);
+    }
+
+    fn joined(self) -> Vec<String> {
+        self.cells.map(|lines| lines.join("\n")).into()
+    }
+}

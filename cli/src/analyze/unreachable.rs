@@ -1,0 +1,73 @@
+//! What of the workspace could not be reached, and why.
+
+use abbe::Description;
+use abbe::analysis::{Unreachable, Unreached, Workspace};
+use serde::Serialize;
+
+use crate::number;
+
+/// How many are shown one by one.
+const SHOWN: usize = 3;
+
+/// A reason, and how often it occurs.
+#[derive(Serialize)]
+pub(super) struct Reason {
+    reason: String,
+    count: usize,
+}
+
+/// The reasons, the most frequent first.
+pub(super) fn reasons(workspace: &Workspace, description: &Description) -> Vec<Reason> {
+    let mut counted: Vec<Reason> = Vec::new();
+    for unreachable in &workspace.unreachable {
+        let reason = match &unreachable.reason {
+            Unreached::OutOfReach { .. } => "out of reach".to_owned(),
+            Unreached::OutsideLimits { variable, .. } => {
+                format!("{} outside its limits", description.variables[*variable].name)
+            }
+            Unreached::Evaluation(error) => error.to_string(),
+        };
+        match counted.iter_mut().find(|known| known.reason == reason) {
+            Some(known) => known.count += 1,
+            None => counted.push(Reason { reason, count: 1 }),
+        }
+    }
+    counted.sort_by_key(|reason| std::cmp::Reverse(reason.count));
+    counted
+}
+
+/// The reasons in a sentence.
+pub(super) fn summary(workspace: &Workspace, description: &Description) -> String {
+    let reasons = reasons(workspace, description);
+    reasons.iter().map(|r| format!("{} ({})", r.reason, r.count)).collect::<Vec<_>>().join(", ")
+}
+
+/// The first few: what was asked for, and why it could not be had.
+pub(super) fn first_few(workspace: &Workspace, description: &Description) -> Vec<String> {
+    let shown = workspace.unreachable.iter().take(SHOWN).map(|unreachable| {
+        let asked = number::configuration(&unreachable.asked, &workspace.home, description);
+        format!("{asked}: {}", reason(unreachable, description))
+    });
+    shown.collect()
+}
+
+/// Why it could not be had, with names and units.
+pub(super) fn reason(unreachable: &Unreachable, description: &Description) -> String {
+    match unreachable.reason {
+        Unreached::OutOfReach { residual, .. } => {
+            format!("out of reach, at best {} away", number::length(residual, description.length))
+        }
+        Unreached::OutsideLimits { variable, value, limits: [lower, upper] } => {
+            let variable = &description.variables[variable];
+            let show = |value| number::of_variable(value, variable.kind, description.length);
+            let name = variable.name;
+            format!(
+                "{name} would have to be {}, its limits are {} … {}",
+                show(value),
+                show(lower),
+                show(upper)
+            )
+        }
+        Unreached::Evaluation(error) => error.to_string(),
+    }
+}

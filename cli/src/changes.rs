@@ -1,0 +1,130 @@
+//! What differs from the spec in one run: values of parameters and inputs, sources switched on and off.
+
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, Span};
+use abbe_codegen::document::Document;
+use abbe_codegen::expr::{Dimension, Symbol, find_name, parse_value};
+use abbe_codegen::spec::Spec;
+
+use crate::arguments;
+use crate::number;
+
+/// Changes to a spec, in the order in which they are made.
+#[derive(Debug, Default)]
+pub(crate) struct Changes {
+    values: Vec<(Symbol, f64)>,
+    /// Indices of sources, and whether they are to take part.
+    switches: Vec<(usize, bool)>,
+}
+
+impl Changes {
+    /// Reads `--set`, `--enable` and `--disable`.
+    pub(crate) fn from_arguments(arguments: &arguments::Changes, spec: &Spec) -> Result<Self, Diagnostics> {
+        let arguments::Changes { set, enable, disable } = arguments;
+        let mut changes = Self::default();
+        each_line("--set", set, |document, span| {
+            let line = document.text[span.clone()].to_owned();
+            let Some((name, _)) = line.split_once('=') else {
+                let mistake = Diagnostic::new(span, "expected NAME=VALUE").help("write `--set x=250mm`");
+                return document.mistake(mistake);
+            };
+            let value = span.start + name.len() + 1..span.end;
+            let named = span.start..span.start + name.len();
+            let Some((symbol, dimension)) = find_symbol(document, named, name.trim(), spec) else { return };
+            let what = format!("the value of `{}`", name.trim());
+            if let Some(number) = parse_value(document, value.clone(), spec.length, dimension, &what) {
+                changes.set(document, value, spec, symbol, number);
+            }
+        })?;
+        for (option, names, on) in [("--enable", enable, true), ("--disable", disable, false)] {
+            each_line(option, names, |document, span| {
+                let name = document.text[span.clone()].to_owned();
+                changes.switch(document, span, &name, spec, on);
+            })?;
+        }
+        Ok(changes)
+    }
+
+    /// Sets a parameter or input, if the value is within its range.
+    pub(crate) fn set(
+        &mut self,
+        document: &mut Document,
+        span: Span,
+        spec: &Spec,
+        symbol: Symbol,
+        value: f64,
+    ) {
+        if let Symbol::Input(input) = symbol {
+            let input = &spec.inputs[input];
+            let [lower, upper] = input.range;
+            if !(lower..=upper).contains(&value) {
+                let message = format!("`{}` is outside its range", input.name);
+                let label = format!("this is {}", number::quantity(value, &input.unit));
+                let range = format!("{} … {}", number::short(lower), number::quantity(upper, &input.unit));
+                document
+                    .mistake(Diagnostic::new(span, message).label(label).help(format!("its range: {range}")));
+                return;
+            }
+        }
+        self.values.push((symbol, value));
+    }
+
+    /// Switches a source on or off.
+    pub(crate) fn switch(&mut self, document: &mut Document, span: Span, name: &str, spec: &Spec, on: bool) {
+        let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
+        let found = find_name(document, span, name, &names, "source");
+        self.switches.extend(found.map(|source| (source, on)));
+    }
+
+    /// Makes the changes: what is set becomes nominal.
+    pub(crate) fn apply(&self, spec: &mut Spec) {
+        for &(symbol, value) in &self.values {
+            match symbol {
+                Symbol::Parameter(i) => spec.parameters[i].value = value,
+                Symbol::Input(i) => spec.inputs[i].value = value,
+                Symbol::Variable(_) | Symbol::Error(_) => {}
+            }
+        }
+        for &(source, on) in &self.switches {
+            spec.sources[source].enabled = on;
+        }
+    }
+}
+
+/// The parameter or input of that name.
+pub(crate) fn find_symbol(
+    document: &mut Document,
+    span: Span,
+    name: &str,
+    spec: &Spec,
+) -> Option<(Symbol, Dimension)> {
+    if spec.variables.iter().any(|variable| variable.name == name) {
+        let message = format!("`{name}` is a joint variable, not a parameter or input");
+        let help = "a workspace moves joint variables; `abbe jacobian` takes them with `--q`";
+        document.mistake(Diagnostic::new(span, message).help(help));
+        return None;
+    }
+    let parameters = spec.parameters.iter().enumerate();
+    let parameters = parameters.map(|(i, p)| (p.name.as_str(), Symbol::Parameter(i), p.dimension));
+    let inputs =
+        spec.inputs.iter().enumerate().map(|(i, u)| (u.name.as_str(), Symbol::Input(i), u.dimension));
+    let all = parameters.chain(inputs).collect::<Vec<_>>();
+    let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
+    let found = find_name(document, span, name, &names, "parameter or input")?;
+    let (_, symbol, dimension) = all[found];
+    Some((symbol, dimension))
+}
+
+/// Reads every use of an option, as the lines of one document: all mistakes come at once.
+fn each_line(
+    option: &str,
+    values: &[String],
+    mut read: impl FnMut(&mut Document, Span),
+) -> Result<(), Diagnostics> {
+    let mut document = Document::new(option, values.join("\n"));
+    let mut start = 0;
+    for value in values {
+        read(&mut document, start..start + value.len());
+        start += value.len() + 1;
+    }
+    document.finish(Some(()))
+}

@@ -1,0 +1,112 @@
+//! Numbers as people read them.
+
+use abbe::analysis::Configuration;
+use abbe::{Description, LengthUnit, VariableKind};
+use serde::{Serialize, Serializer};
+
+/// A number with this many decimals, nothing plain 0; a large one in powers of ten.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        f64::INFINITY => "∞".to_owned(),
+        f64::NEG_INFINITY => "-∞".to_owned(),
+        _ if value.abs() >= 1e7 => format!("{value:.3e}"),
+        _ => {
+            let text = format!("{value:.decimals$}");
+            let nothing = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+            if nothing { text.trim_start_matches('-').to_owned() } else { text }
+        }
+    }
+}
+
+/// A number to seven digits, without those that say nothing.
+pub(crate) fn short(value: f64) -> String {
+    if value.is_infinite() {
+        return fixed(value, 0);
+    }
+    let value = format!("{value:.6e}").parse().unwrap_or(value);
+    if value == 0.0 || (1e-5..1e7).contains(&f64::abs(value)) {
+        format!("{}", value + 0.0)
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// A number with its unit, if it has one.
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
+    format!("{} {unit}", short(value)).trim_end().to_owned()
+}
+
+/// How many decimals an error has in a table: tenths of a micrometre.
+pub(crate) fn error_decimals(length: LengthUnit) -> usize {
+    match length {
+        LengthUnit::Metre => 7,
+        LengthUnit::Millimetre => 4,
+    }
+}
+
+/// A length in a sentence: tenths of a micrometre, without zeros at the end.
+pub(crate) fn length(value: f64, unit: LengthUnit) -> String {
+    let text = trimmed(value, error_decimals(unit));
+    format!("{text} {}", unit.symbol())
+}
+
+/// The value of a variable: degrees, or a length.
+pub(crate) fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> String {
+    match kind {
+        VariableKind::Revolute => format!("{}°", trimmed(value.to_degrees(), 4)),
+        VariableKind::Prismatic => length(value, unit),
+    }
+}
+
+/// The value of every variable: `d1 = 1128 mm, q4 = 0°`.
+pub(crate) fn variables(q: &[f64], description: &Description) -> String {
+    let values = description.variables.iter().zip(q);
+    let values = values.map(|(variable, value)| {
+        format!("{} = {}", variable.name, of_variable(*value, variable.kind, description.length))
+    });
+    let all = values.collect::<Vec<_>>();
+    if all.is_empty() { "no joints".to_owned() } else { all.join(", ") }
+}
+
+/// What is not at home and not nominal: `d1 = 38 mm, q4 = -90°, z = 1100 mm`.
+pub(crate) fn configuration(
+    configuration: &Configuration,
+    home: &Configuration,
+    description: &Description,
+) -> String {
+    let variables = description.variables.iter().zip(configuration.q.iter().zip(&home.q));
+    let variables = variables.filter(|(_, (value, home))| value != home).map(|(variable, (value, _))| {
+        format!("{} = {}", variable.name, of_variable(*value, variable.kind, description.length))
+    });
+    let parameters = description.parameters.iter().zip(configuration.s.iter().zip(&home.s));
+    let parameters = parameters
+        .filter(|(_, (value, home))| value != home)
+        .map(|(parameter, (value, _))| format!("{} = {}", parameter.name, quantity(*value, parameter.unit)));
+    let all = variables.chain(parameters).collect::<Vec<_>>();
+    if all.is_empty() { "home".to_owned() } else { all.join(", ") }
+}
+
+/// A share in whole percent.
+pub(crate) fn percent(value: f64, of: f64) -> String {
+    format!("{:.0} %", 100.0 * value / of)
+}
+
+/// A number with at most this many decimals.
+pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    if !text.contains('.') || text.contains('e') {
+        return text;
+    }
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Named numbers, in JSON an object in this order.
+#[derive(Debug)]
+pub(crate) struct Named(pub(crate) Vec<(String, f64)>);
+
+impl Serialize for Named {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}

@@ -1,0 +1,136 @@
+//! The figures that somebody printed, to stand beside ours.
+
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item, Section};
+use abbe_codegen::expr::{Dimension, find_name};
+use abbe_codegen::spec::Spec;
+
+use super::read::{constant, positive_length};
+
+/// What a figure of a single source is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Metric {
+    PlainMaximum,
+    HalfPeakToPeak,
+    RelativeToHome,
+}
+
+impl Metric {
+    /// All of them, with their names.
+    pub(crate) const ALL: [(&'static str, Self); 3] = [
+        ("plain maximum", Self::PlainMaximum),
+        ("half peak-to-peak", Self::HalfPeakToPeak),
+        ("relative to home", Self::RelativeToHome),
+    ];
+}
+
+/// What a figure of all sources together is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CombinedFigure {
+    Repeatable,
+    Random,
+    Both,
+}
+
+impl CombinedFigure {
+    /// All of them, with their names.
+    pub(crate) const ALL: [(&'static str, Self); 3] =
+        [("repeatable radius", Self::Repeatable), ("random radius", Self::Random), ("radius", Self::Both)];
+}
+
+/// What a figure is about.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Subject {
+    /// One source alone, in one metric.
+    Source(String, Metric),
+    /// All sources together.
+    Combined(CombinedFigure),
+}
+
+/// Printed figures.
+#[derive(Debug)]
+pub(crate) struct Published {
+    pub(crate) subject: Subject,
+    /// Along x, y, z and of the norm, as far as they are printed.
+    pub(crate) figures: [Option<f64>; 4],
+    /// How near is equal: half a unit of the last printed digit.
+    pub(crate) within: f64,
+    pub(crate) reference: String,
+}
+
+/// What is left after compensation, as printed.
+#[derive(Debug)]
+pub(crate) struct Compensated {
+    /// What compensation leaves of the repeatable errors.
+    pub(crate) residual: f64,
+    pub(crate) random: f64,
+    pub(crate) total: f64,
+    pub(crate) reference: String,
+}
+
+/// Every `[[published]]`.
+pub(super) fn read_published(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Vec<Published> {
+    let items = root.get("published").and_then(|item| document.array(&item, "tables, each a [[published]]"));
+    let mut read: Vec<Published> = Vec::new();
+    for item in items.into_iter().flatten() {
+        let Some(mut section) = document.section(&item) else { continue };
+        section.span = item.span();
+        section.name = "a [[published]]".to_owned();
+        let Some(published) = read_one(&section, document, spec) else { continue };
+        if read.iter().any(|other| other.subject == published.subject) {
+            let message = "this figure is published twice";
+            document.mistake(Diagnostic::new(item.span(), message).help("keep one of them"));
+        }
+        read.push(published);
+    }
+    read
+}
+
+fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Published> {
+    let subject = match (section.get("source"), section.get("combined")) {
+        (Some(source), None) => {
+            section.check_keys(&["source", "metric", "x", "y", "z", "norm", "within", "reference"], document);
+            let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
+            let name = document.string(&source);
+            let known =
+                name.filter(|name| find_name(document, source.span(), name, &names, "source").is_some());
+            let metric = section.required("metric", document);
+            let metric = metric.and_then(|item| document.choice(&item, &Metric::ALL));
+            known.zip(metric).map(|(name, metric)| Subject::Source(name, metric))
+        }
+        (None, Some(combined)) => {
+            section.check_keys(&["combined", "norm", "within", "reference"], document);
+            document.choice(&combined, &CombinedFigure::ALL).map(Subject::Combined)
+        }
+        _ => {
+            document.mistake(
+                Diagnostic::new(section.span.clone(), "a published figure is of one source, or combined")
+                    .label("of what?")
+                    .help("give either `source` and `metric`, or `combined`"),
+            );
+            None
+        }
+    };
+    let mut figure = |key: &str| {
+        let item = section.get(key)?;
+        constant(&item, document, spec, Dimension::LENGTH, &format!("the figure `{key}`"))
+    };
+    let figures = ["x", "y", "z", "norm"].map(&mut figure);
+    let within = section.required("within", document);
+    let within = within.and_then(|item| positive_length(&item, document, spec));
+    let reference = section.optional_text("reference", document);
+    Some(Published { subject: subject?, figures, within: within?, reference })
+}
+
+/// `[compensated]`.
+pub(super) fn read_compensated(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Compensated> {
+    let section = document.section(item)?;
+    section.check_keys(&["residual", "random", "total", "reference"], document);
+    let mut length = |key: &str| {
+        let item = section.required(key, document)?;
+        positive_length(&item, document, spec)
+    };
+    let (residual, random, total) = (length("residual"), length("random"), length("total"));
+    let reference = section.optional_text("reference", document);
+    Some(Compensated { residual: residual?, random: random?, total: total?, reference })
+}

@@ -1,0 +1,114 @@
+//! Reads a study file from top to bottom.
+
+use std::sync::Arc;
+
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
+use abbe_codegen::document::{Document, Item, Section};
+use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope};
+use abbe_codegen::spec::Spec;
+
+use super::Study;
+use super::published::{read_compensated, read_published};
+use super::region::Region;
+use crate::changes::{Changes, find_symbol};
+
+const HEAD: [&str; 9] = [
+    "title",
+    "description",
+    "reference",
+    "publisher",
+    "tolerance",
+    "set",
+    "enable",
+    "disable",
+    "not_reproducible",
+];
+
+impl Study {
+    /// Reads and checks a study of the manipulator of that spec.
+    pub(super) fn read(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
+        let text = Arc::clone(&document.text);
+        let tables = document.tables(&text);
+        let study = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
+        document.finish(study)
+    }
+}
+
+fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Study> {
+    root.check_keys(&["study", "workspace", "published", "compensated"], document);
+    let head = root.required("study", document).and_then(|item| document.section(&item));
+    let region = root.required("workspace", document).and_then(|item| Region::read(&item, document, spec));
+    let published = read_published(root, document, spec);
+    let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document, spec));
+    let mut head = head?;
+    head.name = "[study]".to_owned();
+    head.check_keys(&HEAD, document);
+    let title = head.required("title", document).and_then(|item| document.string(&item));
+    Some(Study {
+        publisher: head.optional_text("publisher", document),
+        tolerance: head.get("tolerance").and_then(|item| positive_length(&item, document, spec)),
+        changes: read_changes(&head, document, spec),
+        not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item, document)),
+        title: title?,
+        region: region?,
+        published,
+        compensated,
+    })
+}
+
+fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec) -> Changes {
+    let mut changes = Changes::default();
+    if let Some(section) = head.get("set").and_then(|item| document.section(&item)) {
+        for item in section.items() {
+            let symbol = find_symbol(document, item.key_span.clone(), &item.key, spec);
+            let Some((symbol, dimension)) = symbol else { continue };
+            let what = format!("the value of `{}`", item.key);
+            if let Some(value) = constant(&item, document, spec, dimension, &what) {
+                changes.set(document, item.span(), spec, symbol, value);
+            }
+        }
+    }
+    for (key, on) in [("enable", true), ("disable", false)] {
+        let items = head.get(key).and_then(|item| document.array(&item, "a list of names of sources"));
+        for item in items.into_iter().flatten() {
+            if let Some(name) = document.string(&item) {
+                changes.switch(document, item.span(), &name, spec, on);
+            }
+        }
+    }
+    changes
+}
+
+/// Texts, each in one line.
+fn texts(item: &Item<'_>, document: &mut Document) -> Vec<String> {
+    let items = document.array(item, "a list of texts").unwrap_or_default();
+    let texts = items.iter().filter_map(|item| document.string(item));
+    texts.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
+}
+
+/// A constant in the coherent system of the spec.
+pub(super) fn constant(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+    what: &str,
+) -> Option<f64> {
+    let scope = Scope { length: spec.length, names: Default::default() };
+    let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
+    document.constant(item, &scope, entry).map(|(value, _)| value)
+}
+
+/// A length that is more than zero.
+pub(super) fn positive_length(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<f64> {
+    let value = constant(item, document, spec, Dimension::LENGTH, &format!("`{}`", item.key))?;
+    if value > 0.0 {
+        return Some(value);
+    }
+    document.mistake(
+        Diagnostic::new(item.span(), format!("`{}` must be more than zero", item.key))
+            .label("this is not")
+            .help("leave it out if there is none"),
+    );
+    None
+}

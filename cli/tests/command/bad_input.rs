@@ -1,0 +1,145 @@
+//! Bad usage and bad input: exit status 2, nothing on stdout, and a message that helps.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::tempdir;
+
+use crate::running::{abbe, write};
+
+fn refused<S: AsRef<std::ffi::OsStr> + std::fmt::Debug>(arguments: &[S], expected: &[&str]) {
+    let run = abbe(arguments);
+    assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{arguments:?}\n{}", run.stderr);
+    for expected in expected {
+        assert!(run.stderr.contains(expected), "{arguments:?}: {expected}\n{}", run.stderr);
+    }
+    assert!(!run.stderr.contains('\u{1b}'), "no colours where nobody watches");
+}
+
+#[test]
+fn specs_that_are_not_there() {
+    refused(
+        &["analyze", "ppps"],
+        &["no shipped manipulator `ppps`", "did you mean `pps`?", "`puma560`, `scara`"],
+    );
+    refused(&["check", ""], &["no shipped manipulator"]);
+    refused(&["check", "nowhere/pps.toml"], &["cannot read this file", "nowhere/pps.toml"]);
+    refused(&["check", "pps.toml"], &["cannot read this file", "pps.toml"]);
+    let folder = tempdir().unwrap();
+    refused(&["jacobian", folder.path().to_str().unwrap()], &["this is a directory, not a file"]);
+    let binary = folder.path().join("noise.toml");
+    fs::write(&binary, [0xff, 0x00, 0xfe]).unwrap();
+    refused(&["generate", binary.to_str().unwrap()], &["not UTF-8"]);
+}
+
+#[test]
+fn values_of_joints() {
+    let q = |value: &str, expected: &[&str]| refused(&["jacobian", "pps", "--q", value], expected);
+    q("1,2,3,4,5", &["6 joint variables are needed, 5 are given", "in this order: d1,d2,d3,q4,q5,q6"]);
+    q("", &["6 joint variables are needed, 0 are given"]);
+    q("1,2,3,4,5,6,7", &["7 are given"]);
+    q("90deg,0,0,0,0,0", &["the value of `d1` must be a length, not a pure number", "--q:1:1"]);
+    q("0,0,0,3mm,0,0", &["the value of `q4` must be a pure number, not a length", "--q:1:7"]);
+    q("0,0,0,90degg,0,0", &["`degg` is neither a unit nor a function", "did you mean `deg`?", "--q:1:9"]);
+    q("0,0,,0,0,0", &["the value of `d3` is missing"]);
+    q("nan,inf,0,0,0,0", &["`nan` is neither", "`inf` is neither"]);
+    q("1e999,1e308m,1/0,0,0,0", &["too large for a number", "`d2` is too large", "division by zero"]);
+    q("d1,((0,0,0,0", &["5 are given"].map(|_| "joint variables are needed"));
+    q("0,0,0,0,(0,0)", &["joint variables are needed"]);
+    q("é,0,0,0,0,0°", &["`é` is neither", "--q:1:12"]);
+    q("0,0,0,0,90deg,0", &["Euler angles are singular", "rotation-vector"]);
+}
+
+#[test]
+fn names_and_values_to_set() {
+    let set = |value: &str, expected: &[&str]| refused(&["analyze", "machine3", "--set", value], expected);
+    set("tool_lenght=1", &["no parameter or input `tool_lenght`", "did you mean `tool_length`?"]);
+    set("tool_length", &["expected NAME=VALUE"]);
+    set("tool_length=", &["the value of `tool_length` is missing"]);
+    set("tool_length=3K", &["must be a length, not a temperature"]);
+    set("temperature_rise=5", &["must be a temperature, not a pure number"]);
+    set("temperature_rise=16K", &["outside its range", "-15 … 15 K"]);
+    set("x=3", &["`x` is a joint variable"]);
+    refused(&["analyze", "pps", "--set", "a=1", "--set", "b=2"], &["--set:1:1", "--set:2:1"]);
+    refused(&["analyze", "pps", "--disable", "spin"], &["no source `spin`", "did you mean `spin encoder`?"]);
+    refused(&["jacobian", "scara", "--enable", "x\ny"], &["no source `x\\ny`"]);
+}
+
+#[test]
+fn usage() {
+    refused(&["frobnicate"], &["unrecognized subcommand"]);
+    refused(&["check"], &["Usage: abbe check"]);
+    refused(&["generate", "pps", "--lang", "c"], &["invalid value 'c'", "rust"]);
+    refused(&["analyze", "pps", "--outt", "x"], &["--out"]);
+}
+
+#[test]
+fn places_to_write_to() {
+    let folder = tempdir().unwrap();
+    let file = write(folder.path(), "file", "in the way");
+    let path = |path: &Path| path.to_str().unwrap().to_owned();
+    refused(&["analyze", "pps", "--out", &path(&file)], &["this is a file, not a folder"]);
+    refused(&["analyze", "pps", "--out", &path(&file.join("under"))], &["cannot write this"]);
+    refused(&["generate", "pps", "--out", &path(folder.path())], &["this is a folder, not a file"]);
+    refused(&["generate", "pps", "--out", &path(&folder.path().join("no/where.rs"))], &["cannot write this"]);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "in the way");
+
+    let blocked = folder.path().join("blocked");
+    fs::create_dir_all(blocked.join("sources.csv")).unwrap();
+    refused(&["analyze", "pps", "--out", &path(&blocked)], &["sources.csv"]);
+    assert_eq!(fs::read_dir(&blocked).unwrap().count(), 1, "no partial file is left");
+}
+
+/// A study of the patient positioning system with some lines after its head.
+fn study(lines: &str, expected: &[&str]) {
+    let folder = tempdir().unwrap();
+    let path = write(folder.path(), "study.toml", &format!("[study]\ntitle = \"Bad\"\n{lines}\n"));
+    refused(&["analyze", "pps", "--study", path.to_str().unwrap()], expected);
+}
+
+#[test]
+fn studies() {
+    study("", &["`workspace` is missing"]);
+    study("tolernace = 1", &["no key `tolernace`", "did you mean `tolerance`?", "study.toml:3:1"]);
+    study("tolerance = 0\n[workspace.joints]\nsamples = 1", &["must be more than zero", "study.toml:3:13"]);
+    study("tolerance = \"1 deg\"\n[workspace.joints]\nsamples = 1", &["must be a length"]);
+    study("[workspace]", &["a workspace has one form"]);
+    study("[workspace]\njoints = 1\ngrid = 2", &["a workspace has one form"]);
+    study("[workspace.joints]\nsamples = 0", &["whole number from 1 to"]);
+    study("[workspace.joints]\nsamples = 1e99", &["whole number from 1 to"]);
+    study("[workspace.joints]\nsamples = 5\nmoved = [\"d7\"]", &["no variable `d7`"]);
+    study("[workspace.grid]\nq7 = [0]", &["no variable `q7`", "`q6`"]);
+    study("[workspace.grid]\nd1 = []", &["`d1` has no values"]);
+    study("[workspace.grid]\nd1 = [\"1 deg\"]", &["a value of `d1` must be a length"]);
+    study("[workspace.grid]\nd1 = { from = 0, to = 10 }", &["either `count` or `step`"]);
+    study("[workspace.grid]\nd1 = { from = 0, to = 10, step = 3 }", &["does not end at `to`"]);
+    study("[workspace.grid]\nd1 = { from = 0, to = 10, step = -1 }", &["more than zero"]);
+    study("[workspace.grid]\nd1 = { from = 0, to = 1, step = 1e-99 }", &["more than 10000000 values"]);
+    let axes =
+        ["d1", "d2", "d3"].map(|name| format!("{name} = {{ from = 0, to = 1, count = 10000 }}\n")).concat();
+    study(&format!("[workspace.grid]\n{axes}"), &["more than 10000000 configurations"]);
+    study(
+        "[workspace.presented]\npoint = [0, 0]\nsolve = [\"d1\", \"d1\"]\ntool_points = { w = [1] }",
+        &["expected 3 entries, found 2", "`d1` stands here twice", "no parameter `w`"],
+    );
+    study(
+        "[workspace.presented]\npoint = [0, 0, 0]\nsolve = [\"d1\"]\napproaches = { d1 = [1] }",
+        &["`d1` cannot be held and solved for"],
+    );
+    let joints = "[workspace.joints]\nsamples = 1\n";
+    study(
+        &format!("{joints}[[published]]\nsource = \"rail\"\nmetric = \"largest\""),
+        &["no source `rail`", "`metric` cannot be `largest`", "`within` is missing"],
+    );
+    study(&format!("{joints}[[published]]\nx = 1\nwithin = 1"), &["give either `source` and `metric`"]);
+    study(&format!("{joints}[compensated]\nresidual = 1"), &["`random` is missing", "`total` is missing"]);
+    let folder = tempdir().unwrap();
+    refused(&["analyze", "pps", "--study", folder.path().to_str().unwrap()], &["this is a directory"]);
+    refused(&["analyze", "pps", "--study", "nowhere.toml"], &["cannot read this file"]);
+    // Another machine's study.
+    let path = write(folder.path(), "study.toml", include_str!("../../../manipulators/studies/pps.toml"));
+    refused(
+        &["analyze", "ur5", "--study", path.to_str().unwrap()],
+        &["no variable `d1`", "no source `arm deflection`"],
+    );
+}

@@ -1,0 +1,45 @@
+//! `abbe generate`: the code that the other doors give.
+
+use std::fs;
+
+use abbe_codegen::emit;
+use abbe_codegen::spec::Spec;
+use abbe_manipulators::SHIPPED;
+use tempfile::tempdir;
+
+use crate::running::{abbe, prints, write};
+
+#[test]
+fn shipped_names_and_files_give_the_same_code() {
+    let folder = tempdir().unwrap();
+    for shipped in SHIPPED {
+        let file = format!("{}.toml", shipped.name);
+        let path = write(folder.path(), &file, shipped.spec);
+        let code = prints(&["generate", path.to_str().unwrap(), "--lang", "rust"]);
+        assert_eq!(code, emit::rust(&Spec::read(&path).unwrap()));
+        assert_eq!(code, prints(&["generate", shipped.name]));
+    }
+}
+
+#[test]
+fn a_file_is_written_whole() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("arm.rs");
+    fs::write(&path, "what was there before").unwrap();
+    let run = abbe(&["generate", "puma560", "--out", path.to_str().unwrap()]);
+    assert_eq!((run.status, run.stdout.as_str()), (0, ""));
+    assert!(run.stderr.starts_with("wrote "));
+    assert_eq!(fs::read_to_string(&path).unwrap(), prints(&["generate", "puma560"]));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left there");
+}
+
+#[test]
+fn nothing_is_written_if_the_spec_is_wrong() {
+    let folder = tempdir().unwrap();
+    let spec = write(folder.path(), "bad.toml", "[manipulator]\nname = 5\n");
+    let out = folder.path().join("arm.rs");
+    let run = abbe(&["generate", spec.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("bad.toml:2:8"), "{}", run.stderr);
+    assert!(!out.exists());
+}

@@ -1,0 +1,9 @@
+//! The command as its users run it: the binary itself, its output, its exit status.
+
+mod analyze;
+mod bad_input;
+mod check;
+mod generate;
+mod jacobian;
+mod readme;
+mod running;

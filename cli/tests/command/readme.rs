@@ -1,0 +1,54 @@
+//! What the README says to do works: its spec, its commands; its code is that of the example crate.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::running::command;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The blocks of that language, without their fences.
+fn blocks(language: &str) -> Vec<String> {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let fenced = readme.split("```").skip(1).step_by(2);
+    let blocks =
+        fenced.filter_map(|block| block.strip_prefix(language)?.strip_prefix('\n')).map(str::to_owned);
+    blocks.collect()
+}
+
+fn example(file: &str) -> String {
+    fs::read_to_string(root().join("tests/examples/own-robot").join(file)).unwrap()
+}
+
+#[test]
+fn its_code_is_that_of_the_example() {
+    assert_eq!(blocks("toml")[0], example("specs/arm.toml"));
+    let code = blocks("rust,ignore");
+    assert_eq!(code[0], format!("// build.rs\n{}", example("build.rs")));
+    let main = code[1].strip_prefix("// src/main.rs\n").unwrap();
+    assert!(example("src/main.rs").starts_with(main));
+}
+
+#[test]
+fn its_commands_run() {
+    let folder = tempfile::tempdir().unwrap();
+    for sub in ["specs", "src"] {
+        fs::create_dir(folder.path().join(sub)).unwrap();
+    }
+    fs::write(folder.path().join("specs/arm.toml"), &blocks("toml")[0]).unwrap();
+    let lines: Vec<String> = blocks("text").concat().lines().map(str::to_owned).collect();
+    let mut commands: Vec<&str> = lines.iter().filter_map(|line| line.strip_prefix("abbe ")).collect();
+    let main_job = lines.iter().find_map(|line| line.strip_prefix("cargo run --release -- ")).unwrap();
+    let generate = "generate specs/arm.toml --lang rust --out src/arm.rs";
+    assert!(fs::read_to_string(root().join("README.md")).unwrap().contains(&format!("`abbe {generate}`")));
+    commands.extend([main_job, generate, "list"]);
+    assert!(commands.len() >= 6);
+    for line in commands {
+        let words: Vec<&str> = line.split('#').next().unwrap().split_whitespace().collect();
+        let output = command(&words).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert!(folder.path().join("src/arm.rs").exists());
+}

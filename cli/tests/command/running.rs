@@ -1,0 +1,106 @@
+//! Runs the binary.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+/// What a run gave.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Run {
+    pub(crate) status: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+/// The binary with these arguments; nothing of the environment decides what it prints.
+pub(crate) fn command<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_abbe"));
+    command.args(arguments).env_remove("NO_COLOR").stdin(Stdio::null());
+    command
+}
+
+pub(crate) fn abbe<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Run {
+    let Output { status, stdout, stderr } = command(arguments).output().expect("the binary starts");
+    let text = |bytes| String::from_utf8(bytes).expect("output is text");
+    let run =
+        Run { status: status.code().expect("no signal ends it"), stdout: text(stdout), stderr: text(stderr) };
+    assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
+    run
+}
+
+/// What it prints when all is well.
+pub(crate) fn prints<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> String {
+    let run = abbe(arguments);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    run.stdout
+}
+
+/// The JSON that it prints: finite numbers only, in one line.
+pub(crate) fn json<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Value {
+    let text = prints(arguments);
+    assert_eq!(text.lines().count(), 1);
+    for word in ["NaN", "nan", "Infinity", "inf", "-0.0,"] {
+        assert!(!text.contains(word), "{word}");
+    }
+    serde_json::from_str(&text).expect("this is JSON")
+}
+
+/// A text for a terminal of 100 columns.
+pub(crate) fn narrow(text: &str) {
+    let widest = text.lines().max_by_key(|line| line.chars().count()).unwrap_or_default();
+    assert!(widest.chars().count() <= 100, "{widest}");
+    assert!(text.ends_with('\n') && !text.contains(" \n"));
+    assert!(!text.contains(['\u{1b}', '\u{a0}']), "no colours, no spaces that are none");
+}
+
+/// A file in a folder.
+pub(crate) fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(&path, text).expect("the folder can be written to");
+    path
+}
+
+/// A shipped spec.
+pub(crate) fn shipped(name: &str) -> &'static str {
+    let shipped = abbe_manipulators::SHIPPED.iter().find(|shipped| shipped.name == name);
+    shipped.expect("this is shipped").spec
+}
+
+#[test]
+fn alone_it_says_what_it_can_do() {
+    let text = prints::<&str>(&[]);
+    for word in ["Usage: abbe", "analyze", "check", "generate", "jacobian", "list", "abbe analyze pps"] {
+        assert!(text.contains(word), "{word}");
+    }
+    assert_eq!(prints(&["--version"]), concat!("abbe ", env!("CARGO_PKG_VERSION"), "\n"));
+}
+
+#[test]
+fn every_shipped_manipulator_is_listed() {
+    let text = prints(&["list"]);
+    let listed = json(&["list", "--json"]);
+    assert_eq!(listed.as_array().map(Vec::len), Some(abbe_manipulators::SHIPPED.len()));
+    for shipped in abbe_manipulators::SHIPPED {
+        assert!(text.contains(shipped.name));
+    }
+    assert_eq!(listed[4]["joints"], "PPPRRR");
+}
+
+#[test]
+fn a_reader_who_has_seen_enough_is_no_failure() {
+    for arguments in
+        [&["analyze", "pps"][..], &["generate", "pps"], &["jacobian", "pps", "--json"], &["list"], &[]]
+    {
+        let mut child = command(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the binary starts");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+    }
+}
