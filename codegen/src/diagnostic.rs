@@ -65,7 +65,7 @@ impl Diagnostic {
 }
 
 /// All mistakes that one stage found in one file. Displays as plain text, one mistake after the other.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Diagnostics {
     /// The file's name as the user gave it.
     pub path: String,
@@ -76,6 +76,13 @@ pub struct Diagnostics {
 }
 
 impl std::error::Error for Diagnostics {}
+
+/// As displayed, so that an `unwrap` shows it as it is meant to be read.
+impl fmt::Debug for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\n{self}\n")
+    }
+}
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

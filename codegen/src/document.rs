@@ -278,10 +278,16 @@ pub struct Item<'d> {
     value: &'d Spanned<DeValue<'d>>,
 }
 
-impl Item<'_> {
+impl<'d> Item<'d> {
     /// Where the value stands.
     pub fn span(&self) -> Span {
         self.value.span()
+    }
+
+    /// The item of that key, if the value is a table that has it.
+    pub(crate) fn key_of_table(&self, key: &str) -> Option<Self> {
+        let (key, value) = self.value.get_ref().as_table()?.get_key_value(key)?;
+        Some(Self { key: key.get_ref().to_string(), key_span: key.span(), value })
     }
 
     /// Whether the value is a table.

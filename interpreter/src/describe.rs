@@ -4,6 +4,7 @@ use abbe::{
     Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter,
     Source, Variable, VariableKind,
 };
+use abbe_codegen::chain::Model;
 use abbe_codegen::expr;
 use abbe_codegen::spec::{self, Spec};
 
@@ -20,13 +21,11 @@ pub(crate) struct Described<'s> {
 }
 
 impl<'s> Described<'s> {
-    pub(crate) fn new(spec: &'s Spec) -> Self {
-        let effects = spec.enabled_sources().enumerate().flat_map(|(source, declared)| {
-            declared
-                .effects
-                .iter()
-                .map(move |effect| Effect::new(source, effect.frame, component(effect.component)))
-        });
+    pub(crate) fn new(spec: &'s Spec, model: &Model) -> Self {
+        let effects = model
+            .effects
+            .iter()
+            .map(|effect| Effect::new(effect.source, effect.frame, component(effect.component)));
         Self {
             spec,
             frames: spec.frames.iter().map(|frame| Frame::new(&frame.name, frame.variable)).collect(),

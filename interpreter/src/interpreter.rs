@@ -33,7 +33,7 @@ impl<'s> Interpreter<'s> {
         let symbols = [spec.variables.len(), spec.parameters.len(), spec.inputs.len()];
         let tape = |kind: FunctionKind| Tape::new(&kind.program(&model), symbols);
         Self {
-            described: Described::new(spec),
+            described: Described::new(spec, &model),
             euler: spec.orientation == Orientation::EulerYzx,
             transforms: tape(FunctionKind::Transforms),
             pose: tape(FunctionKind::Pose),

@@ -35,6 +35,16 @@ fn displacement(e: &[f64; 6]) -> Pose {
     spin.then(&roll).then(&pitch)
 }
 
+/// The six errors of a frame from those at another place on its link, exactly: `E_i = L E_M L⁻¹` (Figure 5).
+///
+/// `place` is `L`, the pose of that place as seen from the frame; `errors` are those at the place, in its axes.
+/// What generated code gives for a located source is this to first order.
+pub fn located(place: &Pose, errors: &[f64; 6]) -> [f64; 6] {
+    let displaced = place.then(&displacement(errors)).then(&place.inverse());
+    let ([x, y, z], [spin, roll, pitch]) = (displaced.position(), euler_yzx(&displaced));
+    [x, y, z, spin, roll, pitch]
+}
+
 /// `ΔX = X_real − X_ideal`, equation (5): the rows that `J_e ε` approximates.
 ///
 /// Rows 1–3 in the length of the poses, rows 4–6 in rad as `orientation` says. Euler differences are taken to

@@ -35,7 +35,7 @@ pub mod analysis;
 #[cfg(feature = "std")]
 pub mod laws;
 
-pub use chain::{chain, deviation, real_pose};
+pub use chain::{chain, deviation, located, real_pose};
 pub use component::Component;
 pub use description::{
     Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,

@@ -3,11 +3,12 @@
 use super::error_jacobian;
 use super::moments::Moments;
 use super::rows::Rows;
+use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
 use crate::expr::Symbol;
 use crate::graph::{Frame, Graph, Node};
-use crate::spec::{Class, Effect, Source, Spec};
+use crate::spec::{Source, Spec};
 
 /// A Jacobian: its columns, rows as the spec's orientation says.
 #[derive(Clone, Debug)]
@@ -36,7 +37,7 @@ pub struct Model {
     /// `∂X_T/∂s`: one column per parameter.
     pub parameter_jacobian: Jacobian,
     /// The effects of the enabled sources, source by source.
-    pub effects: Vec<Node>,
+    pub effects: Vec<EffectNode>,
     /// ε: the sum of the enabled repeatable sources, six per frame.
     pub generalized_errors: Vec<[Node; 6]>,
 }
@@ -76,7 +77,8 @@ impl Model {
 
         let factors = spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]);
         let transforms = factors.map(|factors| transform(g, factors)).collect();
-        let (effects, generalized_errors) = errors(g, spec);
+        let effects = sources::effects(g, spec, &frames);
+        let generalized_errors = sources::generalized_errors(g, spec, &effects);
         Self {
             graph,
             transforms,
@@ -103,28 +105,9 @@ fn name(graph: &mut Graph, frame: &Frame, index: &str) {
     }
 }
 
-fn errors(graph: &mut Graph, spec: &Spec) -> (Vec<Node>, Vec<[Node; 6]>) {
-    let mut effects = Vec::new();
-    let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
-    for (source, effect) in spec.enabled_effects() {
-        let value = graph.lower(&effect.value);
-        effects.push(value);
-        if source.class == Class::Repeatable {
-            let sum = &mut sums[effect.frame][effect.component as usize];
-            *sum = graph.add(*sum, value);
-        }
-    }
-    (effects, sums)
-}
-
 impl Spec {
     /// The sources that are switched on, in the order of the file.
     pub fn enabled_sources(&self) -> impl Iterator<Item = &Source> {
         self.sources.iter().filter(|source| source.enabled)
-    }
-
-    /// Their effects, source by source.
-    pub fn enabled_effects(&self) -> impl Iterator<Item = (&Source, &Effect)> {
-        self.enabled_sources().flat_map(|source| source.effects.iter().map(move |effect| (source, effect)))
     }
 }

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::literal::number;
 use super::text::escaped;
+use crate::chain::EffectNode;
 use crate::expr::LengthUnit;
 use crate::spec::{Class, Component, Distribution, Orientation, Spec, VariableKind};
 
@@ -37,14 +38,14 @@ pub(super) fn type_name(name: &str) -> String {
 }
 
 /// The counts, and [`DESCRIPTION`] with every name, unit and limit.
-pub(super) fn description(spec: &Spec) -> TokenStream {
+pub(super) fn description(spec: &Spec, effects: &[EffectNode]) -> TokenStream {
     let counts = [
         ("FRAMES", spec.frames.len(), "How many frames there are: n."),
         ("ERRORS", 6 * spec.frames.len(), "How many generalized errors there are: 6n, the length of ε."),
         ("VARIABLES", spec.variables.len(), "How many joint variables there are: the length of `q`."),
         ("PARAMETERS", spec.parameters.len(), "How many structural parameters there are: the length of `s`."),
         ("INPUTS", spec.inputs.len(), "How many inputs there are: the length of `u`."),
-        ("EFFECTS", spec.enabled_effects().count(), "How many errors the sources cause."),
+        ("EFFECTS", effects.len(), "How many errors the sources cause."),
     ];
     let counts = counts.map(|(name, count, doc)| {
         let (name, doc) = (format_ident!("{name}"), format!(" {doc}"));
@@ -98,12 +99,10 @@ pub(super) fn description(spec: &Spec) -> TokenStream {
         let (name, reference) = (&source.name, &source.reference);
         quote!(Source::new(#name, #class, #reference))
     });
-    let effects = spec.enabled_sources().enumerate().flat_map(|(index, source)| {
-        source.effects.iter().map(move |effect| {
-            let [source, frame] = [index, effect.frame].map(proc_macro2::Literal::usize_unsuffixed);
-            let component = component(effect.component);
-            quote!(Effect::new(#source, #frame, #component))
-        })
+    let effects = effects.iter().map(|effect| {
+        let [source, frame] = [effect.source, effect.frame].map(proc_macro2::Literal::usize_unsuffixed);
+        let component = component(effect.component);
+        quote!(Effect::new(#source, #frame, #component))
     });
     quote! {
         #(#counts)*

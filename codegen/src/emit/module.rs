@@ -25,9 +25,9 @@ pub fn rust_tokens(spec: &Spec) -> TokenStream {
     let raw = functions.iter().map(|(kind, program)| raw_function(spec, *kind, program));
     let name = format_ident!("{}", spec.name);
     let (description, named_values, face) =
-        (face::description(spec), face::named_values(spec), face::checked(spec));
+        (face::description(spec, &model.effects), face::named_values(spec), face::checked(spec));
     let allowed = allowed_lints(spec, &functions);
-    let imports = imports(spec);
+    let imports = imports(spec, &model);
     quote! {
         #(#[doc = #documentation])*
         #(#allowed)*
@@ -80,7 +80,7 @@ fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<Toke
     allowed
 }
 
-fn imports(spec: &Spec) -> Vec<TokenStream> {
+fn imports(spec: &Spec, model: &Model) -> Vec<TokenStream> {
     let mut names = vec!["Description", "Frame", "LengthUnit", "Orientation"];
     if !spec.variables.is_empty() {
         names.extend(["Variable", "VariableKind"]);
@@ -97,7 +97,7 @@ fn imports(spec: &Spec) -> Vec<TokenStream> {
     if spec.enabled_sources().any(|source| source.class != Class::Repeatable) {
         names.push("Distribution");
     }
-    if spec.enabled_effects().next().is_some() {
+    if !model.effects.is_empty() {
         names.extend(["Component", "Effect"]);
     }
     names.sort_unstable();

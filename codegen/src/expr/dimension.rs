@@ -22,6 +22,12 @@ impl Dimension {
     pub const TEMPERATURE: Self = Self { halves: [0, 0, 0, 2] };
     /// A force.
     pub const FORCE: Self = Self { halves: [2, 2, -4, 0] };
+    /// A moment.
+    pub const MOMENT: Self = Self { halves: [4, 2, -4, 0] };
+    /// A bending or torsional stiffness: force times area.
+    pub const FORCE_TIMES_AREA: Self = Self { halves: [6, 2, -4, 0] };
+    /// An acceleration.
+    pub const ACCELERATION: Self = Self { halves: [2, 0, -4, 0] };
     /// A pressure.
     pub const PRESSURE: Self = Self { halves: [-2, 2, -4, 0] };
 
@@ -99,6 +105,9 @@ impl fmt::Display for Dimension {
             Self::TEMPERATURE => "a temperature",
             Self::FORCE => "a force",
             Self::PRESSURE => "a pressure",
+            Self::MOMENT => "a moment",
+            Self::FORCE_TIMES_AREA => "a bending or torsional stiffness",
+            Self::ACCELERATION => "an acceleration",
             other => return write!(f, "a quantity in {}", other.unit("m")),
         };
         f.write_str(name)

@@ -59,7 +59,7 @@ impl FunctionKind {
             Self::ErrorJacobian => with_jacobian(pose(&model.tool), &model.error_jacobian),
             Self::JointJacobian => with_jacobian(pose(&model.tool), &model.joint_jacobian),
             Self::ParameterJacobian => with_jacobian(pose(&model.tool), &model.parameter_jacobian),
-            Self::Effects => model.effects.clone(),
+            Self::Effects => model.effects.iter().map(|effect| effect.value).collect(),
             Self::GeneralizedErrors => model.generalized_errors.concat(),
         };
         Program::new(&model.graph, &outputs)

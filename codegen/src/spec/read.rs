@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::declarations::Declarations;
 use super::frames::{FORMS, OwnVariable, read_factors};
+use super::loads::{check_loaded, read_gravity, read_loads};
 use super::names::{check_identifier, title_of};
 use super::rigid::check_rigid;
 use super::sources::read_sources;
@@ -16,7 +17,8 @@ use crate::document::{Document, Item, Section};
 use crate::expr::{LengthUnit, Symbol};
 use crate::graph::Graph;
 
-const MANIPULATOR_KEYS: [&str; 6] = ["name", "title", "description", "reference", "length", "orientation"];
+const MANIPULATOR_KEYS: [&str; 7] =
+    ["name", "title", "description", "reference", "length", "orientation", "gravity"];
 
 impl Spec {
     /// Reads and checks a spec file. All mistakes of its syntax, or else all of its meaning, come at once.
@@ -54,7 +56,8 @@ impl Spec {
 }
 
 fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
-    root.check_keys(&["manipulator", "parameters", "inputs", "frame", "tool", "source"], document);
+    let known = ["manipulator", "parameters", "inputs", "frame", "tool", "source", "load", "gravity"];
+    root.check_keys(&known, document);
     let head = root.required("manipulator", document).and_then(|item| read_head(&item, document));
     // Without a length unit the rest could only be read by guessing.
     let head = head?;
@@ -81,6 +84,13 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         None => Some(Vec::new()),
     };
     let sources = read_sources(root, &frames, &declarations.scope, document);
+    let loads = read_loads(root, &frames, &declarations.scope, document);
+    let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
+    let gravity = match &gravity_item {
+        Some(item) => Some(read_gravity(item, &declarations.scope, document)?),
+        None => None,
+    };
+    check_loaded(root, &sources, &loads, gravity.is_some(), document);
     raw_frames?;
     complete.then_some(())?;
     let Declarations { parameters, inputs, variables, .. } = declarations;
@@ -101,6 +111,8 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         frames,
         tool: tool?,
         sources,
+        loads,
+        gravity,
         file,
         hash,
     })

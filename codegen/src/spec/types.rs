@@ -30,6 +30,10 @@ pub struct Spec {
     pub tool: Vec<Factor>,
     /// The physical errors, those that are switched off among them.
     pub sources: Vec<Source>,
+    /// What weighs on the structure.
+    pub loads: Vec<Load>,
+    /// The acceleration of gravity in `F_0`.
+    pub gravity: Option<[Expression; 3]>,
     /// The file's name, without its folder.
     pub file: String,
     /// SHA-256 of the file's text, in hexadecimal.
@@ -185,19 +189,61 @@ pub struct Source {
     pub description: String,
     /// Where its numbers come from.
     pub reference: String,
-    /// The generalized errors that it causes, in the order of the file; at least one.
+    /// What it does to which frame, in the order of the file; at least one.
     pub effects: Vec<Effect>,
 }
 
-/// One generalized error that a source causes.
+/// What a source does to a frame, or to a place on the link behind it.
 #[derive(Clone, Debug)]
 pub struct Effect {
     /// The frame, from 0.
     pub frame: usize,
-    /// Which of its six errors.
-    pub component: Component,
-    /// Its value: length or rad.
-    pub value: Expression,
+    /// Where on the link, as seen from the frame: `L`; no factors if at the frame itself.
+    pub at: Vec<Factor>,
+    /// The error there.
+    pub cause: Cause,
+    /// Where in the file it stands.
+    pub span: Span,
+}
+
+/// How a place on a link moves against where it should be.
+#[derive(Clone, Debug)]
+pub enum Cause {
+    /// By so much: some of the six errors, lengths or rad.
+    Errors(Vec<(Component, Expression)>),
+    /// As the tip of a beam under the loads beyond it.
+    Beam(Beam),
+    /// By a compliance times the wrench of the loads beyond it.
+    Compliance(Box<Compliance>),
+}
+
+/// A straight beam that ends where its effect is, clamped at its other end.
+#[derive(Clone, Debug)]
+pub struct Beam {
+    /// The axis along which it comes, 0 = x, 1 = y, 2 = z.
+    pub axis: usize,
+    /// Its length.
+    pub length: Expression,
+    /// Bending stiffnesses about the two axes that follow its own in cyclic order.
+    pub bending: [Expression; 2],
+    /// Torsional stiffness; rigid if there is none.
+    pub torsion: Option<Expression>,
+    /// Stiffness against extension; rigid if there is none.
+    pub extension: Option<Expression>,
+}
+
+/// Six errors per unit of six forces and moments, both in the order of ε; none where zero.
+pub type Compliance = [[Option<Expression>; 6]; 6];
+
+/// A mass that weighs on the structure.
+#[derive(Clone, Debug)]
+pub struct Load {
+    /// Its mass.
+    pub mass: Expression,
+    /// The frame it moves with, from 0.
+    pub frame: usize,
+    /// Where it is, as seen from that frame.
+    pub point: [Expression; 3],
 }
 
 /// The six generalized errors of a frame, in the order of ε. **Spin is about y, roll about z, pitch about x.**
