@@ -49,7 +49,10 @@ beam = { length = "z_offset + d3", axis = "z", EI_y = "arm_EI", EI_z = "arm_EI",
         let q = [2256.0 * t, 560.0 * (1.0 - t), 1473.0 * (7.3 * t).sin().abs(), 3.0 * t - 1.5, 0.0, 0.0];
         let (expressions, beam) = (errors(&spec, &q, &s, &[]), errors(&beam, &q, &s, &[]));
         for (expected, found) in expressions.as_flattened().iter().zip(beam.as_flattened()) {
-            assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1e-3), "{found}, expected {expected}");
+            assert!(
+                (found - expected).abs() <= 1e-12 * expected.abs().max(1e-3),
+                "{found}, expected {expected}"
+            );
         }
     }
 }
@@ -113,7 +116,9 @@ fn cantilever_in_every_direction() {
 /// of statics.
 #[test]
 fn two_link_arm_under_gravity() {
-    let spec = Spec::parse("arm.toml", r#"
+    let spec = Spec::parse(
+        "arm.toml",
+        r#"
 [manipulator]
 name = "arm"
 length = "m"
@@ -145,7 +150,8 @@ compliance = { diagonal = [0, 0, 0, "1e-3/(N*m)", 0, 0] }
 [[source.effect]]
 frame = "elbow"
 compliance = { diagonal = [0, 0, 0, "2e-3/(N*m)", 0, 0] }
-"#)
+"#,
+    )
     .unwrap();
     for (q1, q2) in [(0.0_f64, 0.0_f64), (0.3, -0.9), (-1.2, 0.4)] {
         let found = errors(&spec, &[q1, q2], &[], &[]);
@@ -162,9 +168,14 @@ compliance = { diagonal = [0, 0, 0, "2e-3/(N*m)", 0, 0] }
 fn work_is_twice_the_energy() {
     let text = SHIPPED.iter().find(|shipped| shipped.name == "puma560").unwrap().spec;
     let sources_end = text.find("[[source]]").unwrap();
-    let mut spec = text[..sources_end].replacen("[manipulator]", "[manipulator]\ngravity = [0, 0, \"-9.80665 m/s^2\"]", 1);
+    let mut spec = text[..sources_end].replacen(
+        "[manipulator]",
+        "[manipulator]\ngravity = [0, 0, \"-9.80665 m/s^2\"]",
+        1,
+    );
     spec += "[tool]\ntransform = \"Tx(0.1) Ty(0.05) Tz(0.2)\"\n[[load]]\nmass = \"2.5 kg\"\nframe = \"LAST\"\npoint = [0.1, 0.05, 0.2]\n";
-    let frames: Vec<String> = Spec::parse("puma560.toml", text).unwrap().frames.iter().map(|f| f.name.clone()).collect();
+    let frames: Vec<String> =
+        Spec::parse("puma560.toml", text).unwrap().frames.iter().map(|f| f.name.clone()).collect();
     let spec = spec.replace("LAST", frames.last().unwrap());
     let rows = "[[1e-6, 0, 2e-7, 0, 0, 0], [0, 2e-6, 0, 0, 3e-7, 0], [2e-7, 0, 3e-6, 0, 0, 0], [0, 0, 0, 4e-5, 0, 1e-6], [0, 3e-7, 0, 0, 5e-5, 0], [0, 0, 0, 1e-6, 0, 6e-5]]";
     // Every entry with its own unit: m/N, 1/N, 1/(N m).
@@ -181,14 +192,21 @@ fn work_is_twice_the_energy() {
     let written: Vec<String> = (0..6)
         .map(|i| {
             let entries = (0..6).map(|j| {
-                if unit(i, j) == "1/N" { format!("\"{:e}/N\"", matrix[i][j]) } else { format!("\"{:e} {}\"", matrix[i][j], unit(i, j)) }
+                if unit(i, j) == "1/N" {
+                    format!("\"{:e}/N\"", matrix[i][j])
+                } else {
+                    format!("\"{:e} {}\"", matrix[i][j], unit(i, j))
+                }
             });
             format!("[{}]", entries.collect::<Vec<_>>().join(", "))
         })
         .collect();
     let mut text = spec;
     for frame in &frames {
-        text += &format!("[[source]]\nname = \"{frame}\"\nclass = \"repeatable\"\nframe = \"{frame}\"\ncompliance = {{ matrix = [{}] }}\n", written.join(", "));
+        text += &format!(
+            "[[source]]\nname = \"{frame}\"\nclass = \"repeatable\"\nframe = \"{frame}\"\ncompliance = {{ matrix = [{}] }}\n",
+            written.join(", ")
+        );
     }
     let spec = Spec::parse("puma560.toml", &text).unwrap();
     let robot = Interpreter::new(&spec);

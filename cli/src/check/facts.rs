@@ -2,7 +2,7 @@
 
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::{Operations, functions};
-use abbe_codegen::spec::{Class, Distribution, Orientation, Spec, VariableKind};
+use abbe_codegen::spec::{Class, Distribution, Effect, Orientation, Spec, VariableKind};
 use serde::Serialize;
 
 /// What a spec says, and how many operations its functions take.
@@ -88,7 +88,7 @@ impl<'a> Facts<'a> {
         let sources = spec.sources.iter().map(|source| Source {
             name: &source.name,
             class: class(source.class),
-            effects: source.effects.len(),
+            effects: source.effects.iter().map(Effect::error_count).sum(),
             enabled: source.enabled,
         });
         Self {
