@@ -1,0 +1,78 @@
+//! The three-axis machine against the textbook closed form of its volumetric error: 18 error functions of
+//! ISO 230-1 and three squareness errors, at 1,000 positions.
+
+use std::collections::HashMap;
+
+use abbe::Manipulator;
+use abbe_manipulators::machine3::{DESCRIPTION, EFFECTS, ERRORS, FRAMES, Inputs, Machine3, Parameters};
+
+/// The volumetric error of a chain X, Y, Z with tool length L below the nose, by hand:
+///
+/// ```text
+/// Δx = EXX + EXY + EXZ + (EBX + EBY) (z − L) − EBZ L − ECX y − C0Y y + B0Z z
+/// Δy = EYX + EYY + EYZ − (EAX + EAY) (z − L) + EAZ L − A0Z z
+/// Δz = EZX + EZY + EZZ + EAX y
+/// ```
+fn by_hand(e: &HashMap<&str, f64>, [_, y, z]: [f64; 3], l: f64, angles: &HashMap<&str, f64>) -> [f64; 3] {
+    let [a0z, b0z, c0y] = ["A0Z", "B0Z", "C0Y"].map(|name| angles[name]);
+    [
+        e["EXX"] + e["EXY"] + e["EXZ"] + (e["EBX"] + e["EBY"]) * (z - l)
+            - e["EBZ"] * l
+            - e["ECX"] * y
+            - c0y * y
+            + b0z * z,
+        e["EYX"] + e["EYY"] + e["EYZ"] - (e["EAX"] + e["EAY"]) * (z - l) + e["EAZ"] * l - a0z * z,
+        e["EZX"] + e["EZY"] + e["EZZ"] + e["EAX"] * y,
+    ]
+}
+
+#[test]
+fn volumetric_error_of_21_errors() {
+    let s = Parameters::NOMINAL.to_array();
+    let u = Inputs::NOMINAL.to_array();
+    let golden = 0.618_033_988_749_895;
+    for i in 1..=1000 {
+        let part = |factor: f64| (golden * factor * f64::from(i)).fract();
+        let q = [600.0 * part(1.0), 400.0 * part(2.7), 450.0 * part(7.1)];
+        let mut values = [0.0; EFFECTS];
+        Machine3.effects(&q, &s, &u, &mut values).unwrap();
+        // Each of the 21 causes one effect: its value by its name.
+        let effects = DESCRIPTION.effects.iter().zip(values);
+        let named: HashMap<&str, f64> =
+            effects.map(|(effect, value)| (DESCRIPTION.sources[effect.source].name, value)).collect();
+        // Squareness is a translation that grows with the axis; its angle is what the textbook has.
+        let angles = HashMap::from([
+            ("A0Z", -named["A0Z"] / q[2]),
+            ("B0Z", named["B0Z"] / q[2]),
+            ("C0Y", -named["C0Y"] / q[1]),
+        ]);
+        let expected = by_hand(&named, q, Parameters::NOMINAL.tool_length, &angles);
+
+        let (mut columns, mut errors) = ([[0.0; 6]; ERRORS], [[0.0; 6]; FRAMES]);
+        Machine3.error_jacobian(&q, &s, &mut columns).unwrap();
+        Machine3.generalized_errors(&q, &s, &u, &mut errors).unwrap();
+        for (row, expected) in expected.into_iter().enumerate() {
+            let products =
+                columns.iter().zip(errors.as_flattened()).map(|(column, error)| column[row] * error);
+            let found: f64 = products.sum();
+            assert!((found - expected).abs() <= 1e-12, "row {row} at {q:?}: {found}, by hand {expected}");
+        }
+    }
+}
+
+/// The squareness angles are constants: the same at every position.
+#[test]
+fn squareness_is_one_angle() {
+    let (s, u) = (Parameters::NOMINAL.to_array(), Inputs::NOMINAL.to_array());
+    let angle = |name: &str, q: [f64; 3], along: usize| {
+        let mut values = [0.0; EFFECTS];
+        Machine3.effects(&q, &s, &u, &mut values).unwrap();
+        let source = DESCRIPTION.sources.iter().position(|source| source.name == name).unwrap();
+        let index = DESCRIPTION.effects.iter().position(|effect| effect.source == source).unwrap();
+        values[index] / q[along]
+    };
+    for (name, along) in [("A0Z", 2), ("B0Z", 2), ("C0Y", 1)] {
+        let (near, far) = (angle(name, [1.0, 2.0, 3.0], along), angle(name, [500.0, 390.0, 440.0], along));
+        assert!((near - far).abs() < 1e-18 && near != 0.0, "{name}: {near} and {far}");
+    }
+}
