@@ -779,19 +779,19 @@ pub mod pps {
             let t3 = tip_load * (p3_z * p3_z) / arm_EI
                 * (p3_z / T::constant(3.0) + t2 / T::constant(2.0));
             let t4 = -assembly_shift;
-            let t5 = -(d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_1
+            let t5 = -assembly_turn;
+            let t6 = -(d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_1
                 + assembly_shift);
-            let t6 = -assembly_turn;
             let t7 = T::constant(6.2e-5) + T::constant(0.000119) * cos_1 - assembly_turn;
             let t8 = assembly_shift - t3;
             let t9 = -(p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ + assembly_turn);
             let t10 = p3_z * tip_load / arm_EI * (t2 + p3_z / T::constant(2.0))
                 + assembly_turn;
-            errors[0] = [assembly_shift, assembly_shift, t5, t7, t6, assembly_turn];
-            errors[1] = [t4, assembly_shift, t4, t6, t6, t6];
-            errors[2] = [t4, t8, assembly_shift, t6, t9, t10];
-            errors[3] = [t4, assembly_shift, t4, t6, t6, assembly_turn];
-            errors[4] = [t4, t4, assembly_shift, t6, assembly_turn, assembly_turn];
+            errors[0] = [assembly_shift, assembly_shift, t6, t7, t5, assembly_turn];
+            errors[1] = [t4, assembly_shift, t4, t5, t5, t5];
+            errors[2] = [t4, t8, assembly_shift, t5, t9, t10];
+            errors[3] = [t4, assembly_shift, t4, t5, t5, assembly_turn];
+            errors[4] = [t4, t4, assembly_shift, t5, assembly_turn, assembly_turn];
             errors[5] = [
                 assembly_shift,
                 t4,

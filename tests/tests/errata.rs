@@ -1,9 +1,9 @@
 //! The errata of the paper's text, each shown to be one.
 
 use abbe::analysis::{Axis, Presentation, error_budget, presented_volume};
-use abbe_codegen::expr::Symbol;
+use abbe_codegen::expr::{Expression, Symbol};
 use abbe_codegen::graph::Graph;
-use abbe_codegen::spec::{Component, Source, Spec};
+use abbe_codegen::spec::{Cause, Component, Source, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 
@@ -14,12 +14,21 @@ fn pps() -> Spec {
     Spec::parse("pps.toml", shipped.spec).unwrap()
 }
 
-/// `e_z` and `e_s` of a source at some values of d1.
+/// The expression of one error of a source.
+fn error(source: &Source, component: Component) -> &Expression {
+    let errors = source.effects.iter().filter_map(|effect| match &effect.cause {
+        Cause::Errors(errors) => Some(errors),
+        _ => None,
+    });
+    let (_, value) = errors.flatten().find(|(found, _)| *found == component).unwrap();
+    value
+}
+
+/// `e_z` and `e_s` of a source at some value of d1.
 fn rail(source: &Source, d1: f64) -> [f64; 2] {
     [Component::Z, Component::Spin].map(|component| {
-        let effect = source.effects.iter().find(|effect| effect.component == component).unwrap();
         let mut graph = Graph::new();
-        let node = graph.lower(&effect.value);
+        let node = graph.lower(error(source, component));
         graph.evaluate(&[node], |_| d1)[0]
     })
 }
@@ -37,9 +46,8 @@ fn printed(spec: &Spec) -> &Source {
 fn the_rotation_of_a_rail_is_its_slope() {
     let spec = pps();
     let source = named(&spec, CONSISTENT);
-    let ez = source.effects.iter().find(|effect| effect.component == Component::Z).unwrap();
     let mut graph = Graph::new();
-    let node = graph.lower(&ez.value);
+    let node = graph.lower(error(source, Component::Z));
     let slope = graph.diff(node, Symbol::Variable(0));
     for d1 in [0.0, 300.0, 800.0, 1128.0, 2256.0] {
         let slope = graph.evaluate(&[slope], |_| d1)[0];
