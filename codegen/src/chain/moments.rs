@@ -53,29 +53,29 @@ impl<'m> Moments<'m> {
         moments
     }
 
+    /// `a × (p_T − p_i)` by the way that takes the fewest operations.
     fn moment(&self, graph: &mut Graph, i: usize, axis: Vector) -> Vector {
-        let from_tool = self.offset(graph, i, self.segments[i..].iter().flatten(), axis);
-        let mut best = from_tool.map(|part| (part.cost(), part, None));
+        let mut ways: Vec<Way> = Vec::new();
+        if let Some(offset) = self.offset(graph, i, self.segments[i..].iter().flatten(), axis) {
+            ways.push(Way { known: None, offset });
+        }
         for &(known, moment) in &self.before {
-            if let Some(sign) = parallel(graph, known, axis)
-                && let Some(part) = self.offset(graph, i, self.segments[i - 1].iter(), axis)
-                && best.as_ref().is_none_or(|(cost, ..)| part.cost() + part.cost() / 2 < *cost)
+            if let Some(same) = parallel(graph, known, axis)
+                && let Some(offset) = self.offset(graph, i, self.segments[i - 1].iter(), axis)
             {
-                let moment = if sign { moment } else { graph.neg_vector(moment) };
-                best = Some((part.cost(), part, Some(moment)));
+                let moment = if same { moment } else { graph.neg_vector(moment) };
+                ways.push(Way { known: Some(moment), offset });
             }
         }
-        match best {
-            // From the tool point: a × δ itself.
-            Some((_, part, None)) => part.vector(graph),
-            Some((_, part, Some(moment))) => {
-                let part = part.vector(graph);
-                graph.sub_vectors(moment, part)
-            }
-            None => {
-                let lever = self.lever(graph, i);
-                graph.cross(axis, lever)
-            }
+        let Some(way) = ways.into_iter().min_by_key(Way::operations) else {
+            let lever = self.lever(graph, i);
+            return graph.cross(axis, lever);
+        };
+        let offset = way.offset.vector(graph);
+        match way.known {
+            // About the tool point every moment is 0, and δ is the lever itself.
+            None => offset,
+            Some(moment) => graph.sub_vectors(moment, offset),
         }
     }
 
@@ -135,14 +135,24 @@ enum Offset {
     Along(Vector, Node),
 }
 
-impl Offset {
-    fn cost(&self) -> usize {
-        match self {
-            Self::Zero => 0,
-            Self::Along(..) => 3,
+/// A moment that is known, or none if it is that of the tool point, and what lies between.
+struct Way {
+    known: Option<Vector>,
+    offset: Offset,
+}
+
+impl Way {
+    /// Multiplications and additions.
+    fn operations(&self) -> usize {
+        match (&self.offset, self.known) {
+            (Offset::Zero, _) => 0,
+            (Offset::Along(..), None) => 3,
+            (Offset::Along(..), Some(_)) => 6,
         }
     }
+}
 
+impl Offset {
     fn vector(&self, graph: &mut Graph) -> Vector {
         match *self {
             Self::Zero => [graph.zero(); 3],
