@@ -126,12 +126,12 @@ fn write_sources(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::R
 }
 
 fn write_unreachable(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::Result<()> {
-    let Analysis { description, workspace, .. } = analysis;
+    let Analysis { description, budget, .. } = analysis;
     // Here every parameter may matter: nothing is known of what varies among those that were reached.
     let all = (0..description.parameters.len()).collect::<Vec<_>>();
     let heading = names(description, &all).chain(["reason".to_owned()]);
     writer.write_record(heading.collect::<Vec<_>>())?;
-    for refused in &workspace.unreachable {
+    for refused in &budget.unreachable.first {
         let reason = unreachable::reason(refused, description);
         writer.write_record(values(&refused.asked, &all).chain([reason]).collect::<Vec<_>>())?;
     }

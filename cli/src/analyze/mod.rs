@@ -32,7 +32,7 @@ struct Analysis<'a> {
     study: &'a Study,
     /// The workspace in a sentence.
     region: String,
-    workspace: Workspace,
+    workspace: &'a dyn Workspace,
     /// Indices of the parameters that the workspace moves.
     varying: &'a [usize],
     budget: Budget,
@@ -50,28 +50,35 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
     let description = interpreter.description();
     let workspace =
         study.region.workspace(&interpreter).map_err(|error| Failure::of(&found.origin, error))?;
-    if workspace.configurations.is_empty() {
-        let reasons = unreachable::summary(&workspace, &description);
-        let message = format!("no configuration of the workspace can be reached: {reasons}");
-        return Err(Failure::of(&found.origin, message));
-    }
 
-    let varying = varying(&workspace);
-    let mut first_order = FirstOrder::new(&interpreter, workspace.configurations.len());
+    let varying = study.region.varying(&found.spec);
+    let mut first_order = FirstOrder::new(&interpreter, workspace.len());
     let mut files = match &arguments.out {
         Some(folder) => Some(Files::create(folder, &description, &varying)?),
         None => None,
     };
     let u = sampling::nominal_inputs(&description);
-    let budget = error_budget(&interpreter, &workspace, &u, &mut |row| {
+    let budget = error_budget(&interpreter, &*workspace, &u, &mut |row| {
         first_order.add(row, &u);
         files.iter_mut().for_each(|files| files.configuration(row));
     })
-    .map_err(|refused| unevaluated(&refused, &workspace, &description, &found.origin))?;
+    .map_err(|refused| unevaluated(&refused, &*workspace, &description, &found.origin))?;
+    if budget.configurations == 0 {
+        let reasons = unreachable::summary(&budget.unreachable, &description);
+        let message = format!("no configuration of the workspace can be reached: {reasons}");
+        return Err(Failure::of(&found.origin, message));
+    }
 
     let region = study.region.describe(&found.spec);
-    let analysis =
-        Analysis { description, study: &study, region, workspace, varying: &varying, budget, first_order };
+    let analysis = Analysis {
+        description,
+        study: &study,
+        region,
+        workspace: &*workspace,
+        varying: &varying,
+        budget,
+        first_order,
+    };
     if let Some(files) = files {
         files.finish(&analysis)?;
     }
@@ -79,21 +86,14 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
     Ok(Outcome::passed(text))
 }
 
-/// The parameters that are not the same everywhere.
-fn varying(workspace: &Workspace) -> Vec<usize> {
-    let Workspace { configurations, home, .. } = workspace;
-    let varies = |i: &usize| configurations.iter().any(|configuration| configuration.s[*i] != home.s[*i]);
-    (0..home.s.len()).filter(varies).collect()
-}
-
 fn unevaluated(
     refused: &Unevaluated,
-    workspace: &Workspace,
+    workspace: &dyn Workspace,
     description: &Description,
     origin: &str,
 ) -> Failure {
-    let at = match refused.configuration.and_then(|index| workspace.configurations.get(index)) {
-        Some(configuration) => number::configuration(configuration, &workspace.home, description),
+    let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
+        Some(configuration) => number::configuration(&configuration, workspace.home(), description),
         None => "home".to_owned(),
     };
     Failure::evaluation(origin, &at, &refused.error, description)
@@ -101,7 +101,7 @@ fn unevaluated(
 
 impl Analysis<'_> {
     /// The configuration where a source, or everything, is worst.
-    fn configuration(&self, index: Option<usize>) -> Option<&Configuration> {
-        self.workspace.configurations.get(index?)
+    fn configuration(&self, index: Option<usize>) -> Option<Configuration> {
+        self.workspace.configuration(index?).ok()
     }
 }

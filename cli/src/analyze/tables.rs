@@ -56,7 +56,7 @@ pub(super) fn worst(analysis: &Analysis) -> String {
         let at = analysis
             .configuration(worst)
             .filter(|_| norm > 0.0)
-            .map(|worst| number::configuration(worst, &analysis.workspace.home, &analysis.description))
+            .map(|worst| number::configuration(&worst, analysis.workspace.home(), &analysis.description))
             .map(|at| unbroken(&at));
         let mut cells = vec![name.to_owned(), fixed(norm, analysis.decimals()), at.unwrap_or_default()];
         if let Some(tolerance) = tolerance {

@@ -23,19 +23,19 @@ pub(super) fn of(analysis: &Analysis) -> String {
 }
 
 fn heading(analysis: &Analysis) -> String {
-    let Analysis { description, study, workspace, region, .. } = analysis;
+    let Analysis { description, study, workspace, region, budget, .. } = analysis;
+    let unreachable = &budget.unreachable;
     let mut text = format!("{} ({})\n{}\n", description.title, description.name, study.title);
     text += &format!("\nWorkspace       {}\n", wrapped(region, 16));
-    let mut reached =
-        format!("{}, {} unreachable", workspace.configurations.len(), workspace.unreachable.len());
-    if !workspace.unreachable.is_empty() {
-        reached += &format!(": {}", unreachable::summary(workspace, description));
+    let mut reached = format!("{}, {} unreachable", budget.configurations, unreachable.count);
+    if unreachable.count > 0 {
+        reached += &format!(": {}", unreachable::summary(unreachable, description));
     }
     text += &format!("Configurations  {}\n", wrapped(&reached, 16));
-    for example in unreachable::first_few(workspace, description) {
+    for example in unreachable::first_few(unreachable, workspace.home(), description) {
         text += &format!("                - {}\n", wrapped(&example, 18));
     }
-    let home = number::variables(&workspace.home.q, description);
+    let home = number::variables(&workspace.home().q, description);
     text += &format!("Home            {}\n", wrapped(&unbroken(&home), 16));
     let inputs = description.inputs.iter();
     let inputs =

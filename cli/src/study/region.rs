@@ -74,12 +74,25 @@ impl Region {
     }
 
     /// The configurations.
-    pub(crate) fn workspace(&self, manipulator: &dyn Manipulator) -> Result<Workspace, Error> {
-        match self {
-            Self::Presented(presentation) => presented_volume(manipulator, presentation),
-            Self::Grid(axes) => joint_grid(manipulator, axes),
-            Self::Samples { moved, count } => joint_samples(manipulator, moved, *count),
-        }
+    pub(crate) fn workspace<'a>(
+        &self,
+        manipulator: &'a dyn Manipulator,
+    ) -> Result<Box<dyn Workspace + 'a>, Error> {
+        Ok(match self {
+            Self::Presented(presentation) => Box::new(presented_volume(manipulator, presentation)?),
+            Self::Grid(axes) => Box::new(joint_grid(manipulator, axes)?),
+            Self::Samples { moved, count } => Box::new(joint_samples(manipulator, moved, *count)?),
+        })
+    }
+
+    /// The parameters that are not nominal everywhere.
+    pub(crate) fn varying(&self, spec: &Spec) -> Vec<usize> {
+        let Self::Presented(Presentation { tool_points, .. }) = self else { return Vec::new() };
+        let varies =
+            |axis: &&Axis| axis.values.iter().any(|value| *value != spec.parameters[axis.index].value);
+        let mut varying = tool_points.iter().filter(varies).map(|axis| axis.index).collect::<Vec<_>>();
+        varying.sort_unstable();
+        varying
     }
 
     /// The workspace in a sentence.
@@ -152,5 +165,5 @@ fn joints(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option
         None => (0..spec.variables.len()).collect(),
     };
     let samples = section.required("samples", document)?;
-    Some(Region::Samples { moved, count: count(&samples, document, spec)? })
+    Some(Region::Samples { moved, count: count(&samples, LARGEST, document, spec)? })
 }
