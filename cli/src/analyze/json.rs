@@ -1,5 +1,10 @@
 //! The results for machines.
 
+mod allowed;
+mod drawn;
+mod ledger;
+mod together;
+
 use abbe::analysis::{Configuration, Figures, SourceErrors};
 use abbe::{Class, Distribution};
 use serde::Serialize;
@@ -27,6 +32,13 @@ pub(super) struct Report<'a> {
     first_order: FirstOrder,
     unreachable_reasons: Vec<unreachable::Reason>,
     not_reproducible: &'a [String],
+    ledger: ledger::Ledger<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    budget: Option<allowed::Allowed<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compensation: Option<together::Compensated>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    monte_carlo: Option<drawn::Report>,
 }
 
 #[derive(Serialize)]
@@ -61,6 +73,8 @@ struct Combined {
     random: [f64; 3],
     worst: Named,
     worst_parameters: Named,
+    #[serde(flatten)]
+    together: together::Together,
 }
 
 /// A published figure: of a source in a metric, or of all together.
@@ -115,6 +129,7 @@ pub(super) fn of<'a>(analysis: &'a Analysis<'a>) -> Report<'a> {
             random: combined.random,
             worst: variables(analysis, &worst),
             worst_parameters: parameters(analysis, &worst),
+            together: together::of(analysis),
         },
         study: &study.title,
         workspace: &analysis.region,
@@ -137,6 +152,10 @@ pub(super) fn of<'a>(analysis: &'a Analysis<'a>) -> Report<'a> {
         },
         unreachable_reasons: unreachable::reasons(&budget.unreachable, description),
         not_reproducible: &study.not_reproducible,
+        ledger: ledger::of(analysis),
+        budget: analysis.admissible.as_ref().map(|admissible| allowed::of(analysis, admissible)),
+        compensation: analysis.compensation.as_ref().map(together::compensated),
+        monte_carlo: analysis.drawn.as_ref().map(|found| drawn::of(analysis, found)),
     }
 }
 
@@ -170,7 +189,7 @@ fn axes(figures: Figures) -> Axes {
 }
 
 fn variables(analysis: &Analysis, configuration: &Option<Configuration>) -> Named {
-    let values = configuration.into_iter().flat_map(|configuration| &configuration.q);
+    let values = configuration.iter().flat_map(|configuration| &configuration.q);
     let named = analysis.description.variables.iter().zip(values);
     Named(named.map(|(variable, value)| (variable.name.to_owned(), value + 0.0)).collect())
 }

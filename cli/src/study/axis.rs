@@ -75,7 +75,12 @@ impl<'a> Candidates<'a> {
 }
 
 /// `[1, 2, 5]`, `{ from = 0, to = 10, count = 3 }` or `{ from = 0, to = 10, step = 5 }`.
-fn values(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<Vec<f64>> {
+pub(super) fn values(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<Vec<f64>> {
     let what = format!("a value of `{}`", item.key);
     if !item.is_table() {
         let items = document.array(item, "a list of values, or { from, to, count } or { from, to, step }")?;
@@ -116,11 +121,21 @@ fn values(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dime
 
 /// A whole number of things, at least one.
 pub(super) fn count(item: &Item<'_>, largest: usize, document: &mut Document, spec: &Spec) -> Option<usize> {
+    whole(item, [1, largest], document, spec)
+}
+
+/// A whole number.
+pub(super) fn whole(
+    item: &Item<'_>,
+    [least, largest]: [usize; 2],
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<usize> {
     let value = constant(item, document, spec, Dimension::NONE, &format!("`{}`", item.key))?;
-    if value.fract() == 0.0 && (1.0..=largest as f64).contains(&value) {
+    if value.fract() == 0.0 && (least as f64..=largest as f64).contains(&value) {
         return Some(value as usize);
     }
-    let message = format!("`{}` must be a whole number from 1 to {largest}", item.key);
+    let message = format!("`{}` must be a whole number from {least} to {largest}", item.key);
     document.mistake(
         Diagnostic::new(item.span(), message).label("this is not").help("write a number such as 100"),
     );

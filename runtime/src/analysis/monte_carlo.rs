@@ -183,7 +183,11 @@ impl Sums {
         let matrix = |entry: &dyn Fn(usize, usize) -> f64| {
             core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
         };
-        let covariance = matrix(&|i, j| self.products[i][j] / count - mean[i] * mean[j]);
+        let covariance = matrix(&|i, j| {
+            let entry = self.products[i][j] / count - mean[i] * mean[j];
+            // Rounding must not make a variance negative.
+            if i == j { entry.max(0.0) } else { entry }
+        });
         let error = matrix(&|i, j| {
             let variance = self.squares[i][j] / count - (self.products[i][j] / count).powi(2);
             (variance.max(0.0) / count).sqrt()
