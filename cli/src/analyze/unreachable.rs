@@ -41,7 +41,13 @@ pub(super) fn first_few(
     description: &Description,
 ) -> Vec<String> {
     let shown = unreachable.first.iter().take(SHOWN).map(|unreachable| {
-        let asked = number::configuration(&unreachable.asked, home, description);
+        let asked = match unreachable.point {
+            Some(point) => {
+                let [x, y, z] = point.map(number::short);
+                format!("({x}, {y}, {z}) {}", description.length.symbol())
+            }
+            None => number::configuration(&unreachable.asked, home, description),
+        };
         format!("{asked}: {}", reason(unreachable, description))
     });
     shown.collect()

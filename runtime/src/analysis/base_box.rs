@@ -48,6 +48,14 @@ pub fn base_box<'a>(manipulator: &'a dyn Manipulator, region: &BaseBox) -> Resul
     Ok(ReachedBox { manipulator, axes: axes.collect(), pose, orientation, solved: solved.clone(), home })
 }
 
+impl ReachedBox<'_> {
+    fn at(&self, index: usize) -> [f64; 3] {
+        let mut point = self.pose.position();
+        combine(index, &self.axes, &mut point);
+        point
+    }
+}
+
 impl Workspace for ReachedBox<'_> {
     fn len(&self) -> usize {
         combinations(&self.axes)
@@ -61,12 +69,16 @@ impl Workspace for ReachedBox<'_> {
         q.copy_from_slice(&self.home.q);
         s.copy_from_slice(&self.home.s);
         let mut pose = self.pose;
-        combine(index, &self.axes, &mut pose.0[3]);
+        pose.0[3] = self.at(index);
         let target = match self.orientation {
             ToolOrientation::Free => Target::Point(pose.position()),
             ToolOrientation::Home => Target::Pose(pose),
         };
         q.copy_from_slice(&inverse(self.manipulator, s, q, &self.solved, &target)?);
         Ok(())
+    }
+
+    fn point(&self, index: usize) -> Option<[f64; 3]> {
+        Some(self.at(index))
     }
 }

@@ -89,7 +89,7 @@ impl Block {
                 Ok(()) => indices.push(index),
                 Err(reason) => {
                     let asked = Configuration { q: q.split_off(q_end), s: s.split_off(s_end) };
-                    unreachable.push(Unreachable { asked, reason });
+                    unreachable.push(Unreachable { index, point: workspace.point(index), asked, reason });
                 }
             }
         }

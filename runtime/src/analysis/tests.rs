@@ -8,6 +8,9 @@ use super::sampling::grid;
 use super::*;
 use crate::Manipulator;
 
+mod streamed;
+mod together;
+
 /// 27 points of the volume in 37 angles of spin, each presented at the isocentre.
 fn presentation() -> Presentation {
     Presentation {

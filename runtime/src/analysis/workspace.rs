@@ -33,6 +33,10 @@ impl Configuration {
 /// A configuration that was asked for and could not be had.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unreachable {
+    /// Its index in the workspace.
+    pub index: usize,
+    /// The point of `F_0` that the tool was to be brought to, if that differs from one to the next.
+    pub point: Option<[f64; 3]>,
     /// What was asked for; the variables to be solved for are where the search began.
     pub asked: Configuration,
     /// Why it could not be had.
@@ -59,13 +63,16 @@ pub trait Workspace: Sync {
     /// of home. If it cannot be had they hold what was asked for.
     fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached>;
 
+    /// The point of `F_0` that the tool is brought to in configuration `index`, if that differs from one to the next.
+    fn point(&self, _index: usize) -> Option<[f64; 3]> {
+        None
+    }
+
     /// Configuration `index`, or why it cannot be had.
-    fn configuration(&self, index: usize) -> Result<Configuration, Unreachable> {
-        let mut asked = self.home().clone();
-        match self.fill(index, &mut asked.q, &mut asked.s) {
-            Ok(()) => Ok(asked),
-            Err(reason) => Err(Unreachable { asked, reason }),
-        }
+    fn configuration(&self, index: usize) -> Result<Configuration, Unreached> {
+        let mut configuration = self.home().clone();
+        self.fill(index, &mut configuration.q, &mut configuration.s)?;
+        Ok(configuration)
     }
 
     /// All configurations that can be reached, stored: for small workspaces.
