@@ -95,6 +95,15 @@ pub(crate) struct Analyze {
     pub(crate) study: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) changes: Changes,
+    /// Draw all errors this often at the worst configuration and at home, on the exact chain with true rotations
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    pub(crate) monte_carlo: Option<u64>,
+    /// Seed of everything random: the draws, and a study's random samples
+    #[arg(long, value_name = "S")]
+    pub(crate) seed: Option<u64>,
+    /// How many threads work; the results are the same for any number. All cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
     /// Write configurations.csv, sources.csv and unreachable.csv into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

@@ -2,7 +2,7 @@
 //!
 //! `arguments` is what it is told; `manipulator` finds the spec and `changes` what differs from it. Then one
 //! module per command. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
-//! failed, 2 for bad usage or input.
+//! failed, 2 for bad usage or input, 130 if it was interrupted.
 
 mod analyze;
 mod arguments;
@@ -10,11 +10,13 @@ mod changes;
 mod check;
 mod failure;
 mod generate;
+mod interrupt;
 mod jacobian;
 mod list;
 mod manipulator;
 mod number;
 mod output;
+mod progress;
 mod study;
 mod table;
 
@@ -27,6 +29,7 @@ use failure::Failure;
 use output::Outcome;
 
 fn main() -> ExitCode {
+    interrupt::clean_up_on_interrupt();
     let result = run(&Arguments::parse());
     match result.and_then(|outcome| outcome.print()) {
         Ok(status) => status,

@@ -87,6 +87,12 @@ pub(crate) fn configuration(
     if all.is_empty() { "home".to_owned() } else { all.join(", ") }
 }
 
+/// A number to so many digits.
+pub(crate) fn digits(value: f64, digits: usize) -> String {
+    let decimals = digits.saturating_sub(1);
+    short(format!("{value:.decimals$e}").parse().unwrap_or(value))
+}
+
 /// A share in whole percent.
 pub(crate) fn percent(value: f64, of: f64) -> String {
     format!("{:.0} %", 100.0 * value / of)

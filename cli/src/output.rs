@@ -9,6 +9,7 @@ use serde::Serialize;
 use tempfile::{Builder, NamedTempFile};
 
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// What a command found out.
 #[derive(Debug)]
@@ -68,8 +69,9 @@ impl Pending {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         // With the permissions of any other file, not those of a secret.
         let create = |path: &Path| File::options().write(true).create_new(true).open(path);
-        let file = Builder::new().make_in(folder.unwrap_or(Path::new(".")), create);
-        Ok(Self { path: path.to_owned(), file: file.map_err(|error| cannot_write(path, &error))? })
+        let make = || Builder::new().make_in(folder.unwrap_or(Path::new(".")), create);
+        let file = interrupt::temporary(make).map_err(|error| cannot_write(path, &error))?;
+        Ok(Self { path: path.to_owned(), file })
     }
 
     /// Puts the complete file in its place.

@@ -67,33 +67,38 @@ impl<'s> Interpreter<'s> {
     /// Runs a tape at one configuration.
     fn run(&self, tape: &Tape, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<f64>, Error> {
         self.check(q, s, u)?;
-        let mut block = Block::new(tape);
+        let mut block = Block::<1>::new(tape);
         for (slot, value) in q.iter().chain(s).chain(u).enumerate() {
             block.set(slot, 0, *value);
         }
-        block.run(tape, 1);
-        Ok((0..tape.outputs.len()).map(|output| block.output(tape, output)[0]).collect())
+        block.run(tape);
+        Ok(tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect())
     }
 
     fn jacobian(&self, tape: &Tape, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
         let margin = usize::from(self.euler);
         count(Quantity::Jacobian, (tape.outputs.len() - POSE - margin) / 6, columns.len())?;
         let values = self.run(tape, q, s, &self.nominal_inputs())?;
-        self.finish_jacobian(&values, columns)
+        self.finish_jacobian(values.into_iter(), columns)
     }
 
-    /// Checks and takes apart a pose, the columns of a Jacobian and the margin, if there is one.
-    fn finish_jacobian(&self, values: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let (values, margin) = match values.split_last() {
-            Some((margin, values)) if self.euler => (values, *margin),
-            _ => (values, 1.0),
-        };
-        checks::margin(margin)?;
-        let (pose, entries) = values.split_at(POSE);
-        checks::finite(Quantity::Pose, pose)?;
-        checks::finite(Quantity::Jacobian, entries)?;
-        columns.as_flattened_mut().copy_from_slice(entries);
-        Ok(pose_of(pose))
+    /// Takes apart and checks a pose, the columns of a Jacobian and the margin, if there is one.
+    fn finish_jacobian(
+        &self,
+        mut values: impl Iterator<Item = f64>,
+        columns: &mut [[f64; 6]],
+    ) -> Result<Pose, Error> {
+        let mut pose = Pose::IDENTITY;
+        for (entry, value) in pose.0.as_flattened_mut().iter_mut().zip(&mut values) {
+            *entry = value;
+        }
+        for (entry, value) in columns.as_flattened_mut().iter_mut().zip(&mut values) {
+            *entry = value;
+        }
+        checks::margin(values.next().unwrap_or(1.0))?;
+        checks::finite(Quantity::Pose, pose.0.as_flattened())?;
+        checks::finite(Quantity::Jacobian, columns.as_flattened())?;
+        Ok(pose)
     }
 }
 
@@ -175,8 +180,7 @@ impl Manipulator for Interpreter<'_> {
 
         let row = |i: usize, width: usize| i * width..(i + 1) * width;
         let tapes = [&self.error_jacobian, &self.effects];
-        let mut blocks = tapes.map(Block::new);
-        let mut values = Vec::new();
+        let mut blocks = tapes.map(Block::<LANES>::new);
         for first in (0..configurations).step_by(LANES) {
             let lanes = LANES.min(configurations - first);
             for lane in 0..lanes {
@@ -188,19 +192,17 @@ impl Manipulator for Interpreter<'_> {
                 }
             }
             for (block, tape) in blocks.iter_mut().zip(tapes) {
-                block.run(tape, lanes);
+                block.run(tape);
             }
             let [jacobian, errors] = &blocks;
             for lane in 0..lanes {
                 let i = first + lane;
-                values.clear();
-                let outputs = self.error_jacobian.outputs.len();
-                values.extend((0..outputs).map(|output| jacobian.output(&self.error_jacobian, output)[lane]));
                 let columns = &mut columns[row(i, column_count)];
-                poses[i] = self.finish_jacobian(&values, columns).map_err(|error| (i, error))?;
+                let outputs = self.error_jacobian.outputs.iter().map(|slot| jacobian.value(*slot, lane));
+                poses[i] = self.finish_jacobian(outputs, columns).map_err(|error| (i, error))?;
                 let effects = &mut effects[row(i, effect_count)];
-                for (output, effect) in effects.iter_mut().enumerate() {
-                    *effect = errors.output(&self.effects, output)[lane];
+                for (effect, slot) in effects.iter_mut().zip(&self.effects.outputs) {
+                    *effect = errors.value(*slot, lane);
                 }
                 checks::finite(Quantity::Errors, effects).map_err(|error| (i, error))?;
             }

@@ -5,8 +5,9 @@
 //! pose and of its error Jacobian `J_e = ∂X_T/∂ε`, so that `ΔX ≈ J_e ε`; this crate gives them their types,
 //! the exact chain to check them against, and the analysis of a machine's errors over its workspace.
 //!
-//! The core is `no_std` and never allocates. Features: `std` (default; the analysis, and the platform's own
-//! sine and cosine), `nalgebra` (default; views without copying).
+//! The core is `no_std` and never allocates. Features, all on by default: `std` (the platform's own sine and
+//! cosine), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `parallel`
+//! (sweeps on all cores).
 //!
 //! | convention | here |
 //! |---|---|
@@ -30,9 +31,9 @@ mod manipulator;
 mod pose;
 mod scalar;
 
-#[cfg(feature = "std")]
+#[cfg(feature = "analysis")]
 pub mod analysis;
-#[cfg(feature = "std")]
+#[cfg(feature = "analysis")]
 pub mod laws;
 
 pub use chain::{chain, deviation, located, real_pose};

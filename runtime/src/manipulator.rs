@@ -7,8 +7,8 @@ use crate::{Description, Error, Pose};
 /// Lengths are in the manipulator's unit, angles in rad; everything is in `F_0`. Jacobians are column-major:
 /// one `[f64; 6]` per column, rows as [`Description::orientation`] says. Slices have exactly as many entries
 /// as the [`Description`] says, or the answer is [`Error::Count`]; values that are not finite are
-/// [`Error::NotFinite`], whether they come in or would go out.
-pub trait Manipulator {
+/// [`Error::NotFinite`], whether they come in or would go out. Being pure, it may be asked from several threads.
+pub trait Manipulator: Sync {
     /// Names, units, limits, sources.
     fn description(&self) -> Description<'_>;
 

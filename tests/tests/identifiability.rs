@@ -1,22 +1,20 @@
 //! How many generalized errors can be known: the ranks of the stacked `J_e`, as theory has them.
 
 use abbe::Manipulator;
-use abbe::analysis::{Measurement, identifiable, joint_samples};
+use abbe::analysis::{Measurement, Workspace, identifiable, joint_samples};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, pps::Pps, puma560::Puma560};
 
 fn ranks(robot: &dyn Manipulator, moved: &[usize]) -> [usize; 4] {
-    let workspace = joint_samples(robot, moved, 80).unwrap();
+    let workspace = joint_samples(robot, moved, 80).unwrap().reached();
     [
         (Measurement::Pose, false),
         (Measurement::Point, false),
         (Measurement::Pose, true),
         (Measurement::Point, true),
     ]
-    .map(|(measurement, base)| {
-        identifiable(robot, &workspace.configurations, measurement, base).unwrap().rank
-    })
+    .map(|(measurement, base)| identifiable(robot, &workspace, measurement, base).unwrap().rank)
 }
 
 #[test]

@@ -126,14 +126,19 @@ fn write_sources(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::R
 }
 
 fn write_unreachable(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::Result<()> {
-    let Analysis { description, workspace, .. } = analysis;
+    let Analysis { description, budget, .. } = analysis;
     // Here every parameter may matter: nothing is known of what varies among those that were reached.
     let all = (0..description.parameters.len()).collect::<Vec<_>>();
-    let heading = names(description, &all).chain(["reason".to_owned()]);
+    let unit = description.length.symbol();
+    let point = ["x", "y", "z"].map(|axis| format!("point {axis} ({unit})"));
+    let heading = ["configuration".to_owned()].into_iter().chain(names(description, &all)).chain(point);
+    let heading = heading.chain(["reason".to_owned()]);
     writer.write_record(heading.collect::<Vec<_>>())?;
-    for refused in &workspace.unreachable {
+    for refused in &budget.unreachable.first {
         let reason = unreachable::reason(refused, description);
-        writer.write_record(values(&refused.asked, &all).chain([reason]).collect::<Vec<_>>())?;
+        let point = [0, 1, 2].map(|i| refused.point.map(|point| number(&point[i])).unwrap_or_default());
+        let asked = [refused.index.to_string()].into_iter().chain(values(&refused.asked, &all));
+        writer.write_record(asked.chain(point).chain([reason]).collect::<Vec<_>>())?;
     }
     Ok(())
 }

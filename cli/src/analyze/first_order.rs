@@ -1,17 +1,26 @@
-//! What `ΔX ≈ J_e ε` neglects: the repeatable sources against the exact chain.
+//! What `ΔX ≈ J_e ε` neglects: first order against the exact chain.
 
 use abbe::analysis::Row;
-use abbe::{Error, Manipulator, Pose, deviation, real_pose};
+use abbe::{Class, Error, Manipulator, Pose, deviation, real_pose};
 
 /// The most configurations at which the exact chain is run.
-const CHECKED: usize = 2000;
+const CHECKED: u64 = 2000;
+/// `2⁶⁴/φ`: multiples of it modulo 2⁶⁴ are spread evenly, and fall in step with no grid.
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The largest distance between first order and the exact chain.
+/// The largest distance between first order and the exact chain, over about 2000 configurations of a larger
+/// workspace, spread evenly over it.
+///
+/// Compared are the repeatable sources; if there are none, the random ones at their bounds, all with the same sign.
 pub(super) struct FirstOrder<'a> {
     manipulator: &'a dyn Manipulator,
-    /// Every how many configurations is checked.
-    stride: usize,
+    u: &'a [f64],
+    /// What the value of every effect is multiplied with.
+    factors: Vec<f64>,
+    /// A configuration is checked if its multiple of the golden ratio is at most this.
+    threshold: u64,
     transforms: Vec<Pose>,
+    effects: Vec<f64>,
     errors: Vec<[f64; 6]>,
     /// At how many configurations it was compared.
     pub(super) checked: usize,
@@ -20,12 +29,24 @@ pub(super) struct FirstOrder<'a> {
 }
 
 impl<'a> FirstOrder<'a> {
-    pub(super) fn new(manipulator: &'a dyn Manipulator, configurations: usize) -> Self {
-        let frames = manipulator.description().frames.len();
+    pub(super) fn new(manipulator: &'a dyn Manipulator, u: &'a [f64], configurations: usize) -> Self {
+        let description = manipulator.description();
+        let frames = description.frames.len();
+        let repeatable = description.sources.iter().any(|source| source.class == Class::Repeatable);
+        let factors =
+            description.effects.iter().map(|effect| match description.sources[effect.source].class {
+                Class::Repeatable => 1.0,
+                Class::Random(_) if repeatable => 0.0,
+                Class::Random(distribution) => distribution.bound(),
+            });
+        let all = configurations as u64 <= CHECKED;
         Self {
             manipulator,
-            stride: configurations.div_ceil(CHECKED).max(1),
+            u,
+            factors: factors.collect(),
+            threshold: if all { u64::MAX } else { u64::MAX / configurations as u64 * CHECKED },
             transforms: vec![Pose::IDENTITY; frames + 1],
+            effects: vec![0.0; description.effects.len()],
             errors: vec![[0.0; 6]; frames],
             checked: 0,
             largest: 0.0,
@@ -33,22 +54,31 @@ impl<'a> FirstOrder<'a> {
     }
 
     /// Compares at a configuration. Where the exact chain cannot be had there is nothing to compare.
-    pub(super) fn add(&mut self, row: &Row, u: &[f64]) {
-        if row.index.is_multiple_of(self.stride)
-            && let Ok(difference) = self.difference(row, u)
+    pub(super) fn add(&mut self, row: &Row) {
+        if (row.index as u64).wrapping_mul(GOLDEN) <= self.threshold
+            && let Ok(difference) = self.difference(row)
         {
             self.checked += 1;
             self.largest = self.largest.max(difference);
         }
     }
 
-    fn difference(&mut self, row: &Row, u: &[f64]) -> Result<f64, Error> {
+    fn difference(&mut self, row: &Row) -> Result<f64, Error> {
         let (q, s) = (&row.configuration.q, &row.configuration.s);
+        let description = self.manipulator.description();
         self.manipulator.transforms(q, s, &mut self.transforms)?;
-        self.manipulator.generalized_errors(q, s, u, &mut self.errors)?;
+        self.manipulator.effects(q, s, self.u, &mut self.effects)?;
+        self.errors.fill([0.0; 6]);
+        for ((effect, value), factor) in description.effects.iter().zip(&self.effects).zip(&self.factors) {
+            self.errors[effect.frame][effect.component.index()] += value * factor;
+        }
         let real = real_pose(&self.transforms, &self.errors);
-        let exact = deviation(self.manipulator.description().orientation, &row.pose, &real);
-        let position = exact.iter().zip(&row.repeatable).take(3);
-        Ok(position.map(|(exact, first)| (exact - first).powi(2)).sum::<f64>().sqrt())
+        let exact = deviation(description.orientation, &row.pose, &real);
+        let repeatable = description.sources.iter().any(|source| source.class == Class::Repeatable);
+        let first = |i: usize| match repeatable {
+            true => row.repeatable[i],
+            false => row.sources.iter().map(|source| source[i]).sum::<f64>(),
+        };
+        Ok((0..3).map(|i| (exact[i] - first(i)).powi(2)).sum::<f64>().sqrt())
     }
 }

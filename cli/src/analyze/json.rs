@@ -1,5 +1,10 @@
 //! The results for machines.
 
+mod allowed;
+mod drawn;
+mod ledger;
+mod together;
+
 use abbe::analysis::{Configuration, Figures, SourceErrors};
 use abbe::{Class, Distribution};
 use serde::Serialize;
@@ -27,6 +32,13 @@ pub(super) struct Report<'a> {
     first_order: FirstOrder,
     unreachable_reasons: Vec<unreachable::Reason>,
     not_reproducible: &'a [String],
+    ledger: ledger::Ledger<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    budget: Option<allowed::Allowed<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compensation: Option<together::Compensated>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    monte_carlo: Option<drawn::Report>,
 }
 
 #[derive(Serialize)]
@@ -61,6 +73,8 @@ struct Combined {
     random: [f64; 3],
     worst: Named,
     worst_parameters: Named,
+    #[serde(flatten)]
+    together: together::Together,
 }
 
 /// A published figure: of a source in a metric, or of all together.
@@ -99,13 +113,13 @@ struct FirstOrder {
 }
 
 pub(super) fn of<'a>(analysis: &'a Analysis<'a>) -> Report<'a> {
-    let Analysis { description, study, workspace, budget, first_order, .. } = analysis;
+    let Analysis { description, study, budget, first_order, .. } = analysis;
     let combined = &budget.combined;
     let worst = analysis.configuration(combined.radius.configuration);
     Report {
         manipulator: description.name,
-        configurations: workspace.configurations.len(),
-        unreachable: workspace.unreachable.len(),
+        configurations: budget.configurations,
+        unreachable: budget.unreachable.count,
         sources: budget.sources.iter().map(|errors| source(analysis, errors)).collect(),
         combined: Combined {
             repeatable_radius: combined.repeatable_radius.value,
@@ -113,8 +127,9 @@ pub(super) fn of<'a>(analysis: &'a Analysis<'a>) -> Report<'a> {
             radius: combined.radius.value,
             repeatable: combined.repeatable,
             random: combined.random,
-            worst: variables(analysis, worst),
-            worst_parameters: parameters(analysis, worst),
+            worst: variables(analysis, &worst),
+            worst_parameters: parameters(analysis, &worst),
+            together: together::of(analysis),
         },
         study: &study.title,
         workspace: &analysis.region,
@@ -135,8 +150,12 @@ pub(super) fn of<'a>(analysis: &'a Analysis<'a>) -> Report<'a> {
             configurations: first_order.checked,
             largest_difference: first_order.largest,
         },
-        unreachable_reasons: unreachable::reasons(workspace, description),
+        unreachable_reasons: unreachable::reasons(&budget.unreachable, description),
         not_reproducible: &study.not_reproducible,
+        ledger: ledger::of(analysis),
+        budget: analysis.admissible.as_ref().map(|admissible| allowed::of(analysis, admissible)),
+        compensation: analysis.compensation.as_ref().map(together::compensated),
+        monte_carlo: analysis.drawn.as_ref().map(|found| drawn::of(analysis, found)),
     }
 }
 
@@ -149,9 +168,9 @@ fn source<'a>(analysis: &'a Analysis<'a>, errors: &SourceErrors) -> Source<'a> {
         plain_max: axes(errors.plain_max),
         half_peak_to_peak: axes(errors.half_peak_to_peak),
         relative_to_home: axes(errors.relative_to_home),
-        worst: variables(analysis, worst),
+        worst: variables(analysis, &worst),
         distribution,
-        worst_parameters: parameters(analysis, worst),
+        worst_parameters: parameters(analysis, &worst),
         orientation: errors.orientation,
     }
 }
@@ -169,16 +188,16 @@ fn axes(figures: Figures) -> Axes {
     Axes { x, y, z, norm }
 }
 
-fn variables(analysis: &Analysis, configuration: Option<&Configuration>) -> Named {
-    let values = configuration.into_iter().flat_map(|configuration| &configuration.q);
+fn variables(analysis: &Analysis, configuration: &Option<Configuration>) -> Named {
+    let values = configuration.iter().flat_map(|configuration| &configuration.q);
     let named = analysis.description.variables.iter().zip(values);
     Named(named.map(|(variable, value)| (variable.name.to_owned(), value + 0.0)).collect())
 }
 
-fn parameters(analysis: &Analysis, configuration: Option<&Configuration>) -> Named {
+fn parameters(analysis: &Analysis, configuration: &Option<Configuration>) -> Named {
     let named = analysis.varying.iter().filter_map(|&i| {
         let name = analysis.description.parameters[i].name.to_owned();
-        configuration.map(|configuration| (name, configuration.s[i] + 0.0))
+        configuration.as_ref().map(|configuration| (name, configuration.s[i] + 0.0))
     });
     Named(named.collect())
 }

@@ -1,17 +1,23 @@
 //! `abbe analyze`: section 5 of the paper. What every source does over a workspace, alone and together.
 //!
 //! The sweep runs once; `first_order` and `files` look at every configuration on the way. `agreement` compares
-//! with published figures; `tables`, `text` and `json` show the results.
+//! with published figures; `ledger` ranks the sources; `tables`, `text` and `json` show the results.
 
 mod agreement;
+mod conclusions;
+mod drawn;
 mod files;
 mod first_order;
 mod json;
+mod ledger;
 mod tables;
 mod text;
 mod unreachable;
 
-use abbe::analysis::{Budget, Configuration, Unevaluated, Workspace, error_budget, sampling};
+use abbe::analysis::{
+    Admissible, Budget, Compensation, Configuration, MonteCarlo, Unevaluated, Workspace, error_budget,
+    monte_carlo, sampling,
+};
 use abbe::{Description, Manipulator};
 use abbe_interpreter::Interpreter;
 
@@ -20,7 +26,8 @@ use crate::changes::Changes;
 use crate::failure::Failure;
 use crate::manipulator;
 use crate::number;
-use crate::output::{self, Outcome};
+use crate::output::{self, Outcome, note};
+use crate::progress::Progress;
 use crate::study::Study;
 
 use files::Files;
@@ -32,11 +39,23 @@ struct Analysis<'a> {
     study: &'a Study,
     /// The workspace in a sentence.
     region: String,
-    workspace: Workspace,
+    workspace: &'a dyn Workspace,
     /// Indices of the parameters that the workspace moves.
     varying: &'a [usize],
     budget: Budget,
     first_order: FirstOrder<'a>,
+    /// What is left after compensation, if the study says what that leaves of each source.
+    compensation: Option<Compensation>,
+    /// What the tolerance of the study allows.
+    admissible: Option<Admissible>,
+    drawn: Option<Drawn>,
+}
+
+/// What was drawn at the worst configuration and at home.
+struct Drawn {
+    seed: u64,
+    worst: MonteCarlo,
+    home: MonteCarlo,
 }
 
 pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
@@ -45,63 +64,99 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
     let changes = Changes::from_arguments(&arguments.changes, &found.spec)?;
     study.changes.apply(&mut found.spec);
     changes.apply(&mut found.spec);
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+        pool.build_global().map_err(|error| Failure::of("--threads", error))?;
+    }
 
     let interpreter = Interpreter::new(&found.spec);
     let description = interpreter.description();
-    let workspace =
-        study.region.workspace(&interpreter).map_err(|error| Failure::of(&found.origin, error))?;
-    if workspace.configurations.is_empty() {
-        let reasons = unreachable::summary(&workspace, &description);
-        let message = format!("no configuration of the workspace can be reached: {reasons}");
-        return Err(Failure::of(&found.origin, message));
-    }
-
-    let varying = varying(&workspace);
-    let mut first_order = FirstOrder::new(&interpreter, workspace.configurations.len());
+    let workspace = study.region.workspace(&interpreter, arguments.seed);
+    let workspace = workspace.map_err(|error| Failure::of(&found.origin, error))?;
+    let varying = study.region.varying(&found.spec);
     let mut files = match &arguments.out {
         Some(folder) => Some(Files::create(folder, &description, &varying)?),
         None => None,
     };
     let u = sampling::nominal_inputs(&description);
-    let budget = error_budget(&interpreter, &workspace, &u, &mut |row| {
-        first_order.add(row, &u);
+    let mut first_order = FirstOrder::new(&interpreter, &u, workspace.len());
+    let mut compensation = study.compensation.as_ref().map(|left| Compensation::new(left.of(&description)));
+    let mut progress = Progress::new(workspace.len());
+    let budget = error_budget(&interpreter, &*workspace, &u, &mut |row| {
+        first_order.add(row);
+        compensation.iter_mut().for_each(|compensation| compensation.add(row));
         files.iter_mut().for_each(|files| files.configuration(row));
-    })
-    .map_err(|refused| unevaluated(&refused, &workspace, &description, &found.origin))?;
+        progress.reached(row.index);
+    });
+    drop(progress);
+    let unevaluated = |refused: &Unevaluated| {
+        let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
+            Some(configuration) => number::configuration(&configuration, workspace.home(), &description),
+            None => "home".to_owned(),
+        };
+        Failure::evaluation(&found.origin, &at, &refused.error, &description)
+    };
+    let budget = budget.map_err(|refused| unevaluated(&refused))?;
+    if budget.configurations == 0 {
+        let reasons = unreachable::summary(&budget.unreachable, &description);
+        let message = format!("no configuration of the workspace can be reached: {reasons}");
+        return Err(Failure::of(&found.origin, message));
+    }
 
-    let region = study.region.describe(&found.spec);
-    let analysis =
-        Analysis { description, study: &study, region, workspace, varying: &varying, budget, first_order };
+    let drawn = match arguments.monte_carlo {
+        Some(draws) => {
+            let seed = arguments.seed.unwrap_or(0);
+            let draw = |index: Option<usize>| {
+                let configuration = index.and_then(|index| workspace.configuration(index).ok());
+                let configuration = configuration.unwrap_or_else(|| workspace.home().clone());
+                monte_carlo(&interpreter, &configuration, &u, draws as usize, seed)
+                    .map_err(|error| unevaluated(&Unevaluated { configuration: index, error }))
+            };
+            Some(Drawn { seed, worst: draw(budget.combined.radius.configuration)?, home: draw(None)? })
+        }
+        None => None,
+    };
+    let analysis = Analysis {
+        region: study.region.describe(&found.spec),
+        workspace: &*workspace,
+        varying: &varying,
+        compensation,
+        admissible: study.tolerance.map(|tolerance| Admissible::new(&budget, tolerance)),
+        description,
+        study: &study,
+        budget,
+        first_order,
+        drawn,
+    };
     if let Some(files) = files {
         files.finish(&analysis)?;
     }
+    analysis.warn(arguments.out.is_some());
     let text = if arguments.json { output::json(&json::of(&analysis))? } else { text::of(&analysis) };
     Ok(Outcome::passed(text))
 }
 
-/// The parameters that are not the same everywhere.
-fn varying(workspace: &Workspace) -> Vec<usize> {
-    let Workspace { configurations, home, .. } = workspace;
-    let varies = |i: &usize| configurations.iter().any(|configuration| configuration.s[*i] != home.s[*i]);
-    (0..home.s.len()).filter(varies).collect()
-}
-
-fn unevaluated(
-    refused: &Unevaluated,
-    workspace: &Workspace,
-    description: &Description,
-    origin: &str,
-) -> Failure {
-    let at = match refused.configuration.and_then(|index| workspace.configurations.get(index)) {
-        Some(configuration) => number::configuration(configuration, &workspace.home, description),
-        None => "home".to_owned(),
-    };
-    Failure::evaluation(origin, &at, &refused.error, description)
-}
-
 impl Analysis<'_> {
     /// The configuration where a source, or everything, is worst.
-    fn configuration(&self, index: Option<usize>) -> Option<&Configuration> {
-        self.workspace.configurations.get(index?)
+    fn configuration(&self, index: Option<usize>) -> Option<Configuration> {
+        self.workspace.configuration(index?).ok()
+    }
+
+    /// Says on stderr what a reader of the results must know.
+    fn warn(&self, files: bool) {
+        let length = |value| number::length(value, self.description.length);
+        let neglected = self.first_order.largest;
+        if let Some(tolerance) = self.study.tolerance.filter(|tolerance| neglected > tolerance / 10.0) {
+            note(&format!(
+                "warning: first order is off by up to {}, more than a tenth of the tolerance of {}; \
+                 look at --monte-carlo",
+                length(neglected),
+                length(tolerance),
+            ));
+        }
+        let (listed, count) = (self.budget.unreachable.first.len(), self.budget.unreachable.count);
+        if files && listed < count {
+            note(&format!("note: unreachable.csv has the first {listed} of {count}"));
+        }
     }
 }

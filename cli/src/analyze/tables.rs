@@ -1,10 +1,12 @@
 //! The tables of an analysis.
 
+use abbe::analysis::Admissible;
+
 use super::agreement::{Agreement, of_source};
 use super::{Analysis, json};
-use crate::number::{self, error_decimals, fixed, percent, short};
+use crate::number::{self, error_decimals, fixed, short};
 use crate::study::{CombinedFigure, Metric, Published};
-use crate::table::{Table, unbroken};
+use crate::table::Table;
 
 impl Analysis<'_> {
     /// How many decimals errors have: three digits of the smallest source that matters.
@@ -39,32 +41,21 @@ pub(super) fn sources(analysis: &Analysis) -> String {
     table.right(&[2, 3, 4, 5]).unwrapped(&[1, 6]).to_string()
 }
 
-/// The configuration where each source is worst.
-pub(super) fn worst(analysis: &Analysis) -> String {
-    let tolerance = analysis.study.tolerance;
-    let mut header = vec!["source", "norm", "at (the rest as at home)"];
-    if tolerance.is_some() {
-        header.insert(2, "of tolerance");
+/// What the tolerance allows each source, and what is gained by making it smaller.
+pub(super) fn allowed(analysis: &Analysis, admissible: &Admissible) -> String {
+    let mut table = Table::new(&["source", "alone at most", "equal shares", "gain per percent"]);
+    let times = |scale: Option<f64>| {
+        scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
+    };
+    for source in analysis.budget.tighten_first() {
+        table.row(vec![
+            analysis.description.sources[source].name.to_owned(),
+            times(admissible.alone[source]),
+            times(admissible.equal[source]),
+            fixed(analysis.budget.gains[source], analysis.decimals() + 1),
+        ]);
     }
-    let mut table = Table::new(&header);
-    let sources = analysis.budget.sources.iter().map(|errors| {
-        let name = analysis.description.sources[errors.source].name;
-        (name, errors.plain_max.norm, errors.worst)
-    });
-    let radius = analysis.budget.combined.radius;
-    for (name, norm, worst) in sources.chain([("all together", radius.value, radius.configuration)]) {
-        let at = analysis
-            .configuration(worst)
-            .filter(|_| norm > 0.0)
-            .map(|worst| number::configuration(worst, &analysis.workspace.home, &analysis.description))
-            .map(|at| unbroken(&at));
-        let mut cells = vec![name.to_owned(), fixed(norm, analysis.decimals()), at.unwrap_or_default()];
-        if let Some(tolerance) = tolerance {
-            cells.insert(2, percent(norm, tolerance));
-        }
-        table.row(cells);
-    }
-    table.right(if tolerance.is_some() { &[1, 2] } else { &[1] }).to_string()
+    table.right(&[1, 2, 3]).to_string()
 }
 
 pub(super) fn combined(analysis: &Analysis) -> String {
@@ -81,6 +72,16 @@ pub(super) fn combined(analysis: &Analysis) -> String {
         if let Some(published) = analysis.published_combined(figure) {
             lines.published(analysis, [0.0, 0.0, 0.0, norm], published);
         }
+        table.row(lines.joined().split_off(1));
+    }
+    let all = &analysis.budget.combined;
+    for (name, axes, norm) in [
+        ("random: standard deviation", all.standard_deviation, all.standard_radius),
+        ("worst case: absolute values, added", all.worst_case, all.worst_case_radius),
+    ] {
+        let mut lines = Lines::default();
+        let [x, y, z] = axes.map(Some);
+        lines.figures(analysis, name, [x, y, z, Some(norm.value)]);
         table.row(lines.joined().split_off(1));
     }
     table.right(&[1, 2, 3, 4]).unwrapped(&[0, 5]).to_string()

@@ -1,7 +1,7 @@
 //! The results for people.
 
-use super::{Analysis, tables, unreachable};
-use crate::number::{self, percent, short};
+use super::{Analysis, conclusions, drawn, ledger, tables, unreachable};
+use crate::number;
 use crate::table::{unbroken, wrapped};
 
 pub(super) fn of(analysis: &Analysis) -> String {
@@ -11,9 +11,16 @@ pub(super) fn of(analysis: &Analysis) -> String {
         parts.push("This spec has no error source that is switched on: there is nothing to add up.\n".into());
     } else {
         parts.push(format!("Each source alone ({unit})\n{}", tables::sources(analysis)));
-        parts.push(format!("Where each is worst\n{}", tables::worst(analysis)));
         parts.push(format!("All together ({unit})\n{}", tables::combined(analysis)));
-        parts.push(conclusions(analysis));
+        parts.push(format!("Ledger: norms of the errors ({unit})\n{}", ledger::table(analysis)));
+        if let Some(admissible) = &analysis.admissible {
+            let table = tables::allowed(analysis, admissible);
+            parts.push(format!("What the tolerance allows, and what to tighten first ({unit})\n{table}"));
+        }
+        if let Some(drawn) = &analysis.drawn {
+            parts.push(format!("Monte Carlo on the exact chain ({unit})\n{}", drawn::table(analysis, drawn)));
+        }
+        parts.push(conclusions::of(analysis));
     }
     if !analysis.study.not_reproducible.is_empty() {
         let notes = analysis.study.not_reproducible.iter().map(|note| format!("- {}\n", wrapped(note, 2)));
@@ -23,19 +30,19 @@ pub(super) fn of(analysis: &Analysis) -> String {
 }
 
 fn heading(analysis: &Analysis) -> String {
-    let Analysis { description, study, workspace, region, .. } = analysis;
+    let Analysis { description, study, workspace, region, budget, .. } = analysis;
+    let unreachable = &budget.unreachable;
     let mut text = format!("{} ({})\n{}\n", description.title, description.name, study.title);
     text += &format!("\nWorkspace       {}\n", wrapped(region, 16));
-    let mut reached =
-        format!("{}, {} unreachable", workspace.configurations.len(), workspace.unreachable.len());
-    if !workspace.unreachable.is_empty() {
-        reached += &format!(": {}", unreachable::summary(workspace, description));
+    let mut reached = format!("{}, {} unreachable", budget.configurations, unreachable.count);
+    if unreachable.count > 0 {
+        reached += &format!(": {}", unreachable::summary(unreachable, description));
     }
     text += &format!("Configurations  {}\n", wrapped(&reached, 16));
-    for example in unreachable::first_few(workspace, description) {
+    for example in unreachable::first_few(unreachable, workspace.home(), description) {
         text += &format!("                - {}\n", wrapped(&example, 18));
     }
-    let home = number::variables(&workspace.home.q, description);
+    let home = number::variables(&workspace.home().q, description);
     text += &format!("Home            {}\n", wrapped(&unbroken(&home), 16));
     let inputs = description.inputs.iter();
     let inputs =
@@ -49,50 +56,6 @@ fn heading(analysis: &Analysis) -> String {
     text += &format!("Errors          {}\n", wrapped(errors, 16));
     let metrics = "plain maximum; half of what it varies by; largest difference from the error at home";
     text + &format!("Metrics         {}\n", wrapped(metrics, 16))
-}
-
-/// Tolerance, what compensation leaves, and what first order neglects.
-fn conclusions(analysis: &Analysis) -> String {
-    let unit = analysis.description.length.symbol();
-    let show = |value| format!("{} {unit}", number::trimmed(value, analysis.decimals()));
-    let combined = &analysis.budget.combined;
-    let mut text = String::new();
-    let mut line = |sentence: String| text += &format!("{}\n", wrapped(&sentence, 0));
-    if let Some(tolerance) = analysis.study.tolerance {
-        let share = percent(combined.radius.value, tolerance);
-        line(format!("Tolerance: {}; the radius is {share} of it.", show(tolerance)));
-    }
-    if let Some(published) = &analysis.study.compensated {
-        let random = combined.random_radius.value;
-        let total = published.residual + random;
-        let share = analysis
-            .study
-            .tolerance
-            .map(|tolerance| format!(", {} of the tolerance", percent(total, tolerance)));
-        line(format!(
-            "After compensation: {} repeatable residual + {} random = {}{}; {} prints {} + {} = {} ({}).",
-            show(published.residual),
-            show(random),
-            show(total),
-            share.unwrap_or_default(),
-            analysis.publisher(),
-            short(published.residual),
-            short(published.random),
-            show(published.total),
-            published.reference,
-        ));
-    }
-    let first_order = &analysis.first_order;
-    if combined.repeatable_radius.value == 0.0 {
-        return text;
-    }
-    line(format!(
-        "First order: J_e ε of the repeatable sources differs from the exact chain A_1 E_1 … A_n E_n T by at most \
-         {}, at {} configurations.",
-        show(first_order.largest),
-        first_order.checked,
-    ));
-    text
 }
 
 impl Analysis<'_> {

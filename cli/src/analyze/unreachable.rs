@@ -1,7 +1,7 @@
 //! What of the workspace could not be reached, and why.
 
 use abbe::Description;
-use abbe::analysis::{Unreachable, Unreached, Workspace};
+use abbe::analysis::{Configuration, Unreachable, Unreachables, Unreached};
 use serde::Serialize;
 
 use crate::number;
@@ -17,35 +17,37 @@ pub(super) struct Reason {
 }
 
 /// The reasons, the most frequent first.
-pub(super) fn reasons(workspace: &Workspace, description: &Description) -> Vec<Reason> {
-    let mut counted: Vec<Reason> = Vec::new();
-    for unreachable in &workspace.unreachable {
-        let reason = match &unreachable.reason {
-            Unreached::OutOfReach { .. } => "out of reach".to_owned(),
-            Unreached::OutsideLimits { variable, .. } => {
-                format!("{} outside its limits", description.variables[*variable].name)
-            }
-            Unreached::Evaluation(error) => error.to_string(),
-        };
-        match counted.iter_mut().find(|known| known.reason == reason) {
-            Some(known) => known.count += 1,
-            None => counted.push(Reason { reason, count: 1 }),
+pub(super) fn reasons(unreachable: &Unreachables, description: &Description) -> Vec<Reason> {
+    let name = |reason: &Unreached| match reason {
+        Unreached::OutOfReach { .. } => "out of reach".to_owned(),
+        Unreached::OutsideLimits { variable, .. } => {
+            format!("{} outside its limits", description.variables[*variable].name)
         }
-    }
-    counted.sort_by_key(|reason| std::cmp::Reverse(reason.count));
-    counted
+        Unreached::Evaluation(error) => error.to_string(),
+    };
+    unreachable.reasons.iter().map(|(reason, count)| Reason { reason: name(reason), count: *count }).collect()
 }
 
 /// The reasons in a sentence.
-pub(super) fn summary(workspace: &Workspace, description: &Description) -> String {
-    let reasons = reasons(workspace, description);
+pub(super) fn summary(unreachable: &Unreachables, description: &Description) -> String {
+    let reasons = reasons(unreachable, description);
     reasons.iter().map(|r| format!("{} ({})", r.reason, r.count)).collect::<Vec<_>>().join(", ")
 }
 
 /// The first few: what was asked for, and why it could not be had.
-pub(super) fn first_few(workspace: &Workspace, description: &Description) -> Vec<String> {
-    let shown = workspace.unreachable.iter().take(SHOWN).map(|unreachable| {
-        let asked = number::configuration(&unreachable.asked, &workspace.home, description);
+pub(super) fn first_few(
+    unreachable: &Unreachables,
+    home: &Configuration,
+    description: &Description,
+) -> Vec<String> {
+    let shown = unreachable.first.iter().take(SHOWN).map(|unreachable| {
+        let asked = match unreachable.point {
+            Some(point) => {
+                let [x, y, z] = point.map(number::short);
+                format!("({x}, {y}, {z}) {}", description.length.symbol())
+            }
+            None => number::configuration(&unreachable.asked, home, description),
+        };
         format!("{asked}: {}", reason(unreachable, description))
     });
     shown.collect()

@@ -1,7 +1,7 @@
 //! How many of the generalized errors measurements can tell apart.
 
 use abbe::Manipulator;
-use abbe::analysis::{Measurement, identifiable, joint_samples};
+use abbe::analysis::{Measurement, Workspace, identifiable, joint_samples};
 use serde::Serialize;
 
 /// How many configurations show the rank: 60 that of any arm, more that of a very long chain.
@@ -25,7 +25,7 @@ pub(super) fn count(manipulator: &dyn Manipulator) -> Vec<Identified> {
     let description = manipulator.description();
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
     let samples = joint_samples(manipulator, &moved, configurations(description.frames.len()))
-        .map(|workspace| workspace.configurations);
+        .map(|workspace| workspace.reached());
     let ways = [
         ("pose", Measurement::Pose, false),
         ("pose", Measurement::Pose, true),

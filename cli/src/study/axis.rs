@@ -8,8 +8,10 @@ use abbe_codegen::spec::{Spec, VariableKind};
 
 use super::read::constant;
 
-/// The most configurations that are analyzed: some gigabytes of them.
-pub(super) const LARGEST: usize = 10_000_000;
+/// The most values of an axis: they are stored.
+const VALUES: usize = 10_000_000;
+/// The most configurations that are analyzed: none is stored, but time is finite.
+pub(super) const LARGEST: usize = 1_000_000_000;
 
 /// What can be an axis, with its dimensions.
 pub(super) struct Candidates<'a> {
@@ -73,7 +75,12 @@ impl<'a> Candidates<'a> {
 }
 
 /// `[1, 2, 5]`, `{ from = 0, to = 10, count = 3 }` or `{ from = 0, to = 10, step = 5 }`.
-fn values(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<Vec<f64>> {
+pub(super) fn values(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<Vec<f64>> {
     let what = format!("a value of `{}`", item.key);
     if !item.is_table() {
         let items = document.array(item, "a list of values, or { from, to, count } or { from, to, step }")?;
@@ -97,7 +104,7 @@ fn values(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dime
     let (from, to) = (end("from"), end("to"));
     match (section.get("count"), section.get("step")) {
         (Some(counted), None) => {
-            let count = count(&counted, document, spec)?;
+            let count = count(&counted, VALUES, document, spec)?;
             Some(sampling::grid([from?, to?], count))
         }
         (None, Some(item)) => {
@@ -113,12 +120,22 @@ fn values(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dime
 }
 
 /// A whole number of things, at least one.
-pub(super) fn count(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<usize> {
+pub(super) fn count(item: &Item<'_>, largest: usize, document: &mut Document, spec: &Spec) -> Option<usize> {
+    whole(item, [1, largest], document, spec)
+}
+
+/// A whole number.
+pub(super) fn whole(
+    item: &Item<'_>,
+    [least, largest]: [usize; 2],
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<usize> {
     let value = constant(item, document, spec, Dimension::NONE, &format!("`{}`", item.key))?;
-    if value.fract() == 0.0 && (1.0..=LARGEST as f64).contains(&value) {
+    if value.fract() == 0.0 && (least as f64..=largest as f64).contains(&value) {
         return Some(value as usize);
     }
-    let message = format!("`{}` must be a whole number from 1 to {LARGEST}", item.key);
+    let message = format!("`{}` must be a whole number from {least} to {largest}", item.key);
     document.mistake(
         Diagnostic::new(item.span(), message).label("this is not").help("write a number such as 100"),
     );
@@ -130,8 +147,8 @@ fn stepped([from, to]: [f64; 2], step: f64, item: &Item<'_>, document: &mut Docu
     let steps = ((to - from) / step).abs();
     let mistake = if step <= 0.0 {
         "a step must be more than zero".to_owned()
-    } else if steps.is_nan() || steps >= LARGEST as f64 {
-        format!("this step makes more than {LARGEST} values")
+    } else if steps.is_nan() || steps >= VALUES as f64 {
+        format!("this step makes more than {VALUES} values")
     } else if (steps - steps.round()).abs() > 1e-6 {
         "this step does not end at `to`".to_owned()
     } else {

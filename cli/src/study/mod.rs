@@ -9,8 +9,17 @@
 //!
 //! [workspace.joints]                       # samples within the limits …
 //! samples = 1000
+//! # … random ones: [workspace.random]  samples = 1000, seed = 7
 //! # … or every combination: [workspace.grid]  q4 = { from = "-90 deg", to = "90 deg", step = "5 deg" }
 //! # … or tool points brought to a point of the room: [workspace.presented], as in studies/pps.toml
+//! # … or a box of points in F_0, by inverse kinematics from home: [workspace.box]
+//! #     x = { from = "400 mm", to = "600 mm", count = 5 }, y and z likewise
+//! #     orientation = "free" (or "home": that of home is kept), solve = ["q1", …] (all variables if not given)
+//! # … or a CSV file beside the study: [workspace.path]  file = "path.csv", with columns `d1 (mm)`, `q4 (deg)`, …
+//!
+//! [compensation]                           # what is left of the repeatable sources
+//! default = 0.05                           # a share of the error
+//! "arm deflection" = "0.02 mm"             # or a bound
 //!
 //! [[published]]                            # a printed figure, to stand beside ours
 //! source = "spin encoder"
@@ -19,10 +28,13 @@
 //! within = "0.0005 mm"                     # how near is equal: half of the last printed digit
 //! ```
 //!
-//! `read` reads a file from top to bottom, `axis` and `region` its workspace, `published` the figures that
-//! somebody printed. Everything is checked against the spec, and mistakes are shown as those of a spec.
+//! `read` reads a file from top to bottom, `region`, `forms`, `axis` and `path` its workspace, `published` the figures
+//! that somebody printed. Everything is checked against the spec, and mistakes are shown as those of a spec.
 
 mod axis;
+mod compensation;
+mod forms;
+mod path;
 mod published;
 mod read;
 mod region;
@@ -36,7 +48,8 @@ use abbe_codegen::spec::Spec;
 use crate::changes::Changes;
 use crate::manipulator::Found;
 
-pub(crate) use published::{CombinedFigure, Compensated, Metric, Published, Subject};
+pub(crate) use compensation::Compensated;
+pub(crate) use published::{CombinedFigure, Metric, Published, PublishedResidual, Subject};
 pub(crate) use region::Region;
 
 /// What to do with a manipulator.
@@ -50,7 +63,9 @@ pub(crate) struct Study {
     pub(crate) changes: Changes,
     pub(crate) region: Region,
     pub(crate) published: Vec<Published>,
-    pub(crate) compensated: Option<Compensated>,
+    /// What somebody printed of the errors after compensation.
+    pub(crate) compensated: Option<PublishedResidual>,
+    pub(crate) compensation: Option<Compensated>,
     pub(crate) not_reproducible: Vec<String>,
 }
 
@@ -75,6 +90,7 @@ impl Study {
             region: Region::samples(spec),
             published: Vec::new(),
             compensated: None,
+            compensation: None,
             not_reproducible: Vec::new(),
         }
     }

@@ -60,7 +60,7 @@ pub(crate) struct Published {
 
 /// What is left after compensation, as printed.
 #[derive(Debug)]
-pub(crate) struct Compensated {
+pub(crate) struct PublishedResidual {
     /// What compensation leaves of the repeatable errors.
     pub(crate) residual: f64,
     pub(crate) random: f64,
@@ -123,7 +123,11 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
 }
 
 /// `[compensated]`.
-pub(super) fn read_compensated(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Compensated> {
+pub(super) fn read_compensated(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<PublishedResidual> {
     let section = document.section(item)?;
     section.check_keys(&["residual", "random", "total", "reference"], document);
     let mut length = |key: &str| {
@@ -132,5 +136,5 @@ pub(super) fn read_compensated(item: &Item<'_>, document: &mut Document, spec: &
     };
     let (residual, random, total) = (length("residual"), length("random"), length("total"));
     let reference = section.optional_text("reference", document);
-    Some(Compensated { residual: residual?, random: random?, total: total?, reference })
+    Some(PublishedResidual { residual: residual?, random: random?, total: total?, reference })
 }

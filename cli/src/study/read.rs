@@ -7,9 +7,9 @@ use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_codegen::spec::Spec;
 
-use super::Study;
 use super::published::{read_compensated, read_published};
 use super::region::Region;
+use super::{Study, compensation};
 use crate::changes::{Changes, find_symbol};
 
 const HEAD: [&str; 9] = [
@@ -35,11 +35,12 @@ impl Study {
 }
 
 fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Study> {
-    root.check_keys(&["study", "workspace", "published", "compensated"], document);
+    root.check_keys(&["study", "workspace", "published", "compensated", "compensation"], document);
     let head = root.required("study", document).and_then(|item| document.section(&item));
     let region = root.required("workspace", document).and_then(|item| Region::read(&item, document, spec));
     let published = read_published(root, document, spec);
     let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document, spec));
+    let compensation = root.get("compensation").and_then(|item| compensation::read(&item, document, spec));
     let mut head = head?;
     head.name = "[study]".to_owned();
     head.check_keys(&HEAD, document);
@@ -53,6 +54,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         region: region?,
         published,
         compensated,
+        compensation,
     })
 }
 

@@ -1,14 +1,17 @@
 //! The workspace of a study.
 
-use abbe::analysis::{Axis, Presentation, Workspace, joint_grid, joint_samples, presented_volume};
+use abbe::analysis::{
+    Axis, BaseBox, Presentation, ToolOrientation, Workspace, base_box, joint_grid, joint_samples, listed,
+    presented_volume, random_joint_samples,
+};
 use abbe::{Error, Manipulator};
 use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::Dimension;
+use abbe_codegen::document::{Document, Item};
 use abbe_codegen::spec::Spec;
 
-use super::axis::{Candidates, LARGEST, count};
-use super::read::constant;
+use super::axis::LARGEST;
+use super::forms::{self, FORMS};
+use super::path::Path;
 use crate::number;
 
 /// How many joint samples are looked at if nobody says.
@@ -21,36 +24,36 @@ pub(crate) enum Region {
     Presented(Presentation),
     /// Every combination of values of some variables.
     Grid(Vec<Axis>),
-    /// Samples of some variables within their limits.
-    Samples { moved: Vec<usize>, count: usize },
+    /// Samples of some variables within their limits: random ones if there is a seed.
+    Samples { moved: Vec<usize>, count: usize, seed: Option<u64> },
+    /// A box of points in the base frame.
+    Box(BaseBox),
+    /// Configurations from a file.
+    Path(Path),
 }
 
 impl Region {
     /// All variables, sampled.
     pub(super) fn samples(spec: &Spec) -> Self {
-        Self::Samples { moved: (0..spec.variables.len()).collect(), count: SAMPLES }
+        Self::Samples { moved: (0..spec.variables.len()).collect(), count: SAMPLES, seed: None }
     }
 
-    /// `[workspace]`: one of `presented`, `grid` and `joints`.
+    /// `[workspace]`: one of the forms.
     pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Self> {
         let mut section = document.section(item)?;
         section.name = "[workspace]".to_owned();
-        section.check_keys(&["presented", "grid", "joints"], document);
-        let mut forms =
-            section.items().filter(|item| ["presented", "grid", "joints"].contains(&item.key.as_str()));
+        section.check_keys(&FORMS, document);
+        let mut forms = section.items().filter(|item| FORMS.contains(&item.key.as_str()));
         let (Some(form), None) = (forms.next(), forms.next()) else {
+            let help = format!("give one of {}", FORMS.map(|form| format!("`{form}`")).join(", "));
             document.mistake(
                 Diagnostic::new(section.span.clone(), "a workspace has one form")
                     .label("which configurations?")
-                    .help("give one of `presented`, `grid`, `joints`"),
+                    .help(help),
             );
             return None;
         };
-        let region = match form.key.as_str() {
-            "presented" => Self::Presented(presented(&document.section(&form)?, document, spec)?),
-            "grid" => Self::Grid(Candidates::variables(spec).axes(&form, document, spec)),
-            _ => joints(&document.section(&form)?, document, spec)?,
-        };
+        let region = forms::read(&form, document, spec)?;
         if region.count().is_none() {
             let message = format!("this workspace has more than {LARGEST} configurations");
             document.mistake(
@@ -64,22 +67,51 @@ impl Region {
 
     /// How many configurations are asked for, if they are not too many.
     fn count(&self) -> Option<usize> {
-        let axes = match self {
-            Self::Presented(presentation) => [&presentation.tool_points[..], &presentation.approaches],
-            Self::Grid(axes) => [&axes[..], &[]],
-            Self::Samples { count, .. } => return Some(*count),
+        let sizes: Vec<usize> = match self {
+            Self::Presented(Presentation { tool_points, approaches, .. }) => {
+                tool_points.iter().chain(approaches).map(|axis| axis.values.len()).collect()
+            }
+            Self::Grid(axes) => axes.iter().map(|axis| axis.values.len()).collect(),
+            Self::Box(region) => region.points.iter().map(Vec::len).collect(),
+            Self::Samples { count, .. } => vec![*count],
+            Self::Path(path) => vec![path.configurations.len()],
         };
-        let sizes = axes.concat().into_iter().map(|axis| axis.values.len());
         sizes.into_iter().try_fold(1, usize::checked_mul).filter(|count| *count <= LARGEST)
     }
 
-    /// The configurations.
-    pub(crate) fn workspace(&self, manipulator: &dyn Manipulator) -> Result<Workspace, Error> {
-        match self {
-            Self::Presented(presentation) => presented_volume(manipulator, presentation),
-            Self::Grid(axes) => joint_grid(manipulator, axes),
-            Self::Samples { moved, count } => joint_samples(manipulator, moved, *count),
-        }
+    /// The configurations; a seed replaces that of the study.
+    pub(crate) fn workspace<'a>(
+        &self,
+        manipulator: &'a dyn Manipulator,
+        seed: Option<u64>,
+    ) -> Result<Box<dyn Workspace + 'a>, Error> {
+        Ok(match self {
+            Self::Presented(presentation) => Box::new(presented_volume(manipulator, presentation)?),
+            Self::Grid(axes) => Box::new(joint_grid(manipulator, axes)?),
+            Self::Samples { moved, count, seed: None } => {
+                Box::new(joint_samples(manipulator, moved, *count)?)
+            }
+            Self::Samples { moved, count, seed: Some(own) } => {
+                Box::new(random_joint_samples(manipulator, moved, *count, seed.unwrap_or(*own))?)
+            }
+            Self::Box(region) => Box::new(base_box(manipulator, region)?),
+            Self::Path(path) => Box::new(listed(manipulator, path.configurations(manipulator))?),
+        })
+    }
+
+    /// The parameters that are not nominal everywhere.
+    pub(crate) fn varying(&self, spec: &Spec) -> Vec<usize> {
+        let mut varying = match self {
+            Self::Presented(Presentation { tool_points, .. }) => {
+                let nominal = |axis: &Axis| spec.parameters[axis.index].value;
+                let varies = |axis: &&Axis| axis.values.iter().any(|value| *value != nominal(axis));
+                tool_points.iter().filter(varies).map(|axis| axis.index).collect()
+            }
+            Self::Path(path) => path.parameters().collect(),
+            _ => Vec::new(),
+        };
+        varying.sort_unstable();
+        varying
     }
 
     /// The workspace in a sentence.
@@ -94,63 +126,42 @@ impl Region {
                 format!(
                     "{} tool points ({}) in {} approaches ({}), each brought to ({x}, {y}, {z}) {} by {}",
                     sizes(tool_points),
-                    listed(parameters),
+                    names(parameters),
                     sizes(approaches),
-                    listed(held),
+                    names(held),
                     spec.length.symbol(),
-                    listed(solved.iter().map(variable)),
+                    names(solved.iter().map(variable)),
                 )
             }
             Self::Grid(axes) => {
                 let axes =
                     axes.iter().map(|axis| format!("{} × {}", axis.values.len(), variable(&axis.index)));
-                format!("grid of {}", listed(axes))
+                format!("grid of {}", names(axes))
             }
-            Self::Samples { moved, count } => {
-                format!("{count} samples of {} within their limits", listed(moved.iter().map(variable)))
+            Self::Samples { moved, count, seed } => {
+                let random = if seed.is_some() { "random " } else { "" };
+                format!(
+                    "{count} {random}samples of {} within their limits",
+                    names(moved.iter().map(variable))
+                )
+            }
+            Self::Box(BaseBox { points, orientation, solved }) => {
+                let [x, y, z] = points.each_ref().map(Vec::len);
+                let turned = match orientation {
+                    ToolOrientation::Free => "in any orientation",
+                    ToolOrientation::Home => "in the orientation of home",
+                };
+                let solved = names(solved.iter().map(variable));
+                format!("box of {x} × {y} × {z} points in F_0, each reached {turned} by {solved}")
+            }
+            Self::Path(path) => {
+                format!("{} configurations of {}", path.configurations.len(), path.file)
             }
         }
     }
 }
 
-fn listed(names: impl Iterator<Item = impl Into<String>>) -> String {
+fn names(names: impl Iterator<Item = impl Into<String>>) -> String {
     let names = names.map(Into::into).collect::<Vec<_>>();
     if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
-}
-
-/// `[workspace.presented]`: tool points, each brought to one point of the room.
-fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Presentation> {
-    section.check_keys(&["point", "tool_points", "approaches", "solve"], document);
-    let point = section.required("point", document).and_then(|item| point(&item, document, spec));
-    let tool_points = section.get("tool_points");
-    let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item, document, spec));
-    let variables = Candidates::variables(spec);
-    let approaches =
-        section.get("approaches").map(|item| (variables.axes(&item, document, spec), item.span()));
-    let (approaches, span) = approaches.unwrap_or_default();
-    let solved = section.required("solve", document).map(|item| variables.list(&item, document))?;
-    if let Some(both) = approaches.iter().find(|axis| solved.contains(&axis.index)) {
-        let message = format!("`{}` cannot be held and solved for", spec.variables[both.index].name);
-        document
-            .mistake(Diagnostic::new(span, message).help("take it out of `approaches` or out of `solve`"));
-    }
-    Some(Presentation { point: point?, tool_points: tool_points.unwrap_or_default(), approaches, solved })
-}
-
-fn point(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<[f64; 3]> {
-    let entries: [Item<'_>; 3] = document.entries(item, "three lengths: x, y and z in F_0")?;
-    let [x, y, z] =
-        entries.map(|entry| constant(&entry, document, spec, Dimension::LENGTH, "a coordinate of the point"));
-    Some([x?, y?, z?])
-}
-
-/// `[workspace.joints]`: samples within the limits; all variables move if `moved` does not say otherwise.
-fn joints(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
-    section.check_keys(&["samples", "moved"], document);
-    let moved = match section.get("moved") {
-        Some(item) => Candidates::variables(spec).list(&item, document),
-        None => (0..spec.variables.len()).collect(),
-    };
-    let samples = section.required("samples", document)?;
-    Some(Region::Samples { moved, count: count(&samples, document, spec)? })
 }

@@ -67,15 +67,14 @@ pub fn inverse(
             (0..start.len()).map(|i| if free.contains(&i) { sample[i] } else { start[i] }).collect()
         }
     });
-    let starts = starts.collect::<Vec<Vec<f64>>>();
-    for start in &starts {
-        if let Ok(found) = search.descend(start, true)
+    for start in starts.clone() {
+        if let Ok(found) = search.descend(&start, true)
             && found.residual.norm() <= REACHED
         {
             return Ok(found.q);
         }
     }
-    search.beyond_limits(&starts)
+    search.beyond_limits(&starts.collect::<Vec<_>>())
 }
 
 /// How far a value is beyond the limits of its variable, in shares of the range.

@@ -1,22 +1,32 @@
 //! The errors of a machine over its workspace: section 5 of the paper, on any [`Manipulator`](crate::Manipulator).
 //!
-//! [`sampling`] chooses numbers, [`inverse()`] presents tool points, and together they make a [`Workspace`].
-//! [`sweep`] evaluates it block by block; [`error_budget`] gathers what every source does alone
-//! ([`SourceErrors`]) and what they do together ([`Combined`]). [`identifiable()`] counts which generalized
-//! errors measurements can tell apart. `inverse`, `presented_volume` and `identifiable` need the feature
-//! `nalgebra`.
+//! A [`Workspace`] makes configurations by index: joint grids and samples, a presented volume or a box solved by
+//! [`inverse()`], a list. [`sweep`] evaluates it block by block, in parallel, and shows every [`Row`] in order;
+//! nothing is stored. [`error_budget`] gathers what every source does alone ([`SourceErrors`]) and what they do
+//! together ([`Combined`]), [`Compensation`] what is left, [`Admissible`] what a tolerance allows. [`monte_carlo`]
+//! draws errors on the exact chain. [`identifiable()`] counts which generalized errors measurements can tell apart.
 
+mod admissible;
+mod base_box;
+mod block;
 mod budget;
 mod combined;
-#[cfg(feature = "nalgebra")]
+mod compensation;
+mod covariance;
+mod enclosing;
 mod identifiable;
-#[cfg(feature = "nalgebra")]
 mod inverse;
-#[cfg(feature = "nalgebra")]
+mod joints;
+mod monte_carlo;
 mod presented;
+mod quantiles;
 pub mod sampling;
+mod scattered;
 mod single;
+mod stream;
 mod sweep;
+mod tightening;
+mod unreachables;
 mod unreached;
 mod workspace;
 
@@ -24,18 +34,24 @@ mod workspace;
 pub(crate) mod pps_by_hand;
 #[cfg(test)]
 pub(crate) mod puma_by_hand;
-#[cfg(all(test, feature = "nalgebra"))]
+#[cfg(test)]
 mod tests;
 
+pub use admissible::Admissible;
+pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
 pub use budget::{Budget, error_budget};
 pub use combined::{Combined, Extreme};
-#[cfg(feature = "nalgebra")]
+pub use compensation::{Compensation, Residual};
+pub use covariance::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
+pub use enclosing::Sphere;
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
-#[cfg(feature = "nalgebra")]
 pub use inverse::{Target, inverse};
-#[cfg(feature = "nalgebra")]
-pub use presented::{Presentation, presented_volume};
+pub use joints::{JointGrid, JointSamples, Listed, joint_grid, joint_samples, listed, random_joint_samples};
+pub use monte_carlo::{MonteCarlo, monte_carlo};
+pub use presented::{Presentation, PresentedVolume, presented_volume};
+pub use quantiles::Quantile;
 pub use single::{Figures, SourceErrors};
 pub use sweep::{BLOCK, Row, Unevaluated, sweep};
+pub use unreachables::Unreachables;
 pub use unreached::Unreached;
-pub use workspace::{Axis, Configuration, Unreachable, Workspace, joint_grid, joint_samples};
+pub use workspace::{Axis, Configuration, Unreachable, Workspace};

@@ -1,7 +1,7 @@
 //! The paper's workspace: a volume of tool points, each presented at a fixed point of the room.
 
-use super::workspace::{combinations, in_range};
-use super::{Axis, Configuration, Target, Unreachable, Workspace, inverse, sampling};
+use super::workspace::{combinations, combine, in_range};
+use super::{Axis, Configuration, Target, Unreached, Workspace, inverse, sampling};
 use crate::{Error, Manipulator, Quantity};
 
 /// What is presented where, and how.
@@ -17,16 +17,23 @@ pub struct Presentation {
     pub solved: Vec<usize>,
 }
 
+/// Every tool point in every approach, presented at one point of `F_0`; see [`presented_volume`].
+pub struct PresentedVolume<'a> {
+    manipulator: &'a dyn Manipulator,
+    presentation: Presentation,
+    home: Configuration,
+}
+
 /// Every tool point in every approach, presented at one point of `F_0`; approaches vary fastest.
 ///
-/// What cannot be presented is counted in [`Workspace::unreachable`] with its reason. [`Error::Count`] if an
-/// index names a variable or a parameter that there is not; other errors as for [`Manipulator::transforms`].
-pub fn presented_volume(
-    manipulator: &dyn Manipulator,
+/// Each is solved for from home, whatever was solved before. [`Error::Count`] if an index names a variable or a
+/// parameter that there is not; other errors as for [`Manipulator::transforms`].
+pub fn presented_volume<'a>(
+    manipulator: &'a dyn Manipulator,
     presentation: &Presentation,
-) -> Result<Workspace, Error> {
+) -> Result<PresentedVolume<'a>, Error> {
     let description = manipulator.description();
-    let Presentation { point, tool_points, approaches, solved } = presentation;
+    let Presentation { tool_points, approaches, solved, .. } = presentation;
     let indices = approaches.iter().map(|axis| axis.index).chain(solved.iter().copied());
     in_range(indices, Quantity::Variables, description.variables.len())?;
     let indices = tool_points.iter().map(|axis| axis.index);
@@ -34,18 +41,26 @@ pub fn presented_volume(
 
     let home = Configuration::home(&description);
     sampling::arm_length(manipulator, &home.s)?;
-    let target = Target::Point(*point);
-    let (mut configurations, mut unreachable) = (Vec::new(), Vec::new());
-    for s in combinations(&home.s, tool_points) {
-        for start in combinations(&home.q, approaches) {
-            match inverse(manipulator, &s, &start, solved, &target) {
-                Ok(q) => configurations.push(Configuration { q, s: s.clone() }),
-                Err(reason) => {
-                    let asked = Configuration { q: start, s: s.clone() };
-                    unreachable.push(Unreachable { asked, reason });
-                }
-            }
-        }
+    Ok(PresentedVolume { manipulator, presentation: presentation.clone(), home })
+}
+
+impl Workspace for PresentedVolume<'_> {
+    fn len(&self) -> usize {
+        combinations(&self.presentation.tool_points)
+            .saturating_mul(combinations(&self.presentation.approaches))
     }
-    Ok(Workspace { configurations, home, unreachable })
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        let Presentation { point, tool_points, approaches, solved } = &self.presentation;
+        q.copy_from_slice(&self.home.q);
+        s.copy_from_slice(&self.home.s);
+        let tool_point = combine(index, approaches, q);
+        combine(tool_point, tool_points, s);
+        q.copy_from_slice(&inverse(self.manipulator, s, q, solved, &Target::Point(*point))?);
+        Ok(())
+    }
 }

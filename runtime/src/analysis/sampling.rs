@@ -14,7 +14,11 @@ use crate::{Description, Error, Manipulator, Variable, VariableKind};
 /// assert_eq!(halton(1, 1), 1.0 / 3.0);
 /// ```
 pub fn halton(index: usize, dimension: usize) -> f64 {
-    let base = prime(dimension);
+    radical_inverse(index, prime(dimension))
+}
+
+/// The digits of `index` in a base, mirrored at the point: `0.d_0 d_1 d_2 …`.
+pub(super) fn radical_inverse(index: usize, base: usize) -> f64 {
     let (mut digits, mut value, mut weight) = (index, 0.0, 1.0);
     while digits > 0 {
         weight /= base as f64;
@@ -25,7 +29,7 @@ pub fn halton(index: usize, dimension: usize) -> f64 {
 }
 
 /// Prime number `index`: 2, 3, 5, …
-fn prime(index: usize) -> usize {
+pub(super) fn prime(index: usize) -> usize {
     let is_prime = |n: usize| (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d));
     (2..).filter(|&n| is_prime(n)).nth(index).unwrap_or(2)
 }

@@ -46,6 +46,8 @@ pub struct SourceErrors {
     pub half_peak_to_peak: Figures,
     /// The largest difference from the error at home.
     pub relative_to_home: Figures,
+    /// The root mean square of the norm of the error over the configurations.
+    pub rms: f64,
     /// The largest of each of rows 4–6, rad.
     pub orientation: [f64; 3],
     /// Index of the configuration with the largest norm; none for an empty workspace.
@@ -57,6 +59,8 @@ pub(super) struct Tally {
     home: [f64; 6],
     least: [f64; 4],
     largest: [f64; 4],
+    count: usize,
+    squares: f64,
     errors: SourceErrors,
 }
 
@@ -70,11 +74,12 @@ impl Tally {
             plain_max: none,
             half_peak_to_peak: none,
             relative_to_home: none,
+            rms: 0.0,
             orientation: [0.0; 3],
             worst: None,
         };
         let (least, largest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
-        Self { home, least, largest, errors }
+        Self { home, least, largest, count: 0, squares: 0.0, errors }
     }
 
     /// Takes in the error (bound, if random) at a configuration.
@@ -86,6 +91,8 @@ impl Tally {
             self.least[i] = self.least[i].min(figure);
             self.largest[i] = self.largest[i].max(figure);
         }
+        self.count += 1;
+        self.squares += figures[3] * figures[3];
         let errors = &mut self.errors;
         if errors.worst.is_none() || figures[3] > errors.plain_max.norm {
             errors.worst = Some(index);
@@ -100,6 +107,7 @@ impl Tally {
 
     pub(super) fn finish(self) -> SourceErrors {
         let mut errors = self.errors;
+        errors.rms = (self.squares / self.count.max(1) as f64).sqrt();
         errors.half_peak_to_peak = match errors.class {
             Class::Random(_) => errors.plain_max,
             Class::Repeatable if errors.worst.is_none() => Figures::default(),

@@ -8,6 +8,9 @@ use super::sampling::grid;
 use super::*;
 use crate::Manipulator;
 
+mod streamed;
+mod together;
+
 /// 27 points of the volume in 37 angles of spin, each presented at the isocentre.
 fn presentation() -> Presentation {
     Presentation {
@@ -30,8 +33,9 @@ fn near(found: f64, expected: f64, digits: i32) {
 #[test]
 fn workspace_is_the_inverse_in_closed_form() {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
-    assert_eq!((workspace.configurations.len(), workspace.unreachable.len()), (999, 0));
-    for Configuration { q, s } in &workspace.configurations {
+    let configurations = workspace.reached();
+    assert_eq!((configurations.len(), workspace.len()), (999, 999));
+    for Configuration { q, s } in &configurations {
         let (sin, cos) = q[3].sin_cos();
         assert!((q[0] - (1128.0 - (s[0] * cos + s[2] * sin))).abs() < 1e-9);
         assert!((q[1] - (380.0 - s[1])).abs() < 1e-9);
@@ -82,7 +86,7 @@ fn identifiable_errors_are_counted() {
         let moved = (0..moved).collect::<Vec<_>>();
         let workspace = joint_samples(&Pps, &moved, 300).unwrap();
         for (base, rank) in [(false, own), (true, with_base)] {
-            let found = identifiable(&Pps, &workspace.configurations, measurement, base).unwrap();
+            let found = identifiable(&Pps, &workspace.reached(), measurement, base).unwrap();
             assert_eq!((found.rank, found.unknowns), (rank, if base { 42 } else { 36 }));
         }
     }
@@ -97,7 +101,7 @@ fn identifiable_errors_of_a_6r_arm_are_counted() {
         (Measurement::Point, false, 23),
         (Measurement::Point, true, 27),
     ] {
-        let found = identifiable(&Puma, &workspace.configurations, measurement, base).unwrap();
+        let found = identifiable(&Puma, &workspace.reached(), measurement, base).unwrap();
         assert_eq!(found.rank, rank);
         let (kept, dropped) = found.gap();
         assert!(kept.unwrap() > 1e-5 && dropped.unwrap() < 1e-12, "{kept:?} {dropped:?}");
@@ -133,15 +137,17 @@ fn a_6r_arm_reaches_what_it_can() {
 
 #[test]
 fn empty_workspace_has_no_errors() {
-    let mut workspace = joint_samples(&Pps, &[], 0).unwrap();
+    let workspace = joint_samples(&Pps, &[], 0).unwrap();
     let budget = error_budget(&Pps, &workspace, &[], &mut |_| ()).unwrap();
-    assert_eq!(budget.combined, Combined::default());
+    assert_eq!((budget.combined, budget.configurations), (Combined::default(), 0));
     assert!(budget.sources.iter().all(|source| source.half_peak_to_peak == Figures::default()));
     assert_eq!(identifiable(&Pps, &[], Measurement::Pose, true).unwrap().rank, 0);
 
-    workspace.configurations.push(Configuration { q: vec![0.0; 5], s: vec![0.0; 3] });
-    let refused = error_budget(&Pps, &workspace, &[], &mut |_| ()).unwrap_err();
-    assert_eq!(refused.configuration, Some(0));
+    let refused = listed(&Pps, vec![Configuration { q: vec![0.0; 5], s: vec![0.0; 3] }]);
+    assert!(matches!(refused, Err(crate::Error::Count { expected: 6, found: 5, .. })));
+    // Another manipulator's workspace.
+    let refused = error_budget(&Puma, &workspace, &[], &mut |_| ()).unwrap_err();
+    assert_eq!(refused.configuration, None);
 }
 
 fn home() -> Configuration {
@@ -218,5 +224,5 @@ fn bad_arguments_are_refused() {
     assert!(joint_samples(&Pps, &[6], 1).is_err());
     assert!(joint_grid(&Pps, &[Axis { index: 9, values: vec![] }]).is_err());
     let grid = joint_grid(&Pps, &[Axis { index: 3, values: vec![0.0, 1.0] }]).unwrap();
-    assert_eq!(grid.configurations[1].q[3], 1.0);
+    assert_eq!(grid.configuration(1).unwrap().q[3], 1.0);
 }

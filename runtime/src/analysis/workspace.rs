@@ -1,7 +1,7 @@
-//! The configurations over which errors are analyzed.
+//! The configurations over which errors are analyzed: made one by one when they are needed, never stored.
 
 use super::{Unreached, sampling};
-use crate::{Description, Error, Manipulator, Quantity};
+use crate::{Description, Error, Quantity};
 
 /// A configuration: joint variables, and the structural parameters (the tool point is one of those).
 #[derive(Clone, Debug, PartialEq)]
@@ -33,21 +33,71 @@ impl Configuration {
 /// A configuration that was asked for and could not be had.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unreachable {
+    /// Its index in the workspace.
+    pub index: usize,
+    /// The point of `F_0` that the tool was to be brought to, if that differs from one to the next.
+    pub point: Option<[f64; 3]>,
     /// What was asked for; the variables to be solved for are where the search began.
     pub asked: Configuration,
     /// Why it could not be had.
     pub reason: Unreached,
 }
 
-/// The configurations over which errors are analyzed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Workspace {
-    /// The configurations, in the order in which they were asked for.
-    pub configurations: Vec<Configuration>,
-    /// The configuration that errors relative to home are relative to.
-    pub home: Configuration,
-    /// What was asked for and could not be had.
-    pub unreachable: Vec<Unreachable>,
+/// The configurations over which errors are analyzed, by index.
+///
+/// Each follows from its index alone, so that any part of the workspace can be made again, on any thread, and
+/// none need be stored.
+pub trait Workspace: Sync {
+    /// How many configurations are asked for, those that cannot be reached among them.
+    fn len(&self) -> usize;
+
+    /// Whether none is asked for.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The configuration that errors relative to home are relative to; it says how long `q` and `s` are.
+    fn home(&self) -> &Configuration;
+
+    /// Writes configuration `index`, less than [`len`](Self::len), over `q` and `s`, which are as long as those
+    /// of home. If it cannot be had they hold what was asked for.
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached>;
+
+    /// The point of `F_0` that the tool is brought to in configuration `index`, if that differs from one to the next.
+    fn point(&self, _index: usize) -> Option<[f64; 3]> {
+        None
+    }
+
+    /// Configuration `index`, or why it cannot be had.
+    fn configuration(&self, index: usize) -> Result<Configuration, Unreached> {
+        let mut configuration = self.home().clone();
+        self.fill(index, &mut configuration.q, &mut configuration.s)?;
+        Ok(configuration)
+    }
+
+    /// All configurations that can be reached, stored: for small workspaces.
+    fn reached(&self) -> Vec<Configuration> {
+        (0..self.len()).filter_map(|index| self.configuration(index).ok()).collect()
+    }
+}
+
+/// A workspace of one configuration.
+pub(super) struct One<'a>(pub(super) &'a Configuration);
+
+impl Workspace for One<'_> {
+    fn len(&self) -> usize {
+        1
+    }
+
+    fn home(&self) -> &Configuration {
+        self.0
+    }
+
+    fn fill(&self, _: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        q.copy_from_slice(&self.0.q);
+        s.copy_from_slice(&self.0.s);
+        Ok(())
+    }
 }
 
 /// The values that one variable or one parameter goes through.
@@ -59,50 +109,21 @@ pub struct Axis {
     pub values: Vec<f64>,
 }
 
-/// `count` samples of the joints in `moved`, spread evenly within their limits; the others stay at home.
-///
-/// Parameters are nominal. [`Error::Count`] if `moved` names a variable that there is not.
-pub fn joint_samples(
-    manipulator: &dyn Manipulator,
-    moved: &[usize],
-    count: usize,
-) -> Result<Workspace, Error> {
-    let description = manipulator.description();
-    in_range(moved.iter().copied(), Quantity::Variables, description.variables.len())?;
-    let home = Configuration::home(&description);
-    let arm = sampling::arm_length(manipulator, &home.s)?;
-    let sample = |index| Configuration {
-        q: sampling::joint_sample(&description, arm, moved, index),
-        s: home.s.clone(),
-    };
-    let configurations = (0..count).map(sample).collect();
-    Ok(Workspace { configurations, home, unreachable: Vec::new() })
+/// How many combinations the values of some axes have.
+pub(super) fn combinations(axes: &[Axis]) -> usize {
+    axes.iter().map(|axis| axis.values.len()).fold(1, usize::saturating_mul)
 }
 
-/// Every combination of the values of some variables, the last one fastest; the others stay at home.
-///
-/// Parameters are nominal. [`Error::Count`] if an axis names a variable that there is not.
-pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<Workspace, Error> {
-    let description = manipulator.description();
-    let indices = axes.iter().map(|axis| axis.index);
-    in_range(indices, Quantity::Variables, description.variables.len())?;
-    let home = Configuration::home(&description);
-    let configuration = |q| Configuration { q, s: home.s.clone() };
-    let configurations = combinations(&home.q, axes).map(configuration).collect();
-    Ok(Workspace { configurations, home, unreachable: Vec::new() })
-}
-
-/// `values` with every combination of the axes' values put in, the last axis fastest.
-pub(super) fn combinations(values: &[f64], axes: &[Axis]) -> impl Iterator<Item = Vec<f64>> {
-    let count = axes.iter().map(|axis| axis.values.len()).product::<usize>();
-    (0..count).map(move |mut number| {
-        let mut combination = values.to_vec();
-        for axis in axes.iter().rev() {
-            combination[axis.index] = axis.values[number % axis.values.len()];
-            number /= axis.values.len();
+/// Puts combination `number` of the axes' values in, the last axis fastest. Returns what is left of the number.
+pub(super) fn combine(mut number: usize, axes: &[Axis], values: &mut [f64]) -> usize {
+    for axis in axes.iter().rev() {
+        let count = axis.values.len().max(1);
+        if let Some(value) = axis.values.get(number % count) {
+            values[axis.index] = *value;
         }
-        combination
-    })
+        number /= count;
+    }
+    number
 }
 
 /// [`Error::Count`] if an index is `count` or more.

@@ -1,0 +1,60 @@
+//! What was drawn at the worst configuration and at home, as a table.
+
+use abbe::analysis::MonteCarlo;
+
+use super::{Analysis, Drawn};
+use crate::number::{self, fixed};
+use crate::table::{Table, wrapped};
+
+impl Drawn {
+    /// Both places, with their names.
+    pub(super) fn places(&self) -> [(&'static str, &MonteCarlo); 2] {
+        [("worst", &self.worst), ("home", &self.home)]
+    }
+}
+
+pub(super) fn table(analysis: &Analysis, drawn: &Drawn) -> String {
+    let text = format!(
+        "{} draws at each place, seed {}. Above: quantiles and the largest of the norm of the whole error; the share of \
+         the draws inside the first-order 95 % ellipsoid, which is 95 % if all random sources are normal. Below: \
+         standard deviations.",
+        number::short(drawn.worst.draws as f64),
+        drawn.seed,
+    );
+    format!("{}\n{}{}\n", norms(analysis, drawn), deviations(analysis, drawn), wrapped(&text, 0))
+}
+
+fn norms(analysis: &Analysis, drawn: &Drawn) -> Table {
+    let decimals = analysis.decimals();
+    let mut table = Table::new(&["at", "50 %", "95 %", "99 %", "largest", "in ellipsoid"]);
+    for (place, found) in drawn.places() {
+        let mut cells = vec![format!("{place}\n  standard error")];
+        cells.extend(found.quantiles.map(|quantile| {
+            let (value, error) = (quantile.value, quantile.standard_error);
+            format!("{}\n{}", fixed(value, decimals), fixed(error, decimals + 1))
+        }));
+        cells.push(fixed(found.largest, decimals));
+        let inside = found.inside_ellipsoid.map(|share| format!("{:.2} %", 100.0 * share));
+        cells.push(inside.unwrap_or_default());
+        table.row(cells);
+    }
+    table.right(&[1, 2, 3, 4, 5]).unwrapped(&[0])
+}
+
+fn deviations(analysis: &Analysis, drawn: &Drawn) -> Table {
+    let decimals = analysis.decimals();
+    let mut table = Table::new(&["at", "σ x", "σ y", "σ z"]);
+    for (place, found) in drawn.places() {
+        let mut cells = vec![format!("{place}\n  standard error\n  first order")];
+        cells.extend([0, 1, 2].map(|i| {
+            let [sigma, first_order] = [found.covariance[i][i], found.first_order[i][i]].map(f64::sqrt);
+            // d√v = dv / 2√v.
+            let error = if sigma > 0.0 { found.standard_error[i][i] / (2.0 * sigma) } else { 0.0 };
+            let [sigma, error, first_order] =
+                [(sigma, 0), (error, 1), (first_order, 0)].map(|(value, more)| fixed(value, decimals + more));
+            format!("{sigma}\n{error}\n{first_order}")
+        }));
+        table.row(cells);
+    }
+    table.right(&[1, 2, 3]).unwrapped(&[0])
+}

@@ -1,0 +1,72 @@
+//! `[compensation]`: what compensation leaves of the repeatable sources.
+
+use abbe::analysis::Residual;
+use abbe::{Class, Description};
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item};
+use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, find_name};
+use abbe_codegen::spec::{self, Spec};
+
+/// What compensation leaves.
+#[derive(Debug)]
+pub(crate) struct Compensated {
+    default: Residual,
+    /// Of some sources, by name.
+    named: Vec<(String, Residual)>,
+}
+
+impl Compensated {
+    /// What is left of every source; none of random ones, which cannot be compensated.
+    pub(crate) fn of(&self, description: &Description) -> Vec<Option<Residual>> {
+        let residual = |name: &str| {
+            let named = self.named.iter().find(|(known, _)| known == name);
+            named.map_or(self.default, |(_, residual)| *residual)
+        };
+        let sources = description.sources.iter();
+        sources.map(|source| (source.class == Class::Repeatable).then(|| residual(source.name))).collect()
+    }
+}
+
+/// Reads `default` (all of the error if there is none) and a residual for each source that is named.
+pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Compensated> {
+    let section = document.section(item)?;
+    let mut compensated = Compensated { default: Residual::Share(1.0), named: Vec::new() };
+    let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
+    for item in section.items() {
+        if item.key == "default" {
+            compensated.default = residual(&item, document, spec)?;
+            continue;
+        }
+        let found = find_name(document, item.key_span.clone(), &item.key, &names, "source");
+        let Some(source) = found.map(|found| &spec.sources[found]) else { continue };
+        if source.class != spec::Class::Repeatable {
+            let message = format!("the source \"{}\" is random", source.name);
+            let mistake = Diagnostic::new(item.key_span.clone(), message).label("nothing compensates this");
+            document.mistake(mistake.help("leave it out: random errors remain as they are"));
+        }
+        if let Some(residual) = residual(&item, document, spec) {
+            compensated.named.push((item.key.clone(), residual));
+        }
+    }
+    Some(compensated)
+}
+
+/// A share from 0 to 1, or a length.
+fn residual(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Residual> {
+    let scope = Scope { length: spec.length, names: Default::default() };
+    let entry = Entry { dimension: None, what: "a residual", names: Allowed::Nothing };
+    let (value, dimension) = document.constant(item, &scope, entry)?;
+    match dimension {
+        Dimension::LENGTH if value >= 0.0 => Some(Residual::Bound(value)),
+        Dimension::NONE if (0.0..=1.0).contains(&value) => Some(Residual::Share(value)),
+        _ => {
+            let message = "a residual is a share from 0 to 1, or a length";
+            document.mistake(
+                Diagnostic::new(item.span(), message)
+                    .label("this is neither")
+                    .help("write 0.05 for one twentieth of the error, or \"0.02 mm\""),
+            );
+            None
+        }
+    }
+}

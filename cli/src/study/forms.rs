@@ -1,0 +1,93 @@
+//! The forms that the workspace of a study can have.
+
+use abbe::analysis::{BaseBox, Presentation, ToolOrientation};
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item, Section};
+use abbe_codegen::expr::Dimension;
+use abbe_codegen::spec::Spec;
+
+use super::axis::{Candidates, LARGEST, count, values, whole};
+use super::path;
+use super::read::constant;
+use super::region::Region;
+
+/// Every form, by the key that gives it.
+pub(super) const FORMS: [&str; 6] = ["presented", "grid", "joints", "random", "box", "path"];
+
+/// Reads the form of that key.
+pub(super) fn read(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
+    if form.key == "grid" {
+        return Some(Region::Grid(Candidates::variables(spec).axes(form, document, spec)));
+    }
+    let section = document.section(form)?;
+    match form.key.as_str() {
+        "presented" => presented(&section, document, spec).map(Region::Presented),
+        "box" => base_box(&section, document, spec).map(Region::Box),
+        "path" => path::read(&section, document, spec).map(Region::Path),
+        "random" => samples(&section, document, spec, true),
+        _ => samples(&section, document, spec, false),
+    }
+}
+
+/// `[workspace.presented]`: tool points, each brought to one point of the room.
+fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Presentation> {
+    section.check_keys(&["point", "tool_points", "approaches", "solve"], document);
+    let point = section.required("point", document).and_then(|item| point(&item, document, spec));
+    let tool_points = section.get("tool_points");
+    let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item, document, spec));
+    let variables = Candidates::variables(spec);
+    let approaches =
+        section.get("approaches").map(|item| (variables.axes(&item, document, spec), item.span()));
+    let (approaches, span) = approaches.unwrap_or_default();
+    let solved = section.required("solve", document).map(|item| variables.list(&item, document))?;
+    if let Some(both) = approaches.iter().find(|axis| solved.contains(&axis.index)) {
+        let message = format!("`{}` cannot be held and solved for", spec.variables[both.index].name);
+        document
+            .mistake(Diagnostic::new(span, message).help("take it out of `approaches` or out of `solve`"));
+    }
+    Some(Presentation { point: point?, tool_points: tool_points.unwrap_or_default(), approaches, solved })
+}
+
+fn point(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<[f64; 3]> {
+    let entries: [Item<'_>; 3] = document.entries(item, "three lengths: x, y and z in F_0")?;
+    let [x, y, z] =
+        entries.map(|entry| constant(&entry, document, spec, Dimension::LENGTH, "a coordinate of the point"));
+    Some([x?, y?, z?])
+}
+
+/// `[workspace.box]`: a grid of points in `F_0`; all variables are solved for if `solve` does not say otherwise.
+fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<BaseBox> {
+    section.check_keys(&["x", "y", "z", "orientation", "solve"], document);
+    let points = ["x", "y", "z"].map(|axis| {
+        let item = section.required(axis, document)?;
+        values(&item, document, spec, Dimension::LENGTH)
+    });
+    let orientations = [("free", ToolOrientation::Free), ("home", ToolOrientation::Home)];
+    let orientation = match section.get("orientation") {
+        Some(item) => document.choice(&item, &orientations),
+        None => Some(ToolOrientation::Free),
+    };
+    let solved = match section.get("solve") {
+        Some(item) => Candidates::variables(spec).list(&item, document),
+        None => (0..spec.variables.len()).collect(),
+    };
+    let [x, y, z] = points;
+    Some(BaseBox { points: [x?, y?, z?], orientation: orientation?, solved })
+}
+
+/// `[workspace.joints]` or `[workspace.random]`: samples within the limits; all variables move if `moved` does not
+/// say otherwise.
+fn samples(section: &Section<'_>, document: &mut Document, spec: &Spec, random: bool) -> Option<Region> {
+    let keys = ["samples", "moved", "seed"];
+    section.check_keys(if random { &keys } else { &keys[..2] }, document);
+    let moved = match section.get("moved") {
+        Some(item) => Candidates::variables(spec).list(&item, document),
+        None => (0..spec.variables.len()).collect(),
+    };
+    let seed = match section.get("seed").filter(|_| random) {
+        Some(item) => Some(whole(&item, [0, LARGEST], document, spec)? as u64),
+        None => random.then_some(0),
+    };
+    let samples = section.required("samples", document)?;
+    Some(Region::Samples { moved, count: count(&samples, LARGEST, document, spec)?, seed })
+}

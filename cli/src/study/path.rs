@@ -1,0 +1,155 @@
+//! `[workspace.path]`: configurations from a CSV file, one in every line.
+//!
+//! ```text
+//! d1 (mm),q4 (deg),x (mm)
+//! 38,-90,250
+//! ```
+//!
+//! Columns are named like variables and parameters, each with the unit of its numbers; without one they are in the
+//! spec's length unit or in rad. What has no column stays at home.
+
+use std::path;
+
+use abbe::Manipulator;
+use abbe::analysis::Configuration;
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Section};
+use abbe_codegen::expr::{Dimension, find_name, parse_value};
+use abbe_codegen::spec::{Spec, VariableKind};
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+/// Configurations from a file.
+#[derive(Debug)]
+pub(crate) struct Path {
+    /// The file, as the study names it.
+    pub(super) file: String,
+    columns: Vec<Column>,
+    /// Line by line, the value of every column: the length unit or rad, coherent units.
+    pub(super) configurations: Vec<Vec<f64>>,
+}
+
+/// What a column holds, and its unit in the coherent system.
+#[derive(Debug)]
+struct Column {
+    place: Place,
+    unit: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Place {
+    Variable(usize),
+    Parameter(usize),
+}
+
+impl Path {
+    /// The parameters that have a column.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = usize> {
+        self.columns.iter().filter_map(|column| match column.place {
+            Place::Parameter(i) => Some(i),
+            Place::Variable(_) => None,
+        })
+    }
+
+    /// The configurations of that manipulator.
+    pub(super) fn configurations(&self, manipulator: &dyn Manipulator) -> Vec<Configuration> {
+        let home = Configuration::home(&manipulator.description());
+        let configuration = |values: &Vec<f64>| {
+            let mut configuration = home.clone();
+            for (column, value) in self.columns.iter().zip(values) {
+                match column.place {
+                    Place::Variable(i) => configuration.q[i] = *value,
+                    Place::Parameter(i) => configuration.s[i] = *value,
+                }
+            }
+            configuration
+        };
+        self.configurations.iter().map(configuration).collect()
+    }
+}
+
+/// Reads `file`, which stands beside the study.
+pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Path> {
+    section.check_keys(&["file"], document);
+    let item = section.required("file", document)?;
+    let file = document.string(&item)?;
+    let folder = path::Path::new(&document.path).parent().unwrap_or(path::Path::new(""));
+    let found = read_file(&folder.join(&file), spec);
+    let found = found.map_err(|message| {
+        let message = format!("{}: {message}", file.escape_debug());
+        document.mistake(
+            Diagnostic::new(item.span(), message)
+                .label("read from here")
+                .help("a heading such as `d1 (mm),q4 (deg)`, then one configuration in every line"),
+        );
+    });
+    let (columns, configurations) = found.ok()?;
+    Some(Path { file, columns, configurations })
+}
+
+fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64>>), String> {
+    let reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_path(file);
+    let mut reader = reader.map_err(|error| error.to_string())?;
+    let heading = reader.headers().map_err(|error| error.to_string())?;
+    let columns = heading.iter().map(|name| column(name, spec)).collect::<Result<Vec<_>, _>>()?;
+    for (i, column) in columns.iter().enumerate() {
+        if columns[..i].iter().any(|other| other.place == column.place) {
+            return Err(format!("the column `{}` stands there twice", &heading[i]));
+        }
+    }
+    let mut configurations = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| error.to_string())?;
+        configurations.push(values(&record, &columns)?);
+    }
+    if configurations.is_empty() {
+        return Err("there is no configuration in it".to_owned());
+    }
+    Ok((columns, configurations))
+}
+
+fn values(record: &StringRecord, columns: &[Column]) -> Result<Vec<f64>, String> {
+    let line = record.position().map_or(0, csv::Position::line);
+    let value = |(field, column): (&str, &Column)| {
+        let value = field.parse::<f64>().ok().map(|value| value * column.unit);
+        let value = value.filter(|value| value.is_finite());
+        value.ok_or_else(|| format!("line {line}: `{}` is not a number", field.escape_debug()))
+    };
+    record.iter().zip(columns).map(value).collect()
+}
+
+/// `d1`, or `d1 (mm)`.
+fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
+    let (name, unit) = match heading.strip_suffix(')').and_then(|heading| heading.split_once('(')) {
+        Some((name, unit)) => (name.trim(), Some(unit.trim())),
+        None => (heading, None),
+    };
+    let dimension = |kind| match kind {
+        VariableKind::Revolute => Dimension::NONE,
+        VariableKind::Prismatic => Dimension::LENGTH,
+    };
+    let variables = spec.variables.iter().enumerate();
+    let variables = variables.map(|(i, v)| (v.name.as_str(), Place::Variable(i), dimension(v.kind)));
+    let parameters = spec.parameters.iter().enumerate();
+    let parameters = parameters.map(|(i, p)| (p.name.as_str(), Place::Parameter(i), p.dimension));
+    let all = variables.chain(parameters).collect::<Vec<_>>();
+    let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
+
+    let mut document = Document::new("", name);
+    let found = find_name(&mut document, 0..name.len(), name, &names, "variable or parameter");
+    let (_, place, dimension) = found.map(|found| all[found]).ok_or_else(|| mistake(&document))?;
+    let text = format!("1 {}", unit.unwrap_or_default());
+    let mut document = Document::new("", text.as_str());
+    let what = format!("the unit of the column `{name}`");
+    let unit = parse_value(&mut document, 0..text.trim_end().len(), spec.length, dimension, &what);
+    Ok(Column { place, unit: unit.ok_or_else(|| mistake(&document))? })
+}
+
+/// What is wrong, in one line.
+fn mistake(document: &Document) -> String {
+    let mistake = document.found.first();
+    let said = mistake.map(|mistake| match &mistake.help {
+        Some(help) => format!("{}; {help}", mistake.message),
+        None => mistake.message.clone(),
+    });
+    said.unwrap_or_default()
+}

@@ -1,0 +1,183 @@
+//! Workspaces of joint variables: grids, evenly spread samples, random samples, lists.
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::workspace::{combinations, combine, in_range};
+use super::{Axis, Configuration, Unreached, Workspace, sampling};
+use crate::{Error, Manipulator, Quantity};
+
+/// Every combination of the values of some variables; see [`joint_grid`].
+#[derive(Clone, Debug)]
+pub struct JointGrid {
+    home: Configuration,
+    axes: Vec<Axis>,
+}
+
+/// Every combination of the values of some variables, the last one fastest; the others stay at home.
+///
+/// Parameters are nominal. [`Error::Count`] if an axis names a variable that there is not.
+pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointGrid, Error> {
+    let description = manipulator.description();
+    let indices = axes.iter().map(|axis| axis.index);
+    in_range(indices, Quantity::Variables, description.variables.len())?;
+    Ok(JointGrid { home: Configuration::home(&description), axes: axes.to_vec() })
+}
+
+impl Workspace for JointGrid {
+    fn len(&self) -> usize {
+        combinations(&self.axes)
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        q.copy_from_slice(&self.home.q);
+        s.copy_from_slice(&self.home.s);
+        combine(index, &self.axes, q);
+        Ok(())
+    }
+}
+
+/// Where the numbers of samples come from.
+#[derive(Clone, Copy, Debug)]
+enum Spread {
+    /// The Halton sequence.
+    Even,
+    /// Random numbers: a stream of ChaCha8 for each index.
+    Random { seed: u64 },
+}
+
+/// Samples of some variables; see [`joint_samples`] and [`random_joint_samples`].
+#[derive(Clone, Debug)]
+pub struct JointSamples {
+    home: Configuration,
+    /// A moved variable, its range, and the base of its radical inverse.
+    moved: Vec<(usize, [f64; 2], usize)>,
+    count: usize,
+    spread: Spread,
+}
+
+/// `count` samples of the joints in `moved`, spread evenly within their limits; the others stay at home.
+///
+/// Parameters are nominal. [`Error::Count`] if `moved` names a variable that there is not.
+pub fn joint_samples(
+    manipulator: &dyn Manipulator,
+    moved: &[usize],
+    count: usize,
+) -> Result<JointSamples, Error> {
+    samples(manipulator, moved, count, Spread::Even)
+}
+
+/// As [`joint_samples`], but random: configuration `i` follows from the seed and `i` alone.
+pub fn random_joint_samples(
+    manipulator: &dyn Manipulator,
+    moved: &[usize],
+    count: usize,
+    seed: u64,
+) -> Result<JointSamples, Error> {
+    samples(manipulator, moved, count, Spread::Random { seed })
+}
+
+fn samples(
+    manipulator: &dyn Manipulator,
+    moved: &[usize],
+    count: usize,
+    spread: Spread,
+) -> Result<JointSamples, Error> {
+    let description = manipulator.description();
+    in_range(moved.iter().copied(), Quantity::Variables, description.variables.len())?;
+    let home = Configuration::home(&description);
+    let arm = sampling::arm_length(manipulator, &home.s)?;
+    let range = |(dimension, &i): (usize, &usize)| {
+        (i, sampling::joint_range(&description.variables[i], arm), sampling::prime(dimension))
+    };
+    let moved = moved.iter().enumerate().map(range).collect();
+    Ok(JointSamples { home, moved, count, spread })
+}
+
+impl Workspace for JointSamples {
+    fn len(&self) -> usize {
+        self.count
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        q.copy_from_slice(&self.home.q);
+        s.copy_from_slice(&self.home.s);
+        let mut random = match self.spread {
+            Spread::Even => None,
+            Spread::Random { seed } => Some(stream(seed, index as u64)),
+        };
+        for &(i, [lower, upper], base) in &self.moved {
+            let share = match &mut random {
+                Some(random) => random.random::<f64>(),
+                None => sampling::radical_inverse(index + 1, base),
+            };
+            q[i] = lower + (upper - lower) * share;
+        }
+        Ok(())
+    }
+}
+
+/// Random numbers that follow from a seed and the number of the stream.
+pub(super) fn stream(seed: u64, number: u64) -> impl Rng {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(number);
+    random
+}
+
+/// Configurations one after the other, a path say; see [`listed`].
+#[derive(Clone, Debug)]
+pub struct Listed {
+    home: Configuration,
+    configurations: Vec<Configuration>,
+    limits: Vec<[f64; 2]>,
+}
+
+/// A list of configurations; those with a variable outside its limits count as unreachable.
+///
+/// [`Error::Count`] if one has not as many variables or parameters as the manipulator.
+pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>) -> Result<Listed, Error> {
+    let description = manipulator.description();
+    let home = Configuration::home(&description);
+    for Configuration { q, s } in &configurations {
+        for (quantity, expected, found) in
+            [(Quantity::Variables, home.q.len(), q.len()), (Quantity::Parameters, home.s.len(), s.len())]
+        {
+            if expected != found {
+                return Err(Error::Count { quantity, expected, found });
+            }
+        }
+    }
+    let limits = description.variables.iter().map(|variable| variable.limits).collect();
+    Ok(Listed { home, configurations, limits })
+}
+
+impl Workspace for Listed {
+    fn len(&self) -> usize {
+        self.configurations.len()
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        let configuration = self.configurations.get(index).unwrap_or(&self.home);
+        q.copy_from_slice(&configuration.q);
+        s.copy_from_slice(&configuration.s);
+        let outside = |(value, [lower, upper]): (&f64, &[f64; 2])| value < lower || value > upper;
+        match q.iter().zip(&self.limits).position(outside) {
+            Some(variable) => {
+                Err(Unreached::OutsideLimits { variable, value: q[variable], limits: self.limits[variable] })
+            }
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Quantiles of a sample, and how well it knows them.
+
+/// A quantile of a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Quantile {
+    /// Which share of what is drawn is at most this large.
+    pub probability: f64,
+    /// The value, in the length unit.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+}
+
+impl Quantile {
+    /// Of N sorted values, `x_⌈pN⌉`. How many of them lie below the true quantile is binomial with the standard
+    /// deviation `d = √(N p (1 − p))`; the standard error is what the values vary by over that many ranks,
+    /// `(x_{pN+d} − x_{pN−d}) / 2`, whatever the distribution.
+    pub(super) fn of(sorted: &[f64], probability: f64) -> Self {
+        let count = sorted.len() as f64;
+        let at = |rank: f64| {
+            let index = (rank.ceil().max(1.0) as usize - 1).min(sorted.len().saturating_sub(1));
+            sorted.get(index).copied().unwrap_or_default()
+        };
+        let rank = probability * count;
+        let spread = (rank * (1.0 - probability)).sqrt();
+        let standard_error = (at(rank + spread) - at(rank - spread)) / 2.0;
+        Self { probability, value: at(rank), standard_error }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Quantile;
+
+    #[test]
+    fn of_equally_spaced_values() {
+        let sorted = (1..=10_000).map(|i| f64::from(i) / 10_000.0).collect::<Vec<_>>();
+        let Quantile { value, standard_error, .. } = Quantile::of(&sorted, 0.5);
+        assert!((value - 0.5).abs() < 1e-12);
+        // √(p (1 − p) / N) over a density of 1.
+        assert!((standard_error - 0.005).abs() < 1e-4);
+        assert_eq!(Quantile::of(&[], 0.5).value, 0.0);
+        assert_eq!(Quantile::of(&[3.0], 0.99).value, 3.0);
+    }
+}

@@ -1,0 +1,149 @@
+//! Random sources of every kind: first order against a million draws on the exact chain.
+
+use abbe::Manipulator;
+use abbe::analysis::{Admissible, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+
+/// Two joints; `sources` are put at its end.
+fn arm(sources: &str) -> Spec {
+    let text = r#"
+        [manipulator]
+        name = "arm"
+        length = "mm"
+        [[frame]]
+        name = "shoulder"
+        variable = { name = "q1", kind = "revolute", limits = ["-90 deg", "90 deg"] }
+        transform = "Rz(q1)"
+        [[frame]]
+        name = "elbow"
+        variable = { name = "q2", kind = "revolute", limits = ["0 deg", "120 deg"], home = "40 deg" }
+        transform = "Tx(400) Rz(q2)"
+        [tool]
+        transform = "Tx(300)"
+    "#;
+    Spec::parse("arm.toml", &format!("{text}\n{sources}")).unwrap()
+}
+
+fn draws(spec: &Spec, count: usize) -> MonteCarlo {
+    let robot = Interpreter::new(spec);
+    let configuration = Configuration::home(&robot.description());
+    monte_carlo(&robot, &configuration, &[], count, 11).unwrap()
+}
+
+/// Every entry of the covariance within three standard errors of first order, `slack` aside.
+fn agrees(drawn: &MonteCarlo, slack: f64) {
+    for i in 0..3 {
+        for j in 0..3 {
+            let difference = drawn.covariance[i][j] - drawn.first_order[i][j];
+            let bound = 3.0 * drawn.standard_error[i][j] + slack;
+            assert!(difference.abs() <= bound, "{i} {j}: {difference:e}, at most {bound:e}");
+        }
+    }
+}
+
+/// The three classes of sources that random errors of one magnitude can have: alone, and at several frames.
+fn sources(distribution: &str) -> String {
+    format!(
+        r#"
+        [[source]]
+        name = "sag"
+        class = "repeatable"
+        frame = "elbow"
+        e_z = "-0.2 mm*cos(q1)"
+        [[source]]
+        name = "shoulder bearing"
+        class = "random"
+        distribution = "{distribution}"
+        frame = "shoulder"
+        e_r = "30e-6"
+        e_z = "0.01 mm"
+        [[source]]
+        name = "elbow encoder"
+        class = "random"
+        distribution = "{distribution}"
+        frame = "elbow"
+        e_r = "40e-6"
+        [[source]]
+        name = "room temperature"
+        class = "random"
+        distribution = "{distribution}"
+        [[source.effect]]
+        frame = "shoulder"
+        e_x = "0.008 mm"
+        e_p = "10e-6"
+        [[source.effect]]
+        frame = "elbow"
+        e_x = "0.006 mm"
+        e_s = "20e-6"
+        "#
+    )
+}
+
+#[test]
+fn normal_sources_fill_their_ellipsoid() {
+    let drawn = draws(&arm(&sources("normal")), 1_000_000);
+    agrees(&drawn, 0.0);
+    let inside = drawn.inside_ellipsoid.unwrap();
+    println!("{:.3} % inside the 95 % ellipsoid", 100.0 * inside);
+    assert!((inside - 0.95).abs() < 0.003, "{inside}");
+    // The sag is always there.
+    assert!((drawn.mean[2] + 0.2).abs() < 1e-4 && drawn.quantiles[0].value > 0.2);
+    assert!(drawn.quantiles.windows(2).all(|pair| pair[0].value < pair[1].value));
+    assert!(drawn.quantiles.iter().all(|quantile| (0.0..1e-4).contains(&quantile.standard_error)));
+}
+
+#[test]
+fn uniform_sources_stay_within_more_of_it() {
+    let drawn = draws(&arm(&sources("uniform")), 1_000_000);
+    agrees(&drawn, 0.0);
+    assert!(drawn.inside_ellipsoid.unwrap() > 0.953);
+}
+
+#[test]
+fn sources_that_share_a_magnitude_do_not_add_as_squares() {
+    let both =
+        "frame = \"shoulder\"\ne_z = \"0.01 mm\"\n[[source.effect]]\nframe = \"elbow\"\ne_z = \"0.01 mm\"";
+    let (first, second) = both.split_once("\n[[source.effect]]\n").unwrap();
+    let head = |name: &str| {
+        format!("[[source]]\nname = \"{name}\"\nclass = \"random\"\ndistribution = \"normal\"\n")
+    };
+    let effect = "[[source.effect]]\n";
+    let shared = format!("{}{effect}{first}\n{effect}{second}\n", head("shared"));
+    let apart = format!("{}{first}\n{}{second}\n", head("one"), head("two"));
+    let shared = draws(&arm(&shared), 1000).first_order[2][2];
+    let apart = draws(&arm(&apart), 1000).first_order[2][2];
+    assert!((shared / apart - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn zero_and_one_sided_sources_have_clear_results() {
+    let spec = arm(r#"
+        [[source]]
+        name = "nothing"
+        class = "random"
+        distribution = "normal"
+        frame = "elbow"
+        e_x = 0
+        [[source]]
+        name = "one-sided"
+        class = "repeatable"
+        frame = "elbow"
+        e_z = "0.1 mm*abs(sin(q1))"
+    "#);
+    let robot = Interpreter::new(&spec);
+    let workspace = joint_samples(&robot, &[0, 1], 500).unwrap();
+    let budget = error_budget(&robot, &workspace, &[], &mut |_| ()).unwrap();
+    let [nothing, one_sided] = &budget.sources[..] else { panic!("two sources") };
+    assert_eq!((nothing.plain_max.norm, nothing.rms), (0.0, 0.0));
+    // It never goes below nothing, so half of what it varies by is half of the largest.
+    assert!((one_sided.half_peak_to_peak.z / one_sided.plain_max.z - 0.5).abs() < 0.01);
+    assert_eq!(budget.combined.ellipsoid.configuration, None);
+    let admissible = Admissible::new(&budget, 0.05);
+    assert_eq!(admissible.alone[0], None);
+    assert!((admissible.alone[1].unwrap() - 0.5).abs() < 0.01 && admissible.together == admissible.alone[1]);
+
+    let drawn = draws(&spec, 100);
+    assert_eq!(drawn.inside_ellipsoid, None);
+    assert_eq!((drawn.covariance, drawn.first_order), ([[0.0; 3]; 3], [[0.0; 3]; 3]));
+}
