@@ -3,6 +3,7 @@
 mod analyze;
 mod bad_input;
 mod check;
+mod documents;
 mod generate;
 mod jacobian;
 mod readme;

@@ -1,0 +1,49 @@
+//! What the documents show is what the command prints: every `$ abbe …` in `docs/` is run, and the lines below it
+//! must stand in its output, in that order.
+
+use std::fs;
+use std::path::Path;
+
+use super::running::command;
+
+/// The fenced blocks of a document: language and text.
+fn blocks(text: &str) -> Vec<(&str, &str)> {
+    text.split("```").skip(1).step_by(2).filter_map(|block| block.split_once('\n')).collect()
+}
+
+#[test]
+fn what_they_show_is_what_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = 0;
+    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")).unwrap() {
+        let text = fs::read_to_string(entry.unwrap().path()).unwrap();
+        for (language, block) in blocks(&text) {
+            // A file says its name in its first line.
+            if let Some(name) = block.lines().next().and_then(|line| line.strip_prefix("# "))
+                && language == "toml"
+            {
+                fs::write(folder.path().join(name), block).unwrap();
+            }
+            if language == "console" {
+                shown(block, folder.path());
+                run += 1;
+            }
+        }
+    }
+    assert!(run >= 4);
+}
+
+fn shown(block: &str, folder: &Path) {
+    let mut lines = block.lines();
+    let line = lines.next().and_then(|line| line.strip_prefix("$ abbe ")).expect("a command");
+    let output = command(&shell_words::split(line).unwrap()).current_dir(folder).output().unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    let mut rest = printed.lines();
+    for expected in lines {
+        assert!(
+            rest.any(|found| found == expected),
+            "{line}\ndoes not print, or not there:\n{expected}\nbut\n{printed}"
+        );
+    }
+}
