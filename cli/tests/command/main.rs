@@ -7,3 +7,4 @@ mod generate;
 mod jacobian;
 mod readme;
 mod running;
+mod study;
