@@ -10,6 +10,7 @@ use crate::table::wrapped;
 pub(super) fn of(analysis: &Analysis) -> String {
     let sentences = [
         tolerance(analysis),
+        allowed(analysis),
         Some(spheres(analysis)),
         ellipsoid(analysis),
         published_residual(analysis),
@@ -33,16 +34,16 @@ impl Analysis<'_> {
 fn tolerance(analysis: &Analysis) -> Option<String> {
     let tolerance = analysis.study.tolerance?;
     let share = percent(analysis.budget.combined.radius.value, tolerance);
-    let mut text = format!("Tolerance: {}; the radius is {share} of it.", analysis.show(tolerance));
+    Some(format!("Tolerance: {}; the radius is {share} of it.", analysis.show(tolerance)))
+}
+
+fn allowed(analysis: &Analysis) -> Option<String> {
     let admissible = analysis.admissible.as_ref()?;
-    if let (Some(together), Some(part)) = (admissible.together, admissible.share) {
-        text += &format!(
-            " It is met with all sources × {}, or for certain with each at an equal share of {}.",
-            number::digits(together, 3),
-            analysis.show(part)
-        );
-    }
-    Some(text)
+    Some(format!(
+        "It is met with all sources × {}, or for certain with each at an equal share of {}.",
+        number::digits(admissible.together?, 3),
+        analysis.show(admissible.share?)
+    ))
 }
 
 fn spheres(analysis: &Analysis) -> String {

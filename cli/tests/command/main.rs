@@ -8,3 +8,4 @@ mod generate;
 mod jacobian;
 mod readme;
 mod running;
+mod study;

@@ -93,12 +93,13 @@ impl<'a> Gather<'a> {
             combined.random[i] = combined.random[i].max(random[i]);
         }
 
-        let absolute = |i: usize| row.sources.iter().map(|source| source[i].abs()).sum::<f64>();
+        // The sum of nothing is −0: these begin with 0.
+        let absolute = |i: usize| row.sources.iter().fold(0.0, |sum, source| sum + source[i].abs());
         for i in 0..3 {
             combined.worst_case[i] = combined.worst_case[i].max(absolute(i));
         }
-        let norms = row.sources.iter().map(|source| norm(position(source)));
-        combined.worst_case_radius.add(row.index, norms.sum());
+        let norms = row.sources.iter().fold(0.0, |sum, source| sum + norm(position(source)));
+        combined.worst_case_radius.add(row.index, norms);
 
         let covariance = covariance(self.sources, row.sources);
         for (i, largest) in combined.standard_deviation.iter_mut().enumerate() {

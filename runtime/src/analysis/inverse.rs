@@ -27,6 +27,9 @@ const SINGULAR: f64 = 1e-10;
 const AT_LIMIT: f64 = 1e-9;
 /// A step that gains less than this share gains nothing.
 const STAGNATION: f64 = 1e-9;
+/// A descent that gains less than `SLOW_GAIN` in `SLOW` steps creeps towards a place short of the target.
+const SLOW: usize = 10;
+const SLOW_GAIN: f64 = 0.01;
 const ITERATIONS: usize = 200;
 /// Enough for a 6R arm to be brought to each of 1000 sampled poses; half as many miss one.
 const RESTARTS: usize = 32;
@@ -68,7 +71,7 @@ pub fn inverse(
         }
     });
     for start in starts.clone() {
-        if let Ok(found) = search.descend(&start, true)
+        if let Ok(found) = search.descend(&start, true, SLOW)
             && found.residual.norm() <= REACHED
         {
             return Ok(found.q);
@@ -135,15 +138,24 @@ impl Search<'_> {
         }
     }
 
+    /// Ends early where `patience` steps gain next to nothing.
+    ///
     /// Levenberg: `Δq = Jᵀ (J Jᵀ + λ)⁻¹ r`, with `λ = 0` (Newton, shortest step) for as long as it helps.
-    fn descend(&self, start: &[f64], bounded: bool) -> Result<Point, Error> {
+    fn descend(&self, start: &[f64], bounded: bool, patience: usize) -> Result<Point, Error> {
         let step = DVector::zeros(self.free.len());
         let mut here = self.evaluate(self.moved(start, &step, bounded))?;
         let mut damping = 0.0;
-        for _ in 0..ITERATIONS {
+        let mut before = f64::INFINITY;
+        for iteration in 0..ITERATIONS {
             let norm = here.residual.norm();
             if norm <= ROUNDING {
                 break;
+            }
+            if iteration.is_multiple_of(patience) {
+                if norm > before * (1.0 - SLOW_GAIN) {
+                    break;
+                }
+                before = norm;
             }
             let Some(step) = self.step(&here, damping, bounded) else { break };
             match self.evaluate(self.moved(&here.q, &step, bounded)) {
@@ -214,7 +226,7 @@ impl Search<'_> {
         let mut nearest: Option<Point> = None;
         let mut failure = Error::NotFinite { quantity: Quantity::Pose, index: 0 };
         for start in starts {
-            let found = match self.descend(start, false) {
+            let found = match self.descend(start, false, SLOW) {
                 Ok(found) => found,
                 Err(error) => {
                     failure = error;
@@ -224,7 +236,7 @@ impl Search<'_> {
             if found.residual.norm() <= REACHED {
                 // It may lie within the limits by whole turns, or just at one of them.
                 let q = self.turned(&found.q);
-                if let Ok(turned) = self.descend(&q, true)
+                if let Ok(turned) = self.descend(&q, true, SLOW)
                     && turned.residual.norm() <= REACHED
                 {
                     return Ok(turned.q);
@@ -243,6 +255,8 @@ impl Search<'_> {
             return Err(outside(self.variables, variable, value));
         }
         let nearest = nearest.ok_or(failure)?;
+        // How near it comes is worth every step.
+        let nearest = self.descend(&nearest.q, false, ITERATIONS).unwrap_or(nearest);
         let rows = nearest.residual.as_slice();
         let (position, turn) = rows.split_at(3.min(rows.len()));
         let norm = |rows: &[f64]| rows.iter().fold(0.0, |norm: f64, row| norm.hypot(*row));

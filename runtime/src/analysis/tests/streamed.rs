@@ -2,6 +2,7 @@
 
 use super::*;
 
+#[cfg(feature = "parallel")]
 #[test]
 fn every_number_of_threads_gives_the_same_to_the_last_bit() {
     let workspace = random_joint_samples(&Pps, &[0, 1, 2, 3, 4, 5], 10_000, 5).unwrap();

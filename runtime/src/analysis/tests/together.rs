@@ -7,8 +7,11 @@ use crate::{Class, Distribution};
 
 const TOLERANCE: f64 = 0.5;
 
-/// The budget of the paper's sweep, and of every configuration its index, q, s and the errors of the sources.
-fn papers() -> (Budget, Vec<(Configuration, Vec<Vector3<f64>>)>) {
+/// A configuration and the position errors of the sources there.
+type Errors = (Configuration, Vec<Vector3<f64>>);
+
+/// The budget of the paper's sweep, and what it was made of.
+fn papers() -> (Budget, Vec<Errors>) {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
     let mut rows = Vec::new();
     let budget = error_budget(&Pps, &workspace, &[], &mut |row| {
@@ -30,7 +33,7 @@ fn radius(errors: &[Vector3<f64>], scales: &[f64]) -> f64 {
     sum.norm() + squares.sqrt()
 }
 
-fn largest(rows: &[(Configuration, Vec<Vector3<f64>>)], scales: &[f64]) -> f64 {
+fn largest(rows: &[Errors], scales: &[f64]) -> f64 {
     rows.iter().map(|(_, errors)| radius(errors, scales)).fold(0.0, f64::max)
 }
 
@@ -86,7 +89,7 @@ fn sums_spheres_and_root_mean_squares() {
     assert_eq!(sphere.excess, 0.0);
     assert!(sphere.radius < combined.repeatable_radius.value);
     let centre = Vector3::from(sphere.centre);
-    let random = |(_, errors): &(Configuration, Vec<Vector3<f64>>)| {
+    let random = |(_, errors): &Errors| {
         let classes = Pps.description().sources.iter().map(|source| source.class == Class::Repeatable);
         let sum: Vector3<f64> =
             errors.iter().zip(classes).filter(|(_, is)| *is).map(|(error, _)| error).sum();

@@ -1,0 +1,212 @@
+//! What a study can ask for: workspaces of every form, compensation, draws, threads, interruption.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tempfile::tempdir;
+
+use crate::running::{abbe, command, json, narrow, prints, write};
+
+/// A study of a manipulator, with further arguments.
+fn study(manipulator: &str, text: &str, more: &[&str]) -> Value {
+    let folder = tempdir().unwrap();
+    let path = write(folder.path(), "study.toml", &format!("[study]\ntitle = \"A study\"\n{text}"));
+    let arguments = &["analyze", manipulator, "--study", path.to_str().unwrap()][..];
+    narrow(&prints(&[arguments, more].concat()));
+    json(&[arguments, &["--json"], more].concat())
+}
+
+fn refused(text: &str, files: &[(&str, &str)], expected: &[&str]) {
+    let folder = tempdir().unwrap();
+    files.iter().for_each(|(name, text)| _ = write(folder.path(), name, text));
+    let path = write(folder.path(), "study.toml", &format!("[study]\ntitle = \"A study\"\n{text}"));
+    let run = abbe(&["analyze", "pps", "--study", path.to_str().unwrap()]);
+    assert_eq!((run.status, run.stdout.as_str()), (2, ""));
+    expected.iter().for_each(|expected| assert!(run.stderr.contains(expected), "{expected}\n{}", run.stderr));
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn random_samples_follow_from_their_seed_alone() {
+    let text = "[workspace.random]\nsamples = 3000\nseed = 4\nmoved = [\"d1\", \"q4\"]";
+    let own = study("pps", text, &[]);
+    assert_eq!(own["configurations"], 3000);
+    assert_eq!(own, study("pps", text, &["--seed", "4", "--threads", "1"]));
+    assert_eq!(own, study("pps", text, &["--threads", "2"]));
+    assert_ne!(own["ledger"], study("pps", text, &["--seed", "5"])["ledger"]);
+    refused("[workspace.random]\nsamples = 3\nseed = -1", &[], &["`seed` must be a whole number from 0"]);
+    refused("[workspace.joints]\nsamples = 3\nseed = 1", &[], &["no key `seed`"]);
+}
+
+#[test]
+fn a_box_is_reached_by_inverse_kinematics() {
+    let puma = "[workspace.box]\nx = [0.3, 0.6]\ny = { from = -0.2, to = 0.2, count = 3 }\nz = [0.2]";
+    assert_eq!(study("puma560", puma, &[])["configurations"], 6);
+    let home = study("puma560", &format!("{puma}\norientation = \"home\""), &[]);
+    assert!(home["configurations"].as_u64().unwrap() >= 3);
+    let slides = "[workspace.box]\nx = [1000, 1128]\ny = [1626]\nz = [1846, \"9 m\"]\nsolve = [\"d1\", \"d2\", \"d3\"]";
+    let report = study("pps", slides, &[]);
+    assert_eq!((&report["configurations"], &report["unreachable"]), (&2.into(), &2.into()));
+    assert_eq!(report["unreachable_reasons"][0]["reason"], "d3 outside its limits");
+    refused(
+        "[workspace.box]\nx = [1]\ny = [1]\norientation = \"up\"",
+        &[],
+        &["`z` is missing", "\"free\" or \"home\""],
+    );
+    refused("[workspace.box]\nx = [1]\ny = [1]\nz = [1]\nsolve = [\"q9\"]", &[], &["no variable `q9`"]);
+    // A point and no more cannot be reached either.
+    refused(
+        "[workspace.box]\nx = [\"90 m\"]\ny = [1626]\nz = [1568]\nsolve = [\"d1\"]",
+        &[],
+        &["no configuration of the workspace can be reached", "d1 outside its limits (1)"],
+    );
+}
+
+#[test]
+fn a_path_is_read_from_a_file_beside_the_study() {
+    let folder = tempdir().unwrap();
+    let text = "[study]\ntitle = \"Path\"\n[workspace.path]\nfile = \"path.csv\"\n";
+    let path = write(folder.path(), "study.toml", text);
+    write(folder.path(), "path.csv", "d1 (m), q4 (deg),x\n0.038,-90,250\n# a remark\n1.128,0,0\n2.3,0,0\n");
+    let arguments = ["analyze", "pps", "--study", path.to_str().unwrap()];
+    let text = prints(&arguments);
+    narrow(&text);
+    assert!(
+        text.contains("3 configurations of path.csv") && text.contains("d1 = 2300 mm: d1 would have to be")
+    );
+    let report = json(&[&arguments[..], &["--json"]].concat());
+    assert_eq!((&report["configurations"], &report["unreachable"]), (&2.into(), &1.into()));
+    assert_eq!(report["combined"]["worst_parameters"].as_object().unwrap().keys().collect::<Vec<_>>(), ["x"]);
+
+    let path = "[workspace.path]\nfile = \"path.csv\"";
+    refused(path, &[], &["path.csv", "study.toml:4:8"]);
+    for (csv, expected) in [
+        ("d9\n1", "no variable or parameter `d9`"),
+        ("d1 (deg)\n1", "the unit of the column `d1` must be a length"),
+        ("d1\n1\nfar", "line 3: `far` is not a number"),
+        ("d1\nnan", "line 2: `nan` is not a number"),
+        ("d1,d1\n1,2", "the column `d1` stands there twice"),
+        ("d1,q4\n1", "found record with 1 fields"),
+        ("d1\n", "there is no configuration in it"),
+    ] {
+        refused(path, &[("path.csv", csv)], &[expected]);
+    }
+}
+
+#[test]
+fn compensation_leaves_shares_and_bounds() {
+    let workspace = "[workspace.grid]\nq4 = { from = \"-90 deg\", to = \"90 deg\", count = 7 }\n";
+    let text = format!(
+        "tolerance = \"0.5 mm\"\n{workspace}[compensation]\ndefault = 0\n\"arm deflection\" = \"0.02 mm\""
+    );
+    let report = study("pps", &text, &[]);
+    assert!((number(&report["compensation"]["residual"]) - 0.02).abs() < 1e-12);
+    let random = number(&report["combined"]["random_radius"]);
+    assert!((number(&report["compensation"]["total"]) - 0.02 - random).abs() < 1e-12);
+    let compensation =
+        |line: &str, expected: &[&str]| refused(&format!("{workspace}[compensation]\n{line}"), &[], expected);
+    compensation("default = 2", &["a residual is a share from 0 to 1, or a length"]);
+    compensation("default = \"3 kg\"", &["a residual is a share"]);
+    compensation("\"spin encoder\" = 0.5", &["the source \"spin encoder\" is random"]);
+    compensation("rail = 0.5", &["no source `rail`"]);
+}
+
+#[test]
+fn the_ledger_ranks_and_the_budget_is_read_backwards() {
+    let report = json(&["analyze", "pps", "--json"]);
+    let sources = report["ledger"]["sources"].as_array().unwrap();
+    let ranked = sources.iter().find(|source| source["rank"] == 1).unwrap();
+    assert_eq!((&ranked["name"], &ranked["class"]), (&"assembly".into(), &"repeatable".into()));
+    assert!((number(&ranked["share_of_tolerance"]) - number(&ranked["max"]) / 0.5).abs() < 1e-12);
+    assert!(sources.iter().all(|source| number(&source["rms"]) <= number(&source["max"]) * (1.0 + 1e-12)));
+    let sums = report["ledger"]["sums"].as_array().unwrap();
+    assert_eq!(sums[2]["max"], report["combined"]["radius"]);
+
+    let budget = &report["budget"];
+    let radius = number(&report["combined"]["radius"]);
+    assert!((number(&budget["together"]) * radius - 0.5).abs() < 1e-12);
+    assert_eq!(budget["sources"][0]["name"], "assembly");
+    assert!((number(&budget["equal_share"]) - 0.5 / (3.0 + 2.0)).abs() < 1e-12);
+    let combined = &report["combined"];
+    assert!(number(&combined["worst_case_radius"]) > radius);
+    assert!(number(&combined["enclosing_sphere"]["radius"]) <= number(&combined["repeatable_radius"]));
+    let text = prints(&["analyze", "pps"]);
+    for expected in
+        ["What the tolerance allows", "gain per percent", "random: standard deviation", "smallest sphere"]
+    {
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+}
+
+#[test]
+fn draws_are_the_same_for_a_seed_and_any_number_of_threads() {
+    let run = |more: &[&str]| json(&[&["analyze", "pps", "--json", "--monte-carlo", "20000"], more].concat());
+    let report = run(&["--threads", "1"]);
+    assert_eq!(report, run(&["--threads", "2", "--seed", "0"]));
+    assert_ne!(report["monte_carlo"], run(&["--seed", "1"])["monte_carlo"]);
+    let worst = &report["monte_carlo"]["worst"];
+    let radius = number(&report["combined"]["radius"]);
+    assert!(
+        number(&worst["largest"]) < radius + 0.02 && number(&worst["quantiles"][0]["value"]) > 0.9 * radius
+    );
+    for manipulator in ["pps", "puma560", "machine3"] {
+        narrow(&prints(&["analyze", manipulator, "--monte-carlo", "100"]));
+    }
+    for bad in [["--monte-carlo", "0"], ["--monte-carlo", "1e3"], ["--threads", "0"], ["--seed", "-1"]] {
+        let run = abbe(&[&["analyze", "pps"], &bad[..]].concat());
+        assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{bad:?}");
+    }
+}
+
+#[test]
+fn first_order_that_is_too_coarse_is_a_warning() {
+    let folder = tempdir().unwrap();
+    let text = include_str!("../../../manipulators/studies/pps.toml");
+    let path =
+        write(folder.path(), "study.toml", &text.replace("tolerance = \"0.5 mm\"", "tolerance = \"0.1 mm\""));
+    let run = abbe(&["analyze", "pps", "--study", path.to_str().unwrap(), "--json"]);
+    assert_eq!(run.status, 0);
+    assert!(run.stderr.starts_with("warning: first order is off by up to 0.01"), "{}", run.stderr);
+    assert_eq!(abbe(&["analyze", "pps"]).stderr, "");
+    // Random sources alone are compared at their bounds.
+    assert!(prints(&["analyze", "puma560"]).contains("J_e ε of the random sources at their bounds"));
+}
+
+#[test]
+fn a_large_study_streams() {
+    let report = study("pps", "[workspace.random]\nsamples = 20000", &[]);
+    assert_eq!(report["configurations"], 20_000);
+    let checked = report["first_order"]["configurations"].as_u64().unwrap();
+    assert!((1900..=2100).contains(&checked), "{checked}");
+    assert_eq!(report["combined"]["enclosing_sphere"]["excess"], 0.0);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_leaves_no_half_written_file() {
+    use std::process::Command;
+    use std::time::{Duration, Instant};
+
+    let folder = tempdir().unwrap();
+    let text = "[study]\ntitle = \"Endless\"\n[workspace.random]\nsamples = 1e9";
+    let path = write(folder.path(), "study.toml", text);
+    let out = folder.path().join("out");
+    let arguments = ["analyze", "pps", "--study", path.to_str().unwrap(), "--out", out.to_str().unwrap()];
+    let mut child = command(&arguments).spawn().unwrap();
+    let begun = Instant::now();
+    let written = |out: &Path| {
+        let files = fs::read_dir(out).into_iter().flatten().flatten();
+        files.filter_map(|file| file.metadata().ok()).any(|file| file.len() > 0)
+    };
+    while !written(&out) {
+        assert!(begun.elapsed() < Duration::from_secs(60), "nothing is written");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
+}
