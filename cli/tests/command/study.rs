@@ -210,3 +210,19 @@ fn an_interruption_leaves_no_half_written_file() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
 }
+
+/// Where Euler rows do not exist a configuration is counted and shown, and the others are analyzed.
+#[test]
+fn euler_singularities_are_counted() {
+    let folder = tempdir().unwrap();
+    let spec = "[manipulator]\nname = \"arm\"\nlength = \"m\"\norientation = \"euler-yzx\"\n\
+        [[frame]]\nname = \"roll\"\nvariable = { name = \"q1\", kind = \"revolute\" }\ntransform = \"Rz(q1) Tx(1)\"\n\
+        [[source]]\nname = \"tilt\"\nclass = \"repeatable\"\nframe = \"roll\"\ne_y = 1e-3\n";
+    let path = write(folder.path(), "arm.toml", spec);
+    let study = "[study]\ntitle = \"A turn\"\n[workspace.grid]\nq1 = { from = \"-180 deg\", to = \"180 deg\", step = \"15 deg\" }\n";
+    let study = write(folder.path(), "study.toml", study);
+    let arguments = ["analyze", path.to_str().unwrap(), "--study", study.to_str().unwrap()];
+    assert!(prints(&arguments).contains("Euler angles are singular"));
+    let result = json(&[&arguments[..], &["--json"]].concat());
+    assert_eq!((&result["configurations"], &result["unreachable"]), (&Value::from(23), &Value::from(2)));
+}

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::{Configuration, Row, Unevaluated, Unreachable, Workspace};
+use super::{Configuration, Row, Unevaluated, Unreachable, Unreached, Workspace};
 use crate::{Class, Error, Manipulator, Pose, Quantity};
 
 /// What a block of configurations came to: everything that a [`Row`] shows, row after row.
@@ -32,14 +32,25 @@ impl Block {
     ) -> Result<Self, Unevaluated> {
         let mut block = Self::reached(workspace, range);
         let description = manipulator.description();
-        let rows = block.indices.len();
         let (columns_each, effects_each) = (6 * description.frames.len(), description.effects.len());
-        let mut columns = vec![[0.0; 6]; rows * columns_each];
-        let mut effects = vec![0.0; rows * effects_each];
-        block.poses.resize(rows, Pose::IDENTITY);
-        manipulator
-            .error_models(&block.q, &block.s, &u.repeat(rows), &mut block.poses, &mut columns, &mut effects)
-            .map_err(|(i, error)| block.at(i, error))?;
+        let (rows, columns, effects) = loop {
+            let rows = block.indices.len();
+            let mut columns = vec![[0.0; 6]; rows * columns_each];
+            let mut effects = vec![0.0; rows * effects_each];
+            block.poses.resize(rows, Pose::IDENTITY);
+            let Block { q, s, poses, .. } = &mut block;
+            match manipulator.error_models(q, s, &u.repeat(rows), poses, &mut columns, &mut effects) {
+                Ok(()) => break (rows, columns, effects),
+                // Where Euler rows do not exist there is nothing to sum up: set aside and counted, like a point
+                // that cannot be reached.
+                Err((i, error @ Error::EulerSingularity { .. })) if i < rows => {
+                    block.set_aside(workspace, i, error);
+                }
+                Err((i, error)) => return Err(block.at(i, error)),
+            }
+        };
+
+        block.unreachable.sort_by_key(|unreachable| unreachable.index);
 
         // Of every effect: its source, its column of J_e, and what its value is multiplied with.
         let parts = description.effects.iter().map(|effect| {
@@ -94,6 +105,17 @@ impl Block {
             }
         }
         Self { indices, q, s, poses: Vec::new(), sources: Vec::new(), sums: Vec::new(), unreachable }
+    }
+
+    fn set_aside(&mut self, workspace: &dyn Workspace, i: usize, error: Error) {
+        let (variables, parameters) = (workspace.home().q.len(), workspace.home().s.len());
+        let asked = Configuration {
+            q: self.q.drain(i * variables..(i + 1) * variables).collect(),
+            s: self.s.drain(i * parameters..(i + 1) * parameters).collect(),
+        };
+        let index = self.indices.remove(i);
+        let reason = Unreached::Evaluation(error);
+        self.unreachable.push(Unreachable { index, point: workspace.point(index), asked, reason });
     }
 
     fn at(&self, i: usize, error: Error) -> Unevaluated {
