@@ -95,7 +95,8 @@ pub(crate) struct Analyze {
     pub(crate) study: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) changes: Changes,
-    /// Write configurations.csv, sources.csv and unreachable.csv into this folder
+    /// Write into this folder: report.html, its figures as SVG, and configurations.csv, sources.csv,
+    /// unreachable.csv
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print JSON

@@ -15,6 +15,7 @@ mod list;
 mod manipulator;
 mod number;
 mod output;
+mod report;
 mod study;
 mod table;
 

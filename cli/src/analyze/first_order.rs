@@ -8,7 +8,7 @@ const CHECKED: usize = 2000;
 
 /// The largest distance between first order and the exact chain.
 pub(super) struct FirstOrder<'a> {
-    manipulator: &'a dyn Manipulator,
+    pub(super) manipulator: &'a dyn Manipulator,
     /// Every how many configurations is checked.
     stride: usize,
     transforms: Vec<Pose>,

@@ -1,12 +1,13 @@
 //! `abbe analyze`: section 5 of the paper. What every source does over a workspace, alone and together.
 //!
 //! The sweep runs once; `first_order` and `files` look at every configuration on the way. `agreement` compares
-//! with published figures; `tables`, `text` and `json` show the results.
+//! with published figures; `tables`, `text` and `json` show the results, `report` hands them to the pictures.
 
 mod agreement;
 mod files;
 mod first_order;
 mod json;
+mod report;
 mod tables;
 mod text;
 mod unreachable;
@@ -21,6 +22,7 @@ use crate::failure::Failure;
 use crate::manipulator;
 use crate::number;
 use crate::output::{self, Outcome};
+use crate::report::Pictures;
 use crate::study::Study;
 
 use files::Files;
@@ -62,18 +64,22 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         Some(folder) => Some(Files::create(folder, &description, &varying)?),
         None => None,
     };
+    let mut pictures = arguments.out.as_ref().map(|_| Pictures::new(&study, &description));
     let u = sampling::nominal_inputs(&description);
     let budget = error_budget(&interpreter, &workspace, &u, &mut |row| {
         first_order.add(row, &u);
         files.iter_mut().for_each(|files| files.configuration(row));
+        pictures.iter_mut().for_each(|pictures| pictures.add(row));
     })
     .map_err(|refused| unevaluated(&refused, &workspace, &description, &found.origin))?;
 
     let region = study.region.describe(&found.spec);
     let analysis =
         Analysis { description, study: &study, region, workspace, varying: &varying, budget, first_order };
-    if let Some(files) = files {
+    if let (Some(folder), Some(files), Some(pictures)) = (&arguments.out, files, pictures) {
+        let report = pictures.render(&report::subject(&analysis, &found.spec))?.write(folder)?;
         files.finish(&analysis)?;
+        report.finish()?;
     }
     let text = if arguments.json { output::json(&json::of(&analysis))? } else { text::of(&analysis) };
     Ok(Outcome::passed(text))

@@ -17,12 +17,17 @@
 //! metric = "plain maximum"                 # or "half peak-to-peak", "relative to home"
 //! x = "0.074 mm"
 //! within = "0.0005 mm"                     # how near is equal: half of the last printed digit
+//!
+//! [[figure]]                               # a picture of the report; see `figure`
+//! kind = "travel"
+//! over = "q4"
 //! ```
 //!
 //! `read` reads a file from top to bottom, `axis` and `region` its workspace, `published` the figures that
-//! somebody printed. Everything is checked against the spec, and mistakes are shown as those of a spec.
+//! somebody printed, `figure` those to draw. Everything is checked against the spec, and mistakes are shown as those of a spec.
 
 mod axis;
+mod figure;
 mod published;
 mod read;
 mod region;
@@ -36,6 +41,7 @@ use abbe_codegen::spec::Spec;
 use crate::changes::Changes;
 use crate::manipulator::Found;
 
+pub(crate) use figure::{Content, Figure, Over};
 pub(crate) use published::{CombinedFigure, Compensated, Metric, Published, Subject};
 pub(crate) use region::Region;
 
@@ -52,6 +58,9 @@ pub(crate) struct Study {
     pub(crate) published: Vec<Published>,
     pub(crate) compensated: Option<Compensated>,
     pub(crate) not_reproducible: Vec<String>,
+    pub(crate) figures: Vec<Figure>,
+    /// Its file and the SHA-256 of the text; none if there is no study.
+    pub(crate) file: Option<(String, String)>,
 }
 
 impl Study {
@@ -67,15 +76,18 @@ impl Study {
     }
 
     fn joint_samples(spec: &Spec) -> Self {
+        let region = Region::samples(spec);
         Self {
             title: "No study: the limits of the joints are the workspace".to_owned(),
             publisher: String::new(),
             tolerance: None,
             changes: Changes::default(),
-            region: Region::samples(spec),
+            figures: Figure::defaults(&region),
+            region,
             published: Vec::new(),
             compensated: None,
             not_reproducible: Vec::new(),
+            file: None,
         }
     }
 }

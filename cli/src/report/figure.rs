@@ -1,0 +1,99 @@
+//! A figure as it is drawn: what was gathered, with its names.
+
+use super::axis::Axis;
+use super::data::extremes::Range;
+use super::data::gather::Gathered;
+use super::subject::Subject;
+use crate::study::{self, CombinedFigure, Content, Metric};
+
+/// A figure, ready to be drawn.
+pub(super) struct Figure<'a> {
+    pub(super) asked: &'a study::Figure,
+    /// The name of its file, without the ending; no two figures have the same.
+    pub(super) name: String,
+    pub(super) title: String,
+    /// Index of its source; all repeatable ones together if there is none.
+    pub(super) source: Option<usize>,
+    pub(super) random: bool,
+    pub(super) data: Gathered,
+}
+
+/// A published figure to draw: the least and the largest that it allows, and what it is called.
+pub(super) struct Printed {
+    pub(super) range: Range,
+    pub(super) label: String,
+}
+
+impl<'a> Figure<'a> {
+    pub(super) fn new(
+        asked: &'a study::Figure,
+        source: Option<usize>,
+        random: bool,
+        data: Gathered,
+        subject: &Subject,
+    ) -> Self {
+        let of = asked.source.as_deref().unwrap_or("all repeatable sources");
+        let over = |over| Axis::over(over, &subject.description).name;
+        let (kind, overs, title) = match asked.content {
+            Content::Travel(first) => ("travel", vec![over(first)], format!("{of}, over {}", over(first))),
+            Content::Surface([first, second]) => {
+                let [first, second] = [over(first), over(second)];
+                let title = format!("{of}, over {first} and {second}");
+                ("surface", vec![first, second], title)
+            }
+            Content::Cloud => ("cloud", Vec::new(), format!("Errors of the tool point: {of}")),
+            Content::Histogram => ("histogram", Vec::new(), format!("How often which error occurs: {of}")),
+            Content::Pareto => ("pareto", Vec::new(), "Share of each source".to_owned()),
+            Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
+        };
+        let words = [kind.to_owned()].into_iter().chain(asked.source.clone()).chain(overs);
+        let name = words.map(|word| slug(&word)).collect::<Vec<_>>().join("-");
+        Self { asked, name, title: capital(&title), source, random, data }
+    }
+
+    /// What is published on one axis of this figure's source, in the unit of the spec.
+    ///
+    /// `found` is what the axis spans here: half peak-to-peak is drawn about its middle.
+    pub(super) fn printed(&self, axis: usize, found: Range, subject: &Subject) -> Option<Printed> {
+        let name = self.asked.source.as_deref()?;
+        let published = subject.study.published.iter().find_map(|published| match &published.subject {
+            study::Subject::Source(of, metric) if of == name => Some((published.figures[axis]?, *metric)),
+            _ => None,
+        });
+        let (value, metric) = published?;
+        let (middle, about) = match metric {
+            Metric::PlainMaximum => (0.0, ""),
+            Metric::HalfPeakToPeak => (found.middle(), " about the middle"),
+            // It stands for differences, which this figure does not show.
+            Metric::RelativeToHome => return None,
+        };
+        let errors = Axis::errors("", subject.description.length);
+        let shown = crate::number::short(errors.show(value));
+        Some(Printed {
+            range: Range { least: middle - value, largest: middle + value },
+            label: format!("{}: ±{shown} {}{about}", subject.publisher(), errors.unit),
+        })
+    }
+
+    /// The radius that is published for all sources together, if this figure shows them.
+    pub(super) fn printed_radius(&self, subject: &Subject) -> Option<f64> {
+        let radius = study::Subject::Combined(CombinedFigure::Both);
+        let published = subject.study.published.iter().find(|published| published.subject == radius);
+        published.filter(|_| self.source.is_none())?.figures[3]
+    }
+
+    /// What the errors are called.
+    pub(super) fn errors(&self) -> &'static str {
+        if self.random { "bound" } else { "error" }
+    }
+}
+
+fn slug(text: &str) -> String {
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+    words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-")
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

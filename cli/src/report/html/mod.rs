@@ -1,0 +1,15 @@
+//! The report: one HTML file with everything in it, its script and its data, and no link to anywhere.
+//!
+//! `page` is the whole; `ledger` its tables; `plots` the figures, one module for each kind.
+
+mod ledger;
+mod page;
+mod plots;
+
+pub(super) use page::page;
+
+/// Text as HTML has it.
+fn escaped(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;")
+}
