@@ -9,6 +9,8 @@ use crate::study::{Published, Subject as Of};
 
 pub(super) fn subject<'a>(analysis: &'a Analysis<'a>, spec: &'a Spec) -> Subject<'a> {
     let Analysis { description, study, workspace, first_order, .. } = analysis;
+    let worst = analysis.budget.sources.iter().map(|errors| analysis.configuration(errors.worst)).collect();
+    let worst_of_all = analysis.configuration(analysis.budget.combined.radius.configuration);
     let reasons = unreachable::summary(workspace, description);
     Subject {
         spec,
@@ -20,6 +22,7 @@ pub(super) fn subject<'a>(analysis: &'a Analysis<'a>, spec: &'a Spec) -> Subject
         configurations: workspace.configurations.len(),
         unreachable: (workspace.unreachable.len(), reasons),
         budget: &analysis.budget,
+        worst: (worst, worst_of_all),
         compared: study.published.iter().map(|published| compare(analysis, published)).collect(),
         first_order: (first_order.largest, first_order.checked),
         decimals: analysis.decimals(),

@@ -67,8 +67,11 @@ impl Axis {
         value * self.factor
     }
 
-    /// Round numbers within a range in the unit of the axis, about so many.
+    /// Round numbers within a range in the unit of the axis, at most about so many.
     pub(super) fn ticks(&self, [least, largest]: [f64; 2], about: usize) -> Ticks {
+        if about == 0 {
+            return Ticks { values: Vec::new(), decimals: 0 };
+        }
         let span = (largest - least) / about as f64;
         let step = if self.unit == "deg" && (1.0..90.0).contains(&span) {
             let steps = [2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0];

@@ -21,7 +21,15 @@ pub(super) struct Figure<'a> {
 /// A published figure to draw: the least and the largest that it allows, and what it is called.
 pub(super) struct Printed {
     pub(super) range: Range,
-    pub(super) label: String,
+    /// Its name, in short lines.
+    pub(super) lines: Vec<String>,
+}
+
+impl Printed {
+    /// Its name in one line.
+    pub(super) fn label(&self) -> String {
+        self.lines.join(" ")
+    }
 }
 
 impl<'a> Figure<'a> {
@@ -63,7 +71,7 @@ impl<'a> Figure<'a> {
         let (value, metric) = published?;
         let (middle, about) = match metric {
             Metric::PlainMaximum => (0.0, ""),
-            Metric::HalfPeakToPeak => (found.middle(), " about the middle"),
+            Metric::HalfPeakToPeak => (found.middle(), "about the middle"),
             // It stands for differences, which this figure does not show.
             Metric::RelativeToHome => return None,
         };
@@ -71,7 +79,14 @@ impl<'a> Figure<'a> {
         let shown = crate::number::short(errors.show(value));
         Some(Printed {
             range: Range { least: middle - value, largest: middle + value },
-            label: format!("{}: ±{shown} {}{about}", subject.publisher(), errors.unit),
+            lines: [
+                format!("{}:", subject.publisher()),
+                format!("±{shown} {}", errors.unit),
+                about.to_owned(),
+            ]
+            .into_iter()
+            .filter(|line| !line.is_empty())
+            .collect(),
         })
     }
 

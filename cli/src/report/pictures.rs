@@ -10,7 +10,7 @@ use super::html;
 use super::subject::Subject;
 use super::svg;
 use crate::failure::Failure;
-use crate::study::Study;
+use crate::study::{Content, Study};
 
 /// The figures of a study, in the making.
 pub(crate) struct Pictures<'a> {
@@ -23,7 +23,12 @@ pub(crate) struct Pictures<'a> {
 impl<'a> Pictures<'a> {
     /// Begins the figures of a study.
     pub(crate) fn new(study: &'a Study, description: &Description) -> Self {
-        let gathers = study.figures.iter().map(|figure| (figure, Gather::new(figure, description)));
+        // Without sources there is nothing to see but the manipulator.
+        let nothing = description.sources.is_empty();
+        let asked = study.figures.iter().filter(|figure| {
+            !nothing || figure.source.is_some() || matches!(figure.content, Content::Manipulator(_))
+        });
+        let gathers = asked.map(|figure| (figure, Gather::new(figure, description)));
         let (mut figures, mut left_out) = (Vec::new(), Vec::new());
         for (figure, gather) in gathers {
             match (gather, &figure.source) {

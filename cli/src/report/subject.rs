@@ -20,6 +20,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) configurations: usize,
     pub(crate) unreachable: (usize, String),
     pub(crate) budget: &'a Budget,
+    /// Where each source is worst, and where everything is.
+    pub(crate) worst: (Vec<Option<&'a Configuration>>, Option<&'a Configuration>),
     /// What was found beside each published figure of the study; none where its source is switched off.
     pub(crate) compared: Vec<Option<Compared>>,
     /// The largest difference between first order and the exact chain, and at how many configurations.

@@ -6,4 +6,5 @@ mod check;
 mod generate;
 mod jacobian;
 mod readme;
+mod report;
 mod running;

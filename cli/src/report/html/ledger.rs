@@ -1,6 +1,6 @@
 //! The tables of the report: every source alone, all together, and what is printed beside them.
 
-use abbe::analysis::{Figures, SourceErrors};
+use abbe::analysis::{Configuration, Figures, SourceErrors};
 use abbe::{Class, Distribution};
 
 use super::escaped;
@@ -13,10 +13,11 @@ pub(super) fn sources(subject: &Subject) -> String {
     let unit = subject.description.length.symbol();
     let share = subject.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
     let mut rows = String::new();
-    let mut sources = subject.budget.sources.iter().collect::<Vec<_>>();
-    sources.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
-    for (rank, errors) in sources.into_iter().enumerate() {
-        rows += &source(rank + 1, errors, subject);
+    let mut sources = subject.budget.sources.iter().zip(&subject.worst.0).collect::<Vec<_>>();
+    sources.sort_by(|(a, _), (b, _)| b.plain_max.norm.total_cmp(&a.plain_max.norm));
+    for (rank, (errors, worst)) in sources.into_iter().enumerate() {
+        let worst = worst.filter(|_| errors.plain_max.norm > 0.0);
+        rows += &source(rank + 1, errors, worst, subject);
     }
     format!(
         "<table class=\"ledger\"><thead><tr><th>rank</th><th class=\"words\">source</th>\
@@ -25,7 +26,7 @@ pub(super) fn sources(subject: &Subject) -> String {
     )
 }
 
-fn source(rank: usize, errors: &SourceErrors, subject: &Subject) -> String {
+fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, subject: &Subject) -> String {
     let source = &subject.description.sources[errors.source];
     let metrics = Metric::ALL.map(|(name, metric)| {
         let figures = match metric {
@@ -44,9 +45,11 @@ fn source(rank: usize, errors: &SourceErrors, subject: &Subject) -> String {
     for (i, (name, figures, published)) in metrics.iter().enumerate() {
         let head = if i == 0 {
             let (name, class) = (escaped(source.name), class(source.class));
+            let worst = worst.map(|worst| format!("<br>worst at {}", escaped(&subject.label(worst))));
+            let worst = worst.unwrap_or_default();
             format!(
                 "<td rowspan=\"{lines}\">{rank}</td><td class=\"words\" rowspan=\"{lines}\"><b>{name}</b>\
-                 <br><small>{class}</small></td>"
+                 <br><small>{class}{worst}</small></td>"
             )
         } else {
             String::new()

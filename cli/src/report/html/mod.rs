@@ -1,7 +1,8 @@
 //! The report: one HTML file with everything in it, its script and its data, and no link to anywhere.
 //!
-//! `page` is the whole; `ledger` its tables; `plots` the figures, one module for each kind.
+//! `page` is the whole; `ledger` its tables of errors, `facts` what they rest on; `plots` the figures, one module for each kind.
 
+mod facts;
 mod ledger;
 mod page;
 mod plots;

@@ -8,7 +8,7 @@ use plotters::style::FontTransform;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::rule::Rule;
-use crate::report::axis::{Axis, FAINT, GREY, INK};
+use crate::report::axis::{Axis, FAINT, GREY, INK, Ticks};
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
 
@@ -37,7 +37,8 @@ pub(super) fn line(colour: (u8, u8, u8), width: f64) -> ShapeStyle {
 
 /// Text of this size in pixels.
 pub(super) fn text(size: f64, colour: (u8, u8, u8), horizontal: HPos, vertical: VPos) -> TextStyle<'static> {
-    let font = ("Helvetica, Arial, sans-serif", f64::from(px(size))).into_font();
+    // The library writes fonts smaller than it is asked for.
+    let font = ("Helvetica, Arial, sans-serif", 1.24 * f64::from(px(size))).into_font();
     let style = TextStyle::from(font).pos(Pos::new(horizontal, vertical));
     TextStyle { color: rgb(colour).to_backend_color(), ..style }
 }
@@ -81,6 +82,7 @@ impl Sheet {
             root.fill(&WHITE)?;
             let (head, body) = root.split_vertically(px(f64::from(Self::HEAD)));
             let title = text(17.0, INK, HPos::Left, VPos::Top);
+            let title = TextStyle { font: title.font.style(FontStyle::Bold), ..title };
             head.draw(&Text::new(self.title.as_str(), (px(18.0), px(12.0)), title))?;
             let subtitle = text(12.0, GREY, HPos::Left, VPos::Top);
             head.draw(&Text::new(self.subtitle.as_str(), (px(18.0), px(35.0)), subtitle))?;
@@ -115,13 +117,13 @@ pub(super) struct Side<'a> {
     pub(super) labelled: bool,
 }
 
-/// A panel with a grid, numbers and the titles of its axes.
-pub(super) fn panel<'a>(area: &Area<'a>, x: &Side, y: &Side) -> Result<Panel<'a>, Failed> {
+/// A panel with a grid, numbers and the titles of its axes, and so much room on the right.
+pub(super) fn panel<'a>(area: &Area<'a>, x: &Side, y: &Side, right: f64) -> Result<Panel<'a>, Failed> {
     let (x_ticks, y_ticks) = (x.axis.ticks(x.range, x.about), y.axis.ticks(y.range, y.about));
     let mut chart = ChartBuilder::on(area)
         .set_label_area_size(LabelAreaPosition::Left, px(if y.labelled { 74.0 } else { 12.0 }))
         .set_label_area_size(LabelAreaPosition::Bottom, px(if x.labelled { 46.0 } else { 8.0 }))
-        .margin_right(px(18.0))
+        .margin_right(px(right))
         .margin_top(px(10.0))
         .build_cartesian_2d(
             Rule { range: x.range, labelled: x_ticks.values.clone() },
@@ -129,7 +131,11 @@ pub(super) fn panel<'a>(area: &Area<'a>, x: &Side, y: &Side) -> Result<Panel<'a>
         )?;
     let small = text(11.0, GREY, HPos::Center, VPos::Center);
     let nothing = line(FAINT, 0.0);
-    let (x_label, y_label) = (|value: &f64| x_ticks.label(*value), |value: &f64| y_ticks.label(*value));
+    let label = |side: &Side, ticks: &Ticks, value: f64| {
+        if side.labelled { ticks.label(value) } else { String::new() }
+    };
+    let x_label = |value: &f64| label(x, &x_ticks, *value);
+    let y_label = |value: &f64| label(y, &y_ticks, *value);
     let mut mesh = chart.configure_mesh();
     mesh.bold_line_style(line(FAINT, 1.0))
         .light_line_style(nothing)
@@ -138,12 +144,6 @@ pub(super) fn panel<'a>(area: &Area<'a>, x: &Side, y: &Side) -> Result<Panel<'a>
         .x_label_formatter(&x_label)
         .y_label_formatter(&y_label)
         .set_all_tick_mark_size(px(4.0));
-    if !x.labelled {
-        mesh.x_labels(0);
-    }
-    if !y.labelled {
-        mesh.y_labels(0);
-    }
     mesh.draw()?;
     let (width, height) = area.dim_in_pixel();
     let plot = chart.plotting_area().get_pixel_range();

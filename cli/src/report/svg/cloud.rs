@@ -17,15 +17,15 @@ pub(super) fn draw(points: &Points, figure: &Figure, subject: &Subject) -> Resul
     let reach = if reach > 0.0 { reach } else { 1.0 };
 
     let shown = format!("{} of {} configurations", points.kept.len(), points.seen());
-    Sheet::new((1080, 400), figure, subject, &shown).draw(|area| {
-        for (views, area) in [(0, 1), (0, 2), (2, 1)].into_iter().zip(area.split_evenly((1, 3))) {
-            let (across, up) = views;
+    Sheet::new((1080, 370), figure, subject, &shown).draw(|area| {
+        // As high as they are wide, labels aside.
+        let (views, below) = area.split_vertically(px(324.0));
+        let areas = views.split_evenly((1, 3));
+        for ((across, up), area) in [(0, 1), (0, 2), (2, 1)].into_iter().zip(areas) {
             let axis = |i: usize| Axis { name: format!("{} error", ["x", "y", "z"][i]), ..errors.clone() };
             let (across_axis, up_axis) = (axis(across), axis(up));
-            let side = |axis| Side { axis, range: [-reach, reach], about: 5, labelled: true };
-            // As wide as it is high, the labels aside.
-            let square = area.margin(0, px(40.0 - 16.0 + 24.0), 0, 0);
-            let mut chart = panel(&square, &side(&across_axis), &side(&up_axis))?;
+            let side = |axis| Side { axis, range: [-reach, reach], about: 7, labelled: true };
+            let mut chart = panel(&area, &side(&across_axis), &side(&up_axis), 18.0)?;
             let at = |error: [f64; 3]| (errors.show(error[across]), errors.show(error[up]));
             let dot = rgb(BAR).mix(0.55).filled();
             let dots = points.kept.iter().map(|point| Circle::new(at(point.error), px(1.6), dot));
@@ -43,8 +43,8 @@ pub(super) fn draw(points: &Points, figure: &Figure, subject: &Subject) -> Resul
             }
         }
         let style = text(11.5, INK, HPos::Left, VPos::Bottom);
-        let (_, height) = area.dim_in_pixel();
-        area.draw(&Text::new(spheres.legend(subject), (px(18.0), height as i32 - px(12.0)), style))?;
+        let (_, height) = below.dim_in_pixel();
+        below.draw(&Text::new(spheres.legend(subject), (px(18.0), height as i32 - px(12.0)), style))?;
         Ok(())
     })
 }

@@ -31,7 +31,7 @@ pub(super) fn draw(histogram: &Histogram, figure: &Figure, subject: &Subject) ->
                 labelled: true,
             };
             let y = Side { axis: &count, range: [0.0, most.max(1.0) * 1.05], about: 4, labelled: true };
-            let mut chart = panel(area, &x, &y)?;
+            let mut chart = panel(area, &x, &y, 18.0)?;
             let style = rgb(colour).mix(0.75).filled();
             chart.draw_series(bars.iter().map(
                 |([left, right], count): &([f64; 2], crate::report::data::gather::Count)| {

@@ -46,15 +46,16 @@ pub(super) fn draw(up: usize, sheet: &Sheet, subject: &Subject) -> Result<String
         let links = places.iter().map(|place| at(place.origin)).collect::<Vec<_>>();
         area.draw(&PathElement::new(links.clone(), line((176, 182, 192), 7.0)))?;
         for place in &places {
-            for axis in 0..3 {
+            for (axis, colour) in XYZ.into_iter().enumerate() {
                 let arrow = vec![at(place.origin), at(tip(place, axis))];
-                area.draw(&PathElement::new(arrow, line(XYZ[axis], 2.2)))?;
+                area.draw(&PathElement::new(arrow, line(colour, 2.2)))?;
             }
             area.draw(&Circle::new(at(place.origin), px(4.0), rgb(INK).filled()))?;
         }
         let mut taken: Vec<(i32, i32)> = Vec::new();
         for (place, (x, y)) in places.iter().zip(links) {
-            let (mut x, mut y) = (x + px(10.0), y + px(4.0));
+            // Between the axes that point up and to the lower right.
+            let (mut x, mut y) = (x + px(7.0), y - px(20.0));
             // Labels of neighbours one below the other.
             while taken.iter().any(|other| (other.1 - y).abs() < px(15.0) && (other.0 - x).abs() < px(150.0))
             {
@@ -64,6 +65,10 @@ pub(super) fn draw(up: usize, sheet: &Sheet, subject: &Subject) -> Result<String
                 x = width as i32 - px(160.0);
             }
             taken.push((x, y));
+            // Readable where a link passes behind it; letters are about this wide.
+            let letters = place.label.chars().count() as f64;
+            let behind = [(x - px(2.0), y - px(1.0)), (x + px(6.2 * letters), y + px(13.0))];
+            area.draw(&Rectangle::new(behind, WHITE.mix(0.8).filled()))?;
             let style = text(12.0, INK, HPos::Left, VPos::Top);
             area.draw(&Text::new(place.label.as_str(), (x, y), style))?;
         }
@@ -75,7 +80,7 @@ pub(super) fn draw(up: usize, sheet: &Sheet, subject: &Subject) -> Result<String
 fn scale_bar(area: &super::canvas::Area, size: f64, scale: f64, subject: &Subject) -> Result<(), Failed> {
     let (_, height) = area.dim_in_pixel();
     let length = Axis::length("", subject.description.length);
-    let ticks = length.ticks([0.0, size / 2.0], 1);
+    let ticks = length.ticks([0.0, size / 2.0], 2);
     let bar = ticks.values.iter().copied().fold(0.0, f64::max);
     let (left, y) = (px(24.0), height as i32 - px(28.0));
     // Lengths along an axis are seen at their full size in this view.

@@ -14,9 +14,9 @@ pub(super) fn draw(sheet: &Sheet, subject: &Subject) -> Result<String, Failed> {
     let rank = Axis { name: String::new(), unit: String::new(), factor: 1.0 };
     sheet.draw(|area| {
         let (chart_area, names_area) = area.split_vertically(px(380.0));
-        let x = Side { axis: &rank, range: [-0.6, shares.len() as f64 - 0.4], about: 1, labelled: false };
+        let x = Side { axis: &rank, range: [-0.6, shares.len() as f64 - 0.4], about: 0, labelled: false };
         let y = Side { axis: &share, range: [0.0, 105.0], about: 6, labelled: true };
-        let mut chart = panel(&chart_area, &x, &y)?;
+        let mut chart = panel(&chart_area, &x, &y, 18.0)?;
         let bars = shares.iter().enumerate().map(|(i, bar)| {
             let at = i as f64;
             Rectangle::new([(at - 0.36, 0.0), (at + 0.36, share.show(bar.share))], rgb(BAR).filled())
@@ -26,12 +26,17 @@ pub(super) fn draw(sheet: &Sheet, subject: &Subject) -> Result<String, Failed> {
         let curve = curve.collect::<Vec<_>>();
         chart.draw_series(LineSeries::new(curve.iter().copied(), line(XYZ[0], 1.8)))?;
         chart.draw_series(curve.iter().map(|at| Circle::new(*at, px(3.2), rgb(XYZ[0]).filled())))?;
-        let number = text(11.0, INK, HPos::Center, VPos::Bottom);
         for (i, bar) in shares.iter().enumerate() {
             let label = format!("{} mm", crate::number::trimmed(bar.millimetres, 3));
             let at = (i as f64, share.show(bar.share));
-            let element = EmptyElement::at(at) + Text::new(label, (0, -px(4.0)), number.clone());
-            chart.draw_series([element])?;
+            // Inside where the curve begins.
+            let (down, colour, side) = if bar.share > 0.15 {
+                (px(12.0), (255, 255, 255), VPos::Top)
+            } else {
+                (-px(4.0), INK, VPos::Bottom)
+            };
+            let style = text(11.0, colour, HPos::Center, side);
+            chart.draw_series([EmptyElement::at(at) + Text::new(label, (0, down), style)])?;
         }
         let width = px(1.0).max((f64::from(px(900.0 - 92.0)) / shares.len().max(1) as f64) as i32);
         for (i, bar) in shares.iter().enumerate() {

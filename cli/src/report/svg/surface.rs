@@ -35,9 +35,9 @@ pub(super) fn draw(
 
             let mut chart = ChartBuilder::on(area)
                 .margin_top(px(24.0))
-                .margin_left(px(38.0))
+                .margin_left(px(24.0))
                 .margin_bottom(px(28.0))
-                .margin_right(px(38.0))
+                .margin_right(px(24.0))
                 .build_cartesian_3d(
                     Rule { range: x_range, labelled: x_ticks.values.clone() },
                     Rule { range: span, labelled: y_ticks.values.clone() },
@@ -46,7 +46,7 @@ pub(super) fn draw(
             chart.with_projection(|mut view| {
                 view.pitch = 0.42;
                 view.yaw = 0.7;
-                view.scale = 0.78;
+                view.scale = 0.86;
                 view.into_matrix()
             });
             let faint = line(FAINT, 1.0);
@@ -67,7 +67,7 @@ pub(super) fn draw(
                 ViridisRGB.get_color(share.clamp(0.0, 1.0))
             };
             for (corners, mean) in patches(&xs, &zs, &heights) {
-                chart.draw_series([Polygon::new(corners.clone(), colour(mean).filled())])?;
+                chart.draw_series([Polygon::new(corners, colour(mean).filled())])?;
                 let edge = corners.iter().chain(corners.first()).copied();
                 chart.draw_series([PathElement::new(
                     edge.collect::<Vec<_>>(),
@@ -75,11 +75,10 @@ pub(super) fn draw(
                 )])?;
             }
 
-            let (width, height) = area.dim_in_pixel();
+            let (width, _) = area.dim_in_pixel();
             let title = text(13.0, INK, HPos::Center, VPos::Top);
             let name = format!("{} {} ({})", ["x", "y", "z"][axis], figure.errors(), errors.unit);
             area.draw(&Text::new(name, (width as i32 / 2, px(4.0)), title))?;
-            let _ = height;
             axis_titles(&mut chart, [&first, &second], x_range, z_range, span)?;
             printed(area, axis, mesh, figure, subject)?;
         }
@@ -119,7 +118,7 @@ fn printed(
     let errors = Axis::errors("", subject.description.length);
     let here = format!("here: {} mm", crate::number::trimmed(errors.show(span.farther()), 4));
     let label = match figure.printed(axis, span, subject) {
-        Some(printed) => format!("{here} · {}", printed.label),
+        Some(printed) => format!("{here} · {}", printed.label()),
         None => here,
     };
     let (width, height) = area.dim_in_pixel();

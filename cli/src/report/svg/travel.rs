@@ -31,6 +31,7 @@ pub(super) fn draw(
     let range = with_room([all.least, all.largest].map(|error| errors.show(error)), 0.12);
     let across = with_room([travelled.least, travelled.largest].map(|value| travel.show(value)), 0.02);
 
+    let any_printed = printed.iter().any(Option::is_some);
     let what = format!("least and largest {} where others vary too", figure.errors());
     Sheet::new((900, 600), figure, subject, &what).draw(|area| {
         let areas = area.split_by_breakpoints(Vec::<i32>::new(), [px(185.0), px(370.0)]);
@@ -39,7 +40,7 @@ pub(super) fn draw(
             let errors = Axis { name, ..errors.clone() };
             let x = Side { axis: &travel, range: across, about: 9, labelled: axis == 2 };
             let y = Side { axis: &errors, range, about: 4, labelled: true };
-            let mut chart = panel(area, &x, &y)?;
+            let mut chart = panel(area, &x, &y, if any_printed { 128.0 } else { 18.0 })?;
             chart.draw_series(LineSeries::new(across.map(|end| (end, 0.0)), line((150, 154, 160), 1.0)))?;
 
             let edge = |end: fn(Range) -> f64| {
@@ -60,10 +61,13 @@ pub(super) fn draw(
                 let style = line(PUBLISHED, 1.2);
                 chart.draw_series(DashedLineSeries::new(ends, px(6.0), px(4.0), style))?;
             }
-            let place = (across[1], errors.show(printed.range.largest));
-            let style = text(11.0, PUBLISHED, HPos::Right, VPos::Bottom);
-            let label = Text::new(printed.label.clone(), (-px(4.0), -px(3.0)), style);
-            chart.draw_series([EmptyElement::at(place) + label])?;
+            let place = (across[1], errors.show(printed.range.middle()));
+            for (row, words) in printed.lines.iter().enumerate() {
+                let style = text(11.0, PUBLISHED, HPos::Left, VPos::Center);
+                let down = 15.0 * (row as f64 - 0.5 * (printed.lines.len() - 1) as f64);
+                let label = Text::new(words.clone(), (px(8.0), px(down)), style);
+                chart.draw_series([EmptyElement::at(place) + label])?;
+            }
         }
         Ok(())
     })

@@ -20,7 +20,7 @@ pub(super) fn plots(points: &Points, figure: &Figure, subject: &Subject) -> Plot
     let errors = Axis::errors("", subject.description.length);
     let titles = ["x", "y", "z"].map(|axis| format!("{axis} {} (mm)", figure.errors()));
     let titles = titles.each_ref().map(String::as_str);
-    let layout = Layout::new().margin(margin([0, 0, 0, 0])).scene(scene(titles, AspectMode::Data, 2));
+    let layout = Layout::new().margin(margin([0, 0, 0, 0])).scene(scene(titles, AspectMode::Data, 2, 0.8));
     let mut plot = plot(layout);
     let shown = |points: &[&Point]| {
         let along =
@@ -43,12 +43,12 @@ pub(super) fn plots(points: &Points, figure: &Figure, subject: &Subject) -> Plot
         plot.add_trace(shown(&[worst]).marker(cross));
     }
     let spheres = Spheres::of(points, figure, subject);
-    plot.add_trace(sphere(errors.show(spheres.radius), css(INK, 1.0), 0.10));
+    plot.add_trace(sphere(errors.show(spheres.radius), &css(INK, 1.0), 0.10));
     if let Some(tolerance) = spheres.tolerance {
-        plot.add_trace(sphere(errors.show(tolerance), css(TOLERANCE, 1.0), 0.35));
+        plot.add_trace(sphere(errors.show(tolerance), &css(TOLERANCE, 1.0), 0.35));
     }
     let note = format!(
-        "{} {} of {} configurations are drawn.",
+        "{}. {} of {} configurations are drawn.",
         spheres.legend(subject).replace("circle", "sphere").replace("Solid", "Large"),
         points.kept.len(),
         points.seen()
@@ -56,7 +56,7 @@ pub(super) fn plots(points: &Points, figure: &Figure, subject: &Subject) -> Plot
     Plots { plots: vec![plot], height: 560, note }
 }
 
-fn sphere(radius: f64, colour: String, opacity: f64) -> Box<Surface<Vec<f64>, Vec<f64>, f64>> {
+fn sphere(radius: f64, colour: &str, opacity: f64) -> Box<Surface<Vec<f64>, Vec<f64>, f64>> {
     let at = |i: usize, of: f64| of * i as f64 / MESH as f64;
     let point = |i: usize, j: usize| {
         let (turn, height) = (at(i, std::f64::consts::TAU), at(j, std::f64::consts::PI));
@@ -66,7 +66,7 @@ fn sphere(radius: f64, colour: String, opacity: f64) -> Box<Surface<Vec<f64>, Ve
         let line = |i: usize| (0..=MESH).map(|j| point(i, j)[axis]).collect();
         (0..=MESH).map(line).collect::<Vec<Vec<_>>>()
     };
-    let colours = [0.0, 1.0].map(|at| ColorScaleElement(at, colour.clone()));
+    let colours = [0.0, 1.0].map(|at| ColorScaleElement(at, colour.to_owned()));
     Surface::new(mesh(2))
         .x(mesh(0))
         .y(mesh(1))

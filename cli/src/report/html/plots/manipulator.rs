@@ -15,7 +15,7 @@ pub(super) fn plots(up: usize, subject: &Subject) -> Plots {
     let unit = subject.description.length;
     let titles = ["x", "y", "z"].map(|axis| format!("{axis} ({})", unit.symbol()));
     let titles = titles.each_ref().map(String::as_str);
-    let layout = Layout::new().margin(margin([0, 0, 0, 0])).scene(scene(titles, AspectMode::Data, up));
+    let layout = Layout::new().margin(margin([0, 0, 0, 0])).scene(scene(titles, AspectMode::Data, up, 0.85));
     let mut plot = plot(layout);
     // A home that cannot be evaluated has been refused long before.
     if let Ok(Stick { places, size }) = Stick::at_home(subject) {

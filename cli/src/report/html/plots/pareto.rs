@@ -21,7 +21,7 @@ pub(super) fn plots(subject: &Subject) -> Plots {
     });
     let hover = hover.collect::<Vec<_>>();
     let layout = Layout::new()
-        .margin(margin([60, 16, 16, 60]))
+        .margin(margin([60, 16, 16, 40]))
         .x_axis(axis("").show_grid(false))
         .y_axis(axis("share (%)").range(vec![0.0, 105.0]));
     let mut plot = plot(layout);

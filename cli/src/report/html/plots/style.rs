@@ -1,7 +1,7 @@
 //! What all plots look like.
 
 use plotly::common::{Font, Label, Title};
-use plotly::configuration::DisplayModeBar;
+use plotly::configuration::ModeBarButtonName::{self, *};
 use plotly::layout::{
     AspectMode, Axis, Camera, CameraCenter, Eye, HoverMode, LayoutScene, Margin, Projection, ProjectionType,
     Up,
@@ -9,6 +9,24 @@ use plotly::layout::{
 use plotly::{Configuration, Layout, Plot};
 
 use crate::report::axis::{FAINT, GREY, INK, css};
+
+/// Buttons for what the mouse does as well; those to go back and to save a picture stay.
+const SUPERFLUOUS: [ModeBarButtonName; 14] = [
+    Zoom2d,
+    Pan2d,
+    Select2d,
+    Lasso2d,
+    ZoomIn2d,
+    ZoomOut2d,
+    AutoScale2d,
+    HoverClosestCartesian,
+    HoverCompareCartesian,
+    Zoom3d,
+    Pan3d,
+    TableRotation,
+    ResetCameraLastSave3d,
+    HoverClosest3d,
+];
 
 /// An empty plot with this layout.
 pub(super) fn plot(layout: Layout) -> Plot {
@@ -23,8 +41,8 @@ pub(super) fn plot(layout: Layout) -> Plot {
             .hover_mode(HoverMode::Closest)
             .hover_label(hover),
     );
-    let bar = DisplayModeBar::Hover;
-    plot.set_configuration(Configuration::new().display_logo(false).responsive(true).display_mode_bar(bar));
+    let configuration = Configuration::new().display_logo(false).responsive(true);
+    plot.set_configuration(configuration.mode_bar_buttons_to_remove(SUPERFLUOUS.to_vec()));
     plot
 }
 
@@ -51,10 +69,10 @@ pub(super) fn axis(title: &str) -> Axis {
 }
 
 /// A space with three axes, seen from the corner; `up` is the axis that points up.
-pub(super) fn scene(titles: [&str; 3], aspect: AspectMode, up: usize) -> LayoutScene {
+pub(super) fn scene(titles: [&str; 3], aspect: AspectMode, up: usize, distance: f64) -> LayoutScene {
     let [x, y, z] = titles.map(axis);
     let unit = |axis: usize| f64::from(u8::from(axis == up));
-    let eye = |axis: usize| if axis == up { 0.9 } else { 1.35 };
+    let eye = |axis: usize| distance * if axis == up { 0.6 } else { 0.95 };
     let camera = Camera::new()
         .up(Up::new().x(unit(0)).y(unit(1)).z(unit(2)))
         .center(CameraCenter::new().x(0.0).y(0.0).z(0.0))

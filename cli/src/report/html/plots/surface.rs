@@ -32,9 +32,9 @@ pub(super) fn plots(mesh: &Mesh, over: [Over; 2], figure: &Figure, subject: &Sub
             .hover_info(HoverInfo::None);
         let titles = [first.title(), second.title(), name.clone()];
         let layout = Layout::new()
-            .title(Title::with_text(name.as_str()).font(font(13)))
+            .title(Title::with_text(name.as_str()).font(font(13)).x(0.04).y(0.97))
             .margin(margin([0, 0, 30, 0]))
-            .scene(scene(titles.each_ref().map(String::as_str), AspectMode::Cube, 2));
+            .scene(scene(titles.each_ref().map(String::as_str), AspectMode::Cube, 2, 1.0));
         let mut plot = plot(layout);
         plot.add_trace(surface);
         plot.add_trace(dots(mesh, i, [&first, &second], subject));

@@ -30,6 +30,7 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Figure, subject: &
 
     let bins = envelope.0.iter().map(|(_, bin)| bin).collect::<Vec<_>>();
     let at = bins.iter().map(|bin| travel.show(bin.travel.middle())).collect::<Vec<_>>();
+    let mut notes = Vec::new();
     for i in 0..3 {
         let name = ["y", "y2", "y3"][i];
         let mut span = Range::default();
@@ -48,6 +49,7 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Figure, subject: &
             plot.add_trace(if end == 1 { band(curve) } else { curve });
         }
         let Some(printed) = figure.printed(i, span, subject) else { continue };
+        notes.push(format!("{} in {}", printed.label(), ["x", "y", "z"][i]));
         for end in [printed.range.least, printed.range.largest] {
             let ends = at.first().into_iter().chain(at.last()).copied().collect::<Vec<_>>();
             let line = Scatter::new(ends, vec![errors.show(end); 2])
@@ -55,11 +57,12 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Figure, subject: &
                 .y_axis(name)
                 .line(Line::new().color(css(PUBLISHED, 1.0)).width(1.3).dash(DashType::Dash))
                 .hover_info(HoverInfo::Text)
-                .hover_text(&printed.label);
+                .hover_text(printed.label());
             plot.add_trace(line);
         }
     }
-    Plots::new(vec![plot], 520)
+    let note = if notes.is_empty() { String::new() } else { format!("Dashed: {}.", notes.join("; ")) };
+    Plots { plots: vec![plot], height: 520, note }
 }
 
 fn hover(bin: &Extremes, axis: usize, travel: &Axis, subject: &Subject) -> String {
