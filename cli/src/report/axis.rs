@@ -79,7 +79,7 @@ impl Axis {
         } else {
             let power = 10f64.powf(span.log10().floor());
             let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-            steps.into_iter().find(|step| *step >= span * 0.999).unwrap_or(span)
+            steps.into_iter().find(|step| *step >= span * 0.98).unwrap_or(span)
         };
         if !(step > 0.0 && step.is_finite()) {
             return Ticks { values: vec![least], decimals: 0 };
@@ -99,7 +99,11 @@ pub(super) struct Ticks {
 impl Ticks {
     /// The label of a value.
     pub(super) fn label(&self, value: f64) -> String {
-        if self.decimals > 6 { format!("{value:e}") } else { crate::number::fixed(value, self.decimals) }
+        if self.decimals > 6 {
+            crate::number::short(value)
+        } else {
+            crate::number::fixed(value, self.decimals)
+        }
     }
 }
 
@@ -109,7 +113,13 @@ pub(super) fn with_room([least, largest]: [f64; 2], share: f64) -> [f64; 2] {
         return [-1.0, 1.0];
     }
     let room = (largest - least) * share;
-    let room = if room > 0.0 { room } else { (least.abs() * share).max(1e-9) };
+    let room = if room > 0.0 {
+        room
+    } else if least == 0.0 {
+        1e-3
+    } else {
+        least.abs() * share.max(1e-3)
+    };
     [least - room, largest + room]
 }
 

@@ -12,9 +12,10 @@ pub(super) struct Figure<'a> {
     /// The name of its file, without the ending; no two figures have the same.
     pub(super) name: String,
     pub(super) title: String,
-    /// Index of its source; all repeatable ones together if there is none.
+    /// Index of its source; all together if there is none.
     pub(super) source: Option<usize>,
-    pub(super) random: bool,
+    /// Whether there are only bounds to show.
+    pub(super) bounds: bool,
     pub(super) data: Gathered,
 }
 
@@ -36,11 +37,13 @@ impl<'a> Figure<'a> {
     pub(super) fn new(
         asked: &'a study::Figure,
         source: Option<usize>,
-        random: bool,
+        bounds: bool,
         data: Gathered,
         subject: &Subject,
     ) -> Self {
-        let of = asked.source.as_deref().unwrap_or("all repeatable sources");
+        let of = asked.source.as_deref().unwrap_or("all sources");
+        let kept = if bounds { "all random sources" } else { "all repeatable sources" };
+        let kept = asked.source.as_deref().unwrap_or(kept);
         let over = |over| Axis::over(over, &subject.description).name;
         let (kind, overs, title) = match asked.content {
             Content::Travel(first) => ("travel", vec![over(first)], format!("{of}, over {}", over(first))),
@@ -49,14 +52,18 @@ impl<'a> Figure<'a> {
                 let title = format!("{of}, over {first} and {second}");
                 ("surface", vec![first, second], title)
             }
-            Content::Cloud => ("cloud", Vec::new(), format!("Errors of the tool point: {of}")),
-            Content::Histogram => ("histogram", Vec::new(), format!("How often which error occurs: {of}")),
+            Content::Cloud => (
+                "cloud",
+                Vec::new(),
+                format!("{} in space: {kept}", if bounds { "Bounds" } else { "Errors" }),
+            ),
+            Content::Histogram => ("histogram", Vec::new(), format!("How often which error occurs: {kept}")),
             Content::Pareto => ("pareto", Vec::new(), "Share of each source".to_owned()),
             Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
         };
         let words = [kind.to_owned()].into_iter().chain(asked.source.clone()).chain(overs);
         let name = words.map(|word| slug(&word)).collect::<Vec<_>>().join("-");
-        Self { asked, name, title: capital(&title), source, random, data }
+        Self { asked, name, title: capital(&title), source, bounds, data }
     }
 
     /// What is published on one axis of this figure's source, in the unit of the spec.
@@ -94,12 +101,17 @@ impl<'a> Figure<'a> {
     pub(super) fn printed_radius(&self, subject: &Subject) -> Option<f64> {
         let radius = study::Subject::Combined(CombinedFigure::Both);
         let published = subject.study.published.iter().find(|published| published.subject == radius);
-        published.filter(|_| self.source.is_none())?.figures[3]
+        published.filter(|_| self.source.is_none() && self.asked.region.is_none())?.figures[3]
+    }
+
+    /// What is done about random errors, if that needs saying.
+    pub(super) fn remark(&self) -> &'static str {
+        if self.source.is_none() && !self.bounds { ", random errors added" } else { "" }
     }
 
     /// What the errors are called.
     pub(super) fn errors(&self) -> &'static str {
-        if self.random { "bound" } else { "error" }
+        if self.bounds { "bound" } else { "error" }
     }
 }
 

@@ -56,8 +56,8 @@ impl<'a> Pictures<'a> {
                 sweep(subject.manipulator, &workspace.configurations, &u, &mut |row| gather.add(row))
                     .map_err(|error| fail(&error))?;
             }
-            let Gather { figure, source, random, .. } = gather;
-            figures.push(Figure::new(figure, source, random, gather.finish(), subject));
+            let Gather { figure, source, bounds, .. } = gather;
+            figures.push(Figure::new(figure, source, bounds, gather.finish(), subject));
         }
         let mut files = Vec::new();
         for figure in &figures {

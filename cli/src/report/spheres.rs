@@ -8,22 +8,19 @@ use crate::number::{self, short};
 
 /// Radii in the length unit.
 pub(super) struct Spheres {
-    /// Around everything that is shown; of all sources together, the random ones are added.
+    /// Around everything that is shown, with what random errors may add.
     pub(super) radius: f64,
-    together: bool,
+    added: bool,
     published: Option<f64>,
     pub(super) tolerance: Option<f64>,
 }
 
 impl Spheres {
     pub(super) fn of(points: &Points, figure: &Figure, subject: &Subject) -> Self {
-        let worst = points.worst.as_ref().map_or(0.0, |(norm, _)| *norm);
-        // Over a workspace of its own a figure has no random part to add.
-        let together = figure.source.is_none() && figure.asked.region.is_none();
         Self {
-            radius: if together { subject.budget.combined.radius.value } else { worst },
-            together,
-            published: figure.printed_radius(subject).filter(|_| together),
+            radius: points.worst.as_ref().map_or(0.0, |(norm, _)| *norm),
+            added: figure.source.is_none() && !figure.bounds,
+            published: figure.printed_radius(subject),
             tolerance: subject.study.tolerance,
         }
     }
@@ -32,7 +29,7 @@ impl Spheres {
     pub(super) fn legend(&self, subject: &Subject) -> String {
         let errors = Axis::errors("", subject.description.length);
         let show = |value: f64| format!("{} mm", number::trimmed(errors.show(value), 3));
-        let what = if self.together { ", random errors added" } else { "" };
+        let what = if self.added { ", random errors added" } else { "" };
         let mut text = format!("Solid circle: radius {}{what}", show(self.radius));
         if let Some(published) = self.published {
             let (publisher, published) = (subject.publisher(), short(errors.show(published)));

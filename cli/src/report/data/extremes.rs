@@ -59,11 +59,10 @@ impl Extremes {
     /// Takes in the errors at a configuration.
     pub(in crate::report) fn add(&mut self, travel: f64, errors: &Errors, configuration: &Configuration) {
         self.travel.add(travel);
-        for (range, error) in self.errors.iter_mut().zip(errors.position) {
-            range.add(error);
-            if errors.random {
-                range.add(-error);
-            }
+        let parts = errors.repeatable.into_iter().zip(errors.random);
+        for (range, (repeatable, random)) in self.errors.iter_mut().zip(parts) {
+            range.add(repeatable - random);
+            range.add(repeatable + random);
         }
         let norm = errors.norm();
         if self.worst.as_ref().is_none_or(|(worst, _)| norm > *worst) {

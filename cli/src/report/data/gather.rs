@@ -1,25 +1,29 @@
 //! Gathers what one figure shows.
 
 use abbe::analysis::{Configuration, Row};
-use abbe::{Class, Description};
+use abbe::{Class, Description, Source};
 
 use super::bins::{Bins, Merge};
 use super::extremes::{Envelope, Grid, Mesh};
 use super::points::Points;
 use crate::study::{Content, Figure, Over};
 
-/// The error of the tool point, of a random source its bound.
+/// The error of the tool point: the repeatable part, and the bound of the random one, plus or minus.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::report) struct Errors {
-    pub(in crate::report) position: [f64; 3],
-    /// Whether it may have the other sign as well.
-    pub(in crate::report) random: bool,
+    pub(in crate::report) repeatable: [f64; 3],
+    pub(in crate::report) random: [f64; 3],
 }
 
 impl Errors {
+    /// Both norms, added: as the radius of all sources together.
     pub(in crate::report) fn norm(&self) -> f64 {
-        self.position.iter().map(|error| error * error).sum::<f64>().sqrt()
+        norm(self.repeatable) + norm(self.random)
     }
+}
+
+pub(in crate::report) fn norm(vector: [f64; 3]) -> f64 {
+    vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// How often errors are in a bin: along x, y, z, and of the norm.
@@ -58,9 +62,12 @@ pub(in crate::report) enum Data {
 #[derive(Clone, Debug)]
 pub(in crate::report) struct Gather<'a> {
     pub(in crate::report) figure: &'a Figure,
-    /// Index of its source; all repeatable ones together if there is none.
+    /// Index of its source; all together if there is none.
     pub(in crate::report) source: Option<usize>,
-    pub(in crate::report) random: bool,
+    /// Whether there are only bounds to show, of one random source or of many.
+    pub(in crate::report) bounds: bool,
+    /// Whether the source, if it is one, is random.
+    random: bool,
     pub(in crate::report) data: Data,
 }
 
@@ -78,14 +85,15 @@ impl<'a> Gather<'a> {
             Content::Histogram => Data::Histogram(Histogram::default()),
             Content::Pareto | Content::Manipulator(_) => Data::Whole,
         };
-        let random = source.is_some_and(|source| description.sources[source].class != Class::Repeatable);
-        Some(Self { figure, source, random, data })
+        let is_random = |source: &Source| source.class != Class::Repeatable;
+        let random = source.is_some_and(|source| is_random(&description.sources[source]));
+        let bounds = random || source.is_none() && description.sources.iter().all(is_random);
+        Some(Self { figure, source, bounds, random, data })
     }
 
     /// Takes in a configuration.
     pub(in crate::report) fn add(&mut self, row: &Row) {
-        let [x, y, z, ..] = self.source.map_or(row.repeatable, |source| row.sources[source]);
-        let errors = Errors { position: [x, y, z], random: self.random };
+        let errors = self.errors(row);
         let configuration = row.configuration;
         match (&mut self.data, self.figure.content) {
             (Data::Travel(envelope), Content::Travel(over)) => {
@@ -96,12 +104,23 @@ impl<'a> Gather<'a> {
                 let second = value(second, configuration);
                 grid.at(value(first, configuration), second).add(second, &errors, configuration);
             }
-            (Data::Cloud(points), _) => points.add(&errors, configuration),
+            (Data::Cloud(points), _) => points.add(&errors, self.bounds, configuration),
             (Data::Histogram(histogram), _) => {
-                let values = [x, y, z, errors.norm()];
+                let shown = if self.bounds { errors.random } else { errors.repeatable };
+                let [x, y, z] = shown;
+                let values = [x, y, z, norm(shown)];
                 histogram.0.iter_mut().zip(values).for_each(|(bins, value)| bins.at(value).0 += 1);
             }
             _ => {}
+        }
+    }
+
+    fn errors(&self, row: &Row) -> Errors {
+        let position = |[x, y, z, ..]: [f64; 6]| [x, y, z];
+        match self.source.map(|source| position(row.sources[source])) {
+            None => Errors { repeatable: position(row.repeatable), random: position(row.random) },
+            Some(random) if self.random => Errors { repeatable: [0.0; 3], random },
+            Some(repeatable) => Errors { repeatable, random: [0.0; 3] },
         }
     }
 

@@ -17,6 +17,7 @@ pub(in crate::report) struct Points {
     stride: usize,
     seen: usize,
     pub(in crate::report) kept: Vec<Point>,
+    /// With the norm of both parts, added.
     pub(in crate::report) worst: Option<(f64, Point)>,
 }
 
@@ -25,8 +26,11 @@ impl Points {
     const MOST: usize = 5000;
 
     /// Takes in the errors at the next configuration.
-    pub(in crate::report) fn add(&mut self, errors: &Errors, configuration: &Configuration) {
-        let point = || Point { error: errors.position, configuration: configuration.clone() };
+    ///
+    /// What is kept are the repeatable errors, or the bounds of the random ones.
+    pub(in crate::report) fn add(&mut self, errors: &Errors, bounds: bool, configuration: &Configuration) {
+        let error = if bounds { errors.random } else { errors.repeatable };
+        let point = || Point { error, configuration: configuration.clone() };
         if self.seen.is_multiple_of(self.stride) {
             if self.kept.len() >= Self::MOST {
                 // Every other one of those that are there, and half as many of those to come.
@@ -69,8 +73,8 @@ mod tests {
         let mut points = Points::default();
         let configuration = Configuration { q: Vec::new(), s: Vec::new() };
         for i in 0..54_321 {
-            let position = [f64::from(i), 0.0, 0.0];
-            points.add(&Errors { position, random: false }, &configuration);
+            let repeatable = [f64::from(i), 0.0, 0.0];
+            points.add(&Errors { repeatable, random: [0.0; 3] }, false, &configuration);
         }
         assert!((2500..=5000).contains(&points.kept.len()), "{}", points.kept.len());
         for pair in points.kept.windows(2) {

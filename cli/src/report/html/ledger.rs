@@ -7,6 +7,7 @@ use super::escaped;
 use crate::number::{percent, short};
 use crate::report::subject::Subject;
 use crate::study::{self, CombinedFigure, Metric};
+use crate::table::unbroken;
 
 /// Every source alone, the largest first.
 pub(super) fn sources(subject: &Subject) -> String {
@@ -45,25 +46,28 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, sub
     for (i, (name, figures, published)) in metrics.iter().enumerate() {
         let head = if i == 0 {
             let (name, class) = (escaped(source.name), class(source.class));
-            let worst = worst.map(|worst| format!("<br>worst at {}", escaped(&subject.label(worst))));
+            let worst =
+                worst.map(|worst| format!("<br>worst at {}", escaped(&unbroken(&subject.label(worst)))));
             let worst = worst.unwrap_or_default();
             format!(
                 "<td rowspan=\"{lines}\">{rank}</td><td class=\"words\" rowspan=\"{lines}\"><b>{name}</b>\
-                 <br><small>{class}{worst}</small></td>"
+                 <small>{class}{worst}</small></td>"
             )
         } else {
             String::new()
         };
         let Figures { x, y, z, norm } = *figures;
         let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", subject.error(figure))).concat();
-        rows +=
-            &format!("<tr>{head}<td class=\"words\">{name}</td>{cells}{}<td></td></tr>\n", share(figures));
+        rows += &format!(
+            "<tr>{head}<td class=\"words metric\">{name}</td>{cells}{}<td></td></tr>\n",
+            share(figures)
+        );
         if let Some((published, compared)) = published {
             let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
             let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
             let skipped = subject.study.tolerance.map_or("", |_| "<td></td>");
             rows += &format!(
-                "<tr class=\"published\"><td class=\"words\">{}</td>{cells}{skipped}{}</tr>\n",
+                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
                 attributed(subject, &published.reference),
                 verdict(compared.met, &compared.verdict)
             );
@@ -104,7 +108,7 @@ pub(super) fn combined(subject: &Subject) -> String {
             let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
             let skipped = subject.study.tolerance.map_or("", |_| "<td></td>");
             rows += &format!(
-                "<tr class=\"published\"><td class=\"words\">{}</td>{cells}{skipped}{}</tr>\n",
+                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
                 attributed(subject, &published.reference),
                 verdict(compared.met, &compared.verdict)
             );
@@ -124,7 +128,7 @@ fn attributed(subject: &Subject, reference: &str) -> String {
 
 fn verdict(met: bool, words: &str) -> String {
     let class = if met { "met" } else { "missed" };
-    format!("<td class=\"words {class}\">{}</td>", escaped(words))
+    format!("<td class=\"words metric {class}\">{}</td>", escaped(words))
 }
 
 fn class(class: Class) -> &'static str {

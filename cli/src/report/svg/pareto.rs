@@ -14,7 +14,7 @@ pub(super) fn draw(sheet: &Sheet, subject: &Subject) -> Result<String, Failed> {
     let rank = Axis { name: String::new(), unit: String::new(), factor: 1.0 };
     sheet.draw(|area| {
         let (chart_area, names_area) = area.split_vertically(px(380.0));
-        let x = Side { axis: &rank, range: [-0.6, shares.len() as f64 - 0.4], about: 0, labelled: false };
+        let x = Side { axis: &rank, range: [-0.8, shares.len() as f64 - 0.4], about: 0, labelled: false };
         let y = Side { axis: &share, range: [0.0, 105.0], about: 6, labelled: true };
         let mut chart = panel(&chart_area, &x, &y, 18.0)?;
         let bars = shares.iter().enumerate().map(|(i, bar)| {
@@ -29,13 +29,14 @@ pub(super) fn draw(sheet: &Sheet, subject: &Subject) -> Result<String, Failed> {
         for (i, bar) in shares.iter().enumerate() {
             let label = format!("{} mm", crate::number::trimmed(bar.millimetres, 3));
             let at = (i as f64, share.show(bar.share));
-            // Inside where the curve begins.
-            let (down, colour, side) = if bar.share > 0.15 {
-                (px(12.0), (255, 255, 255), VPos::Top)
+            // Where the curve begins the number makes room for it.
+            let inside = i == 0 && bar.share > 0.15 && shares.len() < 9;
+            let (down, style) = if inside {
+                (px(12.0), text(11.0, (255, 255, 255), HPos::Center, VPos::Top))
             } else {
-                (-px(4.0), INK, VPos::Bottom)
+                let side = if i == 0 { HPos::Right } else { HPos::Center };
+                (-px(4.0), text(11.0, INK, side, VPos::Bottom))
             };
-            let style = text(11.0, colour, HPos::Center, side);
             chart.draw_series([EmptyElement::at(at) + Text::new(label, (0, down), style)])?;
         }
         let width = px(1.0).max((f64::from(px(900.0 - 92.0)) / shares.len().max(1) as f64) as i32);

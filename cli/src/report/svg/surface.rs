@@ -20,7 +20,7 @@ pub(super) fn draw(
 ) -> Result<String, Failed> {
     let [first, second] = over.map(|over| Axis::over(over, &subject.description));
     let errors = Axis::errors("", subject.description.length);
-    let what = format!("{} farthest from zero where others vary too", figure.errors());
+    let what = format!("{} farthest from zero where others vary too{}", figure.errors(), figure.remark());
     Sheet::new((1200, 430), figure, subject, &what).draw(|area| {
         for (axis, area) in area.split_evenly((1, 3)).iter().enumerate() {
             let heights = heights(mesh, axis, &errors);
@@ -35,9 +35,9 @@ pub(super) fn draw(
 
             let mut chart = ChartBuilder::on(area)
                 .margin_top(px(24.0))
-                .margin_left(px(24.0))
-                .margin_bottom(px(28.0))
-                .margin_right(px(24.0))
+                .margin_left(px(38.0))
+                .margin_bottom(px(40.0))
+                .margin_right(px(38.0))
                 .build_cartesian_3d(
                     Rule { range: x_range, labelled: x_ticks.values.clone() },
                     Rule { range: span, labelled: y_ticks.values.clone() },

@@ -32,7 +32,7 @@ pub(super) fn draw(
     let across = with_room([travelled.least, travelled.largest].map(|value| travel.show(value)), 0.02);
 
     let any_printed = printed.iter().any(Option::is_some);
-    let what = format!("least and largest {} where others vary too", figure.errors());
+    let what = format!("least and largest {} where others vary too{}", figure.errors(), figure.remark());
     Sheet::new((900, 600), figure, subject, &what).draw(|area| {
         let areas = area.split_by_breakpoints(Vec::<i32>::new(), [px(185.0), px(370.0)]);
         for (axis, area) in areas.iter().enumerate() {

@@ -8,6 +8,7 @@ use super::Plots;
 use super::style::{margin, plot, scene};
 use crate::number::trimmed;
 use crate::report::axis::{Axis, BAR, INK, TOLERANCE, XYZ, css};
+use crate::report::data::gather::norm;
 use crate::report::data::points::{Point, Points};
 use crate::report::figure::Figure;
 use crate::report::spheres::Spheres;
@@ -27,8 +28,7 @@ pub(super) fn plots(points: &Points, figure: &Figure, subject: &Subject) -> Plot
             |axis: usize| points.iter().map(|point| errors.show(point.error[axis])).collect::<Vec<_>>();
         let hover = |point: &&Point| {
             let [x, y, z] = point.error.map(|error| trimmed(errors.show(error), 4));
-            let norm = point.error.iter().map(|error| error * error).sum::<f64>().sqrt();
-            let norm = trimmed(errors.show(norm), 4);
+            let norm = trimmed(errors.show(norm(point.error)), 4);
             format!("({x}, {y}, {z}) mm, norm {norm} mm<br>{}", subject.label(&point.configuration))
         };
         Scatter3D::new(along(0), along(1), along(2))

@@ -49,7 +49,7 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Figure, subject: &
             plot.add_trace(if end == 1 { band(curve) } else { curve });
         }
         let Some(printed) = figure.printed(i, span, subject) else { continue };
-        notes.push(format!("{} in {}", printed.label(), ["x", "y", "z"][i]));
+        notes.push(format!("{} in {}", printed.lines[1..].join(" "), ["x", "y", "z"][i]));
         for end in [printed.range.least, printed.range.largest] {
             let ends = at.first().into_iter().chain(at.last()).copied().collect::<Vec<_>>();
             let line = Scatter::new(ends, vec![errors.show(end); 2])
@@ -61,7 +61,11 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Figure, subject: &
             plot.add_trace(line);
         }
     }
-    let note = if notes.is_empty() { String::new() } else { format!("Dashed: {}.", notes.join("; ")) };
+    let note = if notes.is_empty() {
+        String::new()
+    } else {
+        format!("Dashed lines, {}: {}.", subject.publisher(), notes.join(", "))
+    };
     Plots { plots: vec![plot], height: 520, note }
 }
 
