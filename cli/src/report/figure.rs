@@ -9,9 +9,13 @@ use crate::study::{self, CombinedFigure, Content, Metric};
 /// A figure, ready to be drawn.
 pub(super) struct Figure<'a> {
     pub(super) asked: &'a study::Figure,
-    /// The name of its file, without the ending; no two figures have the same.
+    /// What it shows, as words of a file name.
+    pub(super) stem: String,
+    /// The name of its file, without the ending; no two figures of a report have the same.
     pub(super) name: String,
     pub(super) title: String,
+    /// What is to be said of its own workspace, if it has one.
+    pub(super) workspace_note: String,
     /// Index of its source; all together if there is none.
     pub(super) source: Option<usize>,
     /// Whether there are only bounds to show.
@@ -62,8 +66,17 @@ impl<'a> Figure<'a> {
             Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
         };
         let words = [kind.to_owned()].into_iter().chain(asked.source.clone()).chain(overs);
-        let name = words.map(|word| slug(&word)).collect::<Vec<_>>().join("-");
-        Self { asked, name, title: capital(&title), source, bounds, data }
+        let stem = words.map(|word| slug(&word)).collect::<Vec<_>>().join("-");
+        Self {
+            asked,
+            name: stem.clone(),
+            stem,
+            title: capital(&title),
+            workspace_note: String::new(),
+            source,
+            bounds,
+            data,
+        }
     }
 
     /// What is published on one axis of this figure's source, in the unit of the spec.

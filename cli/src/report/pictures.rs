@@ -49,22 +49,34 @@ impl<'a> Pictures<'a> {
     pub(crate) fn render(self, subject: &Subject) -> Result<Rendered, Failure> {
         let mut figures = Vec::new();
         for mut gather in self.figures {
+            let mut workspace_note = String::new();
             if let Some(region) = &gather.figure.region {
                 let fail = |error: &dyn std::fmt::Display| Failure::of(&subject.spec.file, error);
                 let workspace = region.workspace(subject.manipulator).map_err(|error| fail(&error))?;
+                let (reached, unreached) = (workspace.configurations.len(), workspace.unreachable.len());
+                workspace_note = format!("{reached} configurations of its own, {unreached} unreachable.");
                 let u = sampling::nominal_inputs(&subject.description);
                 sweep(subject.manipulator, &workspace.configurations, &u, &mut |row| gather.add(row))
                     .map_err(|error| fail(&error))?;
             }
             let Gather { figure, source, bounds, .. } = gather;
-            figures.push(Figure::new(figure, source, bounds, gather.finish(), subject));
+            let mut drawn = Figure::new(figure, source, bounds, gather.finish(), subject);
+            drawn.workspace_note = workspace_note;
+            // Names that differ in signs only would be the same file.
+            let same = figures.iter().filter(|other: &&Figure| other.stem == drawn.stem).count();
+            if same > 0 {
+                drawn.name = format!("{}-{}", drawn.stem, same + 1);
+            }
+            figures.push(drawn);
         }
-        let mut files = Vec::new();
+        let mut drawings = Vec::new();
         for figure in &figures {
-            let svg = svg::draw(figure, subject).map_err(|error| Failure::of(&figure.name, error))?;
-            files.push((format!("{}.svg", figure.name), svg));
+            drawings.push(svg::draw(figure, subject).map_err(|error| Failure::of(&figure.name, error))?);
         }
-        files.push(("report.html".to_owned(), html::page(&figures, &self.left_out, subject)));
+        let report = html::page(&figures, &drawings, &self.left_out, subject);
+        let names = figures.iter().map(|figure| format!("{}.svg", figure.name));
+        let mut files = names.zip(drawings).collect::<Vec<_>>();
+        files.push(("report.html".to_owned(), report));
         Ok(Rendered(files))
     }
 }

@@ -110,6 +110,8 @@ fn the_report_stands_alone() {
     ] {
         assert!(report.contains(data), "{data}");
     }
+    // What prints: the drawings themselves.
+    assert_eq!(report.matches("<div class=\"drawing\"><svg").count(), 7);
     // What was read.
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == "pps").expect("it is shipped");
     for text in [shipped.spec, shipped.study.expect("it has a study")] {

@@ -9,15 +9,20 @@ use crate::report::subject::Subject;
 
 const STYLE: &str = include_str!("style.css");
 
-/// The report, with its figures in their order; `left_out` are sources that are switched off and had one.
-pub(in crate::report) fn page(figures: &[Figure], left_out: &[&str], subject: &Subject) -> String {
+/// The report, with its figures in their order, each with its drawing; `left_out` are sources that are switched off and had one.
+pub(in crate::report) fn page(
+    figures: &[Figure],
+    drawings: &[String],
+    left_out: &[&str],
+    subject: &Subject,
+) -> String {
     let title = escaped(subject.description.title);
     let parts = [
         heading(subject),
         summary(subject),
         section("Every source alone", &format!("{METRICS}\n{}", ledger::sources(subject))),
         section("All together", &(ledger::combined(subject) + &conclusions(subject))),
-        drawn(figures, left_out, subject),
+        drawn(figures, drawings, left_out, subject),
         section("Conventions", &facts::conventions(subject)),
         section("Values", &facts::values(subject)),
         notes(subject),
@@ -26,7 +31,8 @@ pub(in crate::report) fn page(figures: &[Figure], left_out: &[&str], subject: &S
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}: error analysis</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n{}\n\
+         <title>{title}: error analysis</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n\
+         <noscript><style>.plots {{ display: none !important; }} .drawing {{ display: block !important; }}</style></noscript>\n{}\n\
          </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
         script(),
         parts.concat()
@@ -136,9 +142,9 @@ fn conclusions(subject: &Subject) -> String {
     text
 }
 
-fn drawn(figures: &[Figure], left_out: &[&str], subject: &Subject) -> String {
+fn drawn(figures: &[Figure], drawings: &[String], left_out: &[&str], subject: &Subject) -> String {
     let mut text = String::new();
-    for (i, figure) in figures.iter().enumerate() {
+    for (i, (figure, drawing)) in figures.iter().zip(drawings).enumerate() {
         let plots::Plots { plots, height, note } = plots::of(figure, subject);
         let columns = plots.len();
         let panels = plots.iter().enumerate().map(|(j, plot)| {
@@ -159,12 +165,15 @@ fn drawn(figures: &[Figure], left_out: &[&str], subject: &Subject) -> String {
                 escaped(subject.publisher())
             )
         };
-        let words = [&figure.asked.caption, &note].map(|words| escaped(words)).join(" ");
+        let words =
+            [&figure.asked.caption, &figure.workspace_note, &note].map(|words| escaped(words)).join(" ");
         text += &format!(
             "<figure>\n<h3>{}. {}{paper}</h3>\n<div class=\"plots of-{columns}\">\n{panels}</div>\n\
-             <figcaption>{} <a href=\"{file}\">{file}</a></figcaption>\n</figure>\n",
+             <div class=\"drawing\">{}</div>\n<figcaption>{} <a href=\"{file}\">{file}</a></figcaption>\n</figure>\n",
             i + 1,
             escaped(&figure.title),
+            // On paper, where nothing turns; a page needs no name of a format.
+            drawing.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1),
             words.trim(),
             file = format_args!("{}.svg", figure.name),
         );
