@@ -17,6 +17,7 @@ mod manipulator;
 mod number;
 mod output;
 mod progress;
+mod report;
 mod study;
 mod table;
 

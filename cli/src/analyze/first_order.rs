@@ -13,7 +13,7 @@ const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 ///
 /// Compared are the repeatable sources; if there are none, the random ones at their bounds, all with the same sign.
 pub(super) struct FirstOrder<'a> {
-    manipulator: &'a dyn Manipulator,
+    pub(super) manipulator: &'a dyn Manipulator,
     u: &'a [f64],
     /// What the value of every effect is multiplied with.
     factors: Vec<f64>,

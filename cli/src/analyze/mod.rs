@@ -1,7 +1,8 @@
 //! `abbe analyze`: section 5 of the paper. What every source does over a workspace, alone and together.
 //!
 //! The sweep runs once; `first_order` and `files` look at every configuration on the way. `agreement` compares
-//! with published figures; `ledger` ranks the sources; `tables`, `text` and `json` show the results.
+//! with published figures; `ledger` ranks the sources; `tables`, `text` and `json` show the results, `report` hands
+//! them to the pictures.
 
 mod agreement;
 mod conclusions;
@@ -10,6 +11,7 @@ mod files;
 mod first_order;
 mod json;
 mod ledger;
+mod report;
 mod tables;
 mod text;
 mod unreachable;
@@ -28,6 +30,7 @@ use crate::manipulator;
 use crate::number;
 use crate::output::{self, Outcome, note};
 use crate::progress::Progress;
+use crate::report::Pictures;
 use crate::study::Study;
 
 use files::Files;
@@ -78,6 +81,7 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         Some(folder) => Some(Files::create(folder, &description, &varying)?),
         None => None,
     };
+    let mut pictures = arguments.out.as_ref().map(|_| Pictures::new(&study, &description));
     let u = sampling::nominal_inputs(&description);
     let mut first_order = FirstOrder::new(&interpreter, &u, workspace.len());
     let mut compensation = study.compensation.as_ref().map(|left| Compensation::new(left.of(&description)));
@@ -86,6 +90,7 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         first_order.add(row);
         compensation.iter_mut().for_each(|compensation| compensation.add(row));
         files.iter_mut().for_each(|files| files.configuration(row));
+        pictures.iter_mut().for_each(|pictures| pictures.add(row));
         progress.reached(row.index);
     });
     drop(progress);
@@ -128,8 +133,10 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         first_order,
         drawn,
     };
-    if let Some(files) = files {
+    if let (Some(folder), Some(files), Some(pictures)) = (&arguments.out, files, pictures) {
+        let report = pictures.render(&report::subject(&analysis, &found.spec))?.write(folder)?;
         files.finish(&analysis)?;
+        report.finish()?;
     }
     analysis.warn(arguments.out.is_some());
     let text = if arguments.json { output::json(&json::of(&analysis))? } else { text::of(&analysis) };

@@ -26,13 +26,19 @@
 //! metric = "plain maximum"                 # or "half peak-to-peak", "relative to home"
 //! x = "0.074 mm"
 //! within = "0.0005 mm"                     # how near is equal: half of the last printed digit
+//!
+//! [[figure]]                               # a picture of the report; see `figure`
+//! kind = "travel"
+//! over = "q4"
 //! ```
 //!
 //! `read` reads a file from top to bottom, `region`, `forms`, `axis` and `path` its workspace, `published` the figures
-//! that somebody printed. Everything is checked against the spec, and mistakes are shown as those of a spec.
+//! that somebody printed, `figure` those to draw. Everything is checked against the spec, and mistakes are shown as
+//! those of a spec.
 
 mod axis;
 mod compensation;
+mod figure;
 mod forms;
 mod path;
 mod published;
@@ -49,6 +55,7 @@ use crate::changes::Changes;
 use crate::manipulator::Found;
 
 pub(crate) use compensation::Compensated;
+pub(crate) use figure::{Content, Figure, Over};
 pub(crate) use published::{CombinedFigure, Metric, Published, PublishedResidual, Subject};
 pub(crate) use region::Region;
 
@@ -67,6 +74,9 @@ pub(crate) struct Study {
     pub(crate) compensated: Option<PublishedResidual>,
     pub(crate) compensation: Option<Compensated>,
     pub(crate) not_reproducible: Vec<String>,
+    pub(crate) figures: Vec<Figure>,
+    /// Its file and the SHA-256 of the text; none if there is no study.
+    pub(crate) file: Option<(String, String)>,
 }
 
 impl Study {
@@ -82,16 +92,19 @@ impl Study {
     }
 
     fn joint_samples(spec: &Spec) -> Self {
+        let region = Region::samples(spec);
         Self {
             title: "No study: the limits of the joints are the workspace".to_owned(),
             publisher: String::new(),
             tolerance: None,
             changes: Changes::default(),
-            region: Region::samples(spec),
+            figures: Figure::defaults(&region),
+            region,
             published: Vec::new(),
             compensated: None,
             compensation: None,
             not_reproducible: Vec::new(),
+            file: None,
         }
     }
 }

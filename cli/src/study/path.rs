@@ -19,7 +19,7 @@ use abbe_codegen::spec::{Spec, VariableKind};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 /// Configurations from a file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Path {
     /// The file, as the study names it.
     pub(super) file: String,
@@ -29,7 +29,7 @@ pub(crate) struct Path {
 }
 
 /// What a column holds, and its unit in the coherent system.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Column {
     place: Place,
     unit: f64,
@@ -47,6 +47,14 @@ impl Path {
         self.columns.iter().filter_map(|column| match column.place {
             Place::Parameter(i) => Some(i),
             Place::Variable(_) => None,
+        })
+    }
+
+    /// The variables that have a column.
+    pub(super) fn variables(&self) -> impl Iterator<Item = usize> {
+        self.columns.iter().filter_map(|column| match column.place {
+            Place::Variable(i) => Some(i),
+            Place::Parameter(_) => None,
         })
     }
 

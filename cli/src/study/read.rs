@@ -1,12 +1,15 @@
 //! Reads a study file from top to bottom.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
 use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_codegen::spec::Spec;
+use sha2::{Digest, Sha256};
 
+use super::figure::read_figures;
 use super::published::{read_compensated, read_published};
 use super::region::Region;
 use super::{Study, compensation};
@@ -35,12 +38,14 @@ impl Study {
 }
 
 fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Study> {
-    root.check_keys(&["study", "workspace", "published", "compensated", "compensation"], document);
+    let known = ["study", "workspace", "published", "compensated", "compensation", "figure"];
+    root.check_keys(&known, document);
     let head = root.required("study", document).and_then(|item| document.section(&item));
     let region = root.required("workspace", document).and_then(|item| Region::read(&item, document, spec));
     let published = read_published(root, document, spec);
     let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document, spec));
     let compensation = root.get("compensation").and_then(|item| compensation::read(&item, document, spec));
+    let figures = read_figures(root, document, spec, region.as_ref());
     let mut head = head?;
     head.name = "[study]".to_owned();
     head.check_keys(&HEAD, document);
@@ -55,7 +60,16 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         published,
         compensated,
         compensation,
+        figures,
+        file: Some(identify(document)),
     })
+}
+
+/// The file's name without its folder, and the SHA-256 of its text.
+fn identify(document: &Document) -> (String, String) {
+    let name = Path::new(&document.path).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let hash = Sha256::digest(document.text.as_bytes());
+    (name, hash.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec) -> Changes {

@@ -18,7 +18,7 @@ use crate::number;
 const SAMPLES: usize = 1000;
 
 /// Which configurations are looked at.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Region {
     /// A volume of tool points, each presented at a point of the room.
     Presented(Presentation),

@@ -7,5 +7,6 @@ mod documents;
 mod generate;
 mod jacobian;
 mod readme;
+mod report;
 mod running;
 mod study;

@@ -1,0 +1,140 @@
+//! The tables of the report: every source alone, all together, and what is printed beside them.
+
+use abbe::analysis::{Configuration, Figures, SourceErrors};
+use abbe::{Class, Distribution};
+
+use super::escaped;
+use crate::number::{percent, short};
+use crate::report::subject::Subject;
+use crate::study::{self, CombinedFigure, Metric};
+use crate::table::unbroken;
+
+/// Every source alone, the largest first.
+pub(super) fn sources(subject: &Subject) -> String {
+    let unit = subject.description.length.symbol();
+    let share = subject.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
+    let mut rows = String::new();
+    let mut sources = subject.budget.sources.iter().zip(&subject.worst.0).collect::<Vec<_>>();
+    sources.sort_by(|(a, _), (b, _)| b.plain_max.norm.total_cmp(&a.plain_max.norm));
+    for (rank, (errors, worst)) in sources.into_iter().enumerate() {
+        let worst = worst.as_ref().filter(|_| errors.plain_max.norm > 0.0);
+        rows += &source(rank + 1, errors, worst, subject);
+    }
+    format!(
+        "<table class=\"ledger\"><thead><tr><th>rank</th><th class=\"words\">source</th>\
+         <th class=\"words\">metric</th><th>x ({unit})</th><th>y ({unit})</th><th>z ({unit})</th>\
+         <th>norm ({unit})</th>{share}<th class=\"words\">verdict</th></tr></thead>\n{rows}</table>\n"
+    )
+}
+
+fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, subject: &Subject) -> String {
+    let source = &subject.description.sources[errors.source];
+    let metrics = Metric::ALL.map(|(name, metric)| {
+        let figures = match metric {
+            Metric::PlainMaximum => errors.plain_max,
+            Metric::HalfPeakToPeak => errors.half_peak_to_peak,
+            Metric::RelativeToHome => errors.relative_to_home,
+        };
+        (name, figures, subject.published(&study::Subject::Source(source.name.to_owned(), metric)))
+    });
+    let lines = metrics.iter().map(|(_, _, published)| 1 + usize::from(published.is_some())).sum::<usize>();
+    let share = |figures: &Figures| {
+        let share = subject.study.tolerance.map(|tolerance| percent(figures.norm, tolerance));
+        share.map_or_else(String::new, |share| format!("<td>{share}</td>"))
+    };
+    let mut rows = String::new();
+    for (i, (name, figures, published)) in metrics.iter().enumerate() {
+        let head = if i == 0 {
+            let (name, class) = (escaped(source.name), class(source.class));
+            let worst =
+                worst.map(|worst| format!("<br>worst at {}", escaped(&unbroken(&subject.label(worst)))));
+            let worst = worst.unwrap_or_default();
+            format!(
+                "<td rowspan=\"{lines}\">{rank}</td><td class=\"words\" rowspan=\"{lines}\"><b>{name}</b>\
+                 <small>{class}{worst}</small></td>"
+            )
+        } else {
+            String::new()
+        };
+        let Figures { x, y, z, norm } = *figures;
+        let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", subject.error(figure))).concat();
+        rows += &format!(
+            "<tr>{head}<td class=\"words metric\">{name}</td>{cells}{}<td></td></tr>\n",
+            share(figures)
+        );
+        if let Some((published, compared)) = published {
+            let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
+            let skipped = subject.study.tolerance.map_or("", |_| "<td></td>");
+            rows += &format!(
+                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
+                attributed(subject, &published.reference),
+                verdict(compared.met, &compared.verdict)
+            );
+        }
+    }
+    format!("<tbody>{rows}</tbody>\n")
+}
+
+/// All sources together.
+pub(super) fn combined(subject: &Subject) -> String {
+    let unit = subject.description.length.symbol();
+    let combined = &subject.budget.combined;
+    let share = subject.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
+    let mut rows = String::new();
+    for (figure, name, axes, norm) in [
+        (
+            CombinedFigure::Repeatable,
+            "repeatable: sum, with signs",
+            combined.repeatable.map(Some),
+            combined.repeatable_radius.value,
+        ),
+        (
+            CombinedFigure::Random,
+            "random: root sum of squares of bounds",
+            combined.random.map(Some),
+            combined.random_radius.value,
+        ),
+        (CombinedFigure::Both, "radius: both norms, added", [None; 3], combined.radius.value),
+    ] {
+        let cell = |figure: Option<f64>| figure.map_or_else(String::new, |figure| subject.error(figure));
+        let [x, y, z] = axes;
+        let cells = [x, y, z, Some(norm)].map(|figure| format!("<td>{}</td>", cell(figure))).concat();
+        let of = subject.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
+        let of = of.unwrap_or_default();
+        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}<td></td></tr>\n");
+        if let Some((published, compared)) = subject.published(&study::Subject::Combined(figure)) {
+            let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
+            let skipped = subject.study.tolerance.map_or("", |_| "<td></td>");
+            rows += &format!(
+                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
+                attributed(subject, &published.reference),
+                verdict(compared.met, &compared.verdict)
+            );
+        }
+    }
+    format!(
+        "<table class=\"ledger\"><thead><tr><th class=\"words\">all together</th><th>x ({unit})</th>\
+         <th>y ({unit})</th><th>z ({unit})</th><th>norm ({unit})</th>{share}<th class=\"words\">verdict</th>\
+         </tr></thead>\n<tbody>{rows}</tbody></table>\n"
+    )
+}
+
+fn attributed(subject: &Subject, reference: &str) -> String {
+    let publisher = escaped(subject.publisher());
+    if reference.is_empty() { publisher } else { format!("{publisher}, {}", escaped(reference)) }
+}
+
+fn verdict(met: bool, words: &str) -> String {
+    let class = if met { "met" } else { "missed" };
+    format!("<td class=\"words metric {class}\">{}</td>", escaped(words))
+}
+
+fn class(class: Class) -> &'static str {
+    match class {
+        Class::Repeatable => "repeatable",
+        Class::Random(Distribution::Uniform) => "random, uniform: half-width",
+        Class::Random(Distribution::Normal) => "random, normal: 3σ",
+    }
+}

@@ -1,0 +1,182 @@
+//! The figures that a study asks for: `[[figure]]`.
+//!
+//! ```toml
+//! [[figure]]
+//! kind = "travel"                          # the error against the travel of a variable or parameter
+//! source = "base rail curvature"           # if not given: all repeatable sources together
+//! over = "d1"
+//! paper = "Figure 8"                       # the figure of the paper that this one stands for
+//! caption = "What it shows, and what is known of it"
+//! # kind = "surface", over = ["z", "q4"]   the worst error over two of them
+//! # kind = "cloud"                         the errors in space, and the sphere around them
+//! # kind = "histogram"                     how often which error occurs
+//! # kind = "pareto"                        the share of each source
+//! # kind = "manipulator", up = "y"         the frames at home
+//!
+//! [figure.workspace.grid]                  # its own workspace, as that of the study; else that of the study
+//! d1 = { from = "0 mm", to = "2256 mm", count = 200 }
+//! ```
+
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item, Section};
+use abbe_codegen::expr::find_name;
+use abbe_codegen::spec::Spec;
+
+use super::Region;
+
+/// A figure to draw.
+#[derive(Clone, Debug)]
+pub(crate) struct Figure {
+    pub(crate) content: Content,
+    /// The source that it is about; all together if there is none.
+    pub(crate) source: Option<String>,
+    pub(crate) caption: String,
+    /// Which figure of the paper it stands for, if any.
+    pub(crate) paper: String,
+    /// Its own workspace, if it is not that of the study.
+    pub(crate) region: Option<Region>,
+}
+
+/// What a figure shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Content {
+    Travel(Over),
+    Surface([Over; 2]),
+    Cloud,
+    Histogram,
+    Pareto,
+    /// With the index of the axis of `F_0` that points up.
+    Manipulator(usize),
+}
+
+/// What errors are drawn over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Over {
+    Variable(usize),
+    Parameter(usize),
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Travel,
+    Surface,
+    Cloud,
+    Histogram,
+    Pareto,
+    Manipulator,
+}
+
+const KINDS: [(&str, Kind); 6] = [
+    ("travel", Kind::Travel),
+    ("surface", Kind::Surface),
+    ("cloud", Kind::Cloud),
+    ("histogram", Kind::Histogram),
+    ("pareto", Kind::Pareto),
+    ("manipulator", Kind::Manipulator),
+];
+
+/// Where z is up, as on most machines.
+const UP: usize = 2;
+
+impl Figure {
+    fn of(content: Content) -> Self {
+        Self { content, source: None, caption: String::new(), paper: String::new(), region: None }
+    }
+
+    /// Those of a study that asks for none: everything together, over each variable that moves.
+    pub(super) fn defaults(region: &Region) -> Vec<Self> {
+        let moved = match region {
+            Region::Presented(presentation) => {
+                let approaches = presentation.approaches.iter().map(|axis| axis.index);
+                presentation.solved.iter().copied().chain(approaches).collect()
+            }
+            Region::Grid(axes) => axes.iter().map(|axis| axis.index).collect(),
+            Region::Samples { moved, .. } => moved.clone(),
+            Region::Box(region) => region.solved.clone(),
+            Region::Path(path) => path.variables().collect(),
+        };
+        let travels = moved.into_iter().map(|variable| Content::Travel(Over::Variable(variable)));
+        let whole = [Content::Manipulator(UP), Content::Pareto, Content::Cloud, Content::Histogram];
+        whole.into_iter().chain(travels).map(Self::of).collect()
+    }
+}
+
+/// Every `[[figure]]`; the defaults if there is none.
+pub(super) fn read_figures(
+    root: &Section<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    region: Option<&Region>,
+) -> Vec<Figure> {
+    let Some(item) = root.get("figure") else { return region.map(Figure::defaults).unwrap_or_default() };
+    let items = document.array(&item, "tables, each a [[figure]]").unwrap_or_default();
+    let mut figures: Vec<Figure> = Vec::new();
+    for item in items {
+        let Some(mut section) = document.section(&item) else { continue };
+        section.span = item.span();
+        section.name = "a [[figure]]".to_owned();
+        let Some(figure) = read_one(&section, document, spec) else { continue };
+        if figures.iter().any(|other| other.content == figure.content && other.source == figure.source) {
+            let message = "this figure stands here twice";
+            document.mistake(Diagnostic::new(item.span(), message).help("keep one of them"));
+        }
+        figures.push(figure);
+    }
+    figures
+}
+
+fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
+    let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
+    let own: &[&str] = match kind {
+        Kind::Travel | Kind::Surface => &["source", "workspace", "over"],
+        Kind::Cloud | Kind::Histogram => &["source", "workspace"],
+        Kind::Manipulator => &["up"],
+        Kind::Pareto => &[],
+    };
+    section.check_keys(&[own, &["kind", "caption", "paper"]].concat(), document);
+    let content = match kind {
+        Kind::Travel => {
+            let item = section.required("over", document)?;
+            Content::Travel(over(&item, document, spec)?)
+        }
+        Kind::Surface => {
+            let item = section.required("over", document)?;
+            let entries: [Item<'_>; 2] = document.entries(&item, "two names: variables or parameters")?;
+            let [first, second] = entries.map(|entry| over(&entry, document, spec));
+            Content::Surface([first?, second?])
+        }
+        Kind::Cloud => Content::Cloud,
+        Kind::Histogram => Content::Histogram,
+        Kind::Pareto => Content::Pareto,
+        Kind::Manipulator => {
+            let up = section.get("up");
+            let up = up.map(|item| document.choice(&item, &[("x", 0), ("y", 1), ("z", 2)]));
+            Content::Manipulator(up.unwrap_or(Some(UP))?)
+        }
+    };
+    let mut figure = Figure::of(content);
+    if let Some(item) = section.get("source") {
+        let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
+        let name = document.string(&item)?;
+        find_name(document, item.span(), &name, &names, "source")?;
+        figure.source = Some(name);
+    }
+    if let Some(item) = section.get("workspace") {
+        figure.region = Some(Region::read(&item, document, spec)?);
+    }
+    figure.caption = section.optional_text("caption", document);
+    figure.paper = section.optional_text("paper", document);
+    Some(figure)
+}
+
+fn over(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Over> {
+    let name = document.string(item)?;
+    let variables = spec.variables.iter().map(|variable| variable.name.as_str());
+    let parameters = spec.parameters.iter().map(|parameter| parameter.name.as_str());
+    let names = variables.chain(parameters).collect::<Vec<_>>();
+    let index = find_name(document, item.span(), &name, &names, "variable or parameter")?;
+    Some(match index.checked_sub(spec.variables.len()) {
+        None => Over::Variable(index),
+        Some(parameter) => Over::Parameter(parameter),
+    })
+}
