@@ -10,6 +10,22 @@ pub(crate) const WIDTH: usize = 100;
 const STYLE: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─').left('─').right('─'));
 
+/// What a table says, for text and for HTML: the first column is words, those in `numbers` are flush right.
+#[derive(Debug)]
+pub(crate) struct Listing {
+    pub(crate) header: Vec<&'static str>,
+    pub(crate) rows: Vec<Vec<String>>,
+    pub(crate) numbers: std::ops::Range<usize>,
+}
+
+impl fmt::Display for Listing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut table = Table::new(&self.header);
+        self.rows.iter().for_each(|row| table.row(row.clone()));
+        table.right(&self.numbers.clone().collect::<Vec<_>>()).fmt(f)
+    }
+}
+
 /// A table that grows row by row.
 #[derive(Debug)]
 pub(crate) struct Table(comfy_table::Table);

@@ -6,8 +6,12 @@ use super::Analysis;
 use crate::number::{self, percent, short};
 use crate::table::wrapped;
 
-/// One paragraph for each.
+/// One paragraph for each, for a terminal.
 pub(super) fn of(analysis: &Analysis) -> String {
+    sentences(analysis).iter().map(|sentence| format!("{}\n", wrapped(sentence, 0))).collect()
+}
+
+pub(super) fn sentences(analysis: &Analysis) -> Vec<String> {
     let sentences = [
         tolerance(analysis),
         allowed(analysis),
@@ -17,7 +21,7 @@ pub(super) fn of(analysis: &Analysis) -> String {
         analysis.compensation.as_ref().map(|compensation| residual(analysis, compensation)),
         Some(first_order(analysis)),
     ];
-    sentences.into_iter().flatten().map(|sentence| format!("{}\n", wrapped(&sentence, 0))).collect()
+    sentences.into_iter().flatten().collect()
 }
 
 impl Analysis<'_> {

@@ -4,7 +4,7 @@ use abbe::analysis::Extreme;
 
 use super::{Analysis, json};
 use crate::number::{self, fixed, percent};
-use crate::table::{Table, unbroken};
+use crate::table::{Listing, unbroken};
 
 /// One row: a source, or a sum over the sources. Norms of the position error, in the length unit.
 pub(super) struct Entry<'a> {
@@ -40,13 +40,13 @@ pub(super) fn sums(analysis: &Analysis) -> [Entry<'static>; 4] {
     .map(|(name, largest, rms)| Entry { name, source: None, largest, rms })
 }
 
-pub(super) fn table(analysis: &Analysis) -> String {
+pub(super) fn listing(analysis: &Analysis) -> Listing {
     let tolerance = analysis.study.tolerance;
     let mut header = vec!["source", "max", "RMS", "rank", "worst at (the rest as at home)"];
     if tolerance.is_some() {
         header.insert(3, "of tolerance");
     }
-    let mut table = Table::new(&header);
+    let mut rows = Vec::new();
     for Entry { name, source, largest, rms } in sources(analysis).chain(sums(analysis)) {
         let at = analysis
             .configuration(largest.configuration)
@@ -64,7 +64,8 @@ pub(super) fn table(analysis: &Analysis) -> String {
         if let Some(tolerance) = tolerance {
             cells.insert(3, percent(largest.value, tolerance));
         }
-        table.row(cells);
+        rows.push(cells);
     }
-    table.right(if tolerance.is_some() { &[1, 2, 3, 4] } else { &[1, 2, 3] }).to_string()
+    let numbers = 1..header.len() - 1;
+    Listing { header, rows, numbers }
 }

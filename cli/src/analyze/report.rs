@@ -3,7 +3,7 @@
 use abbe_codegen::spec::Spec;
 
 use super::agreement::{Agreement, of_source};
-use super::{Analysis, unreachable};
+use super::{Analysis, conclusions, ledger, tables, unreachable};
 use crate::report::{Compared, Subject};
 use crate::study::{Published, Subject as Of};
 
@@ -24,7 +24,9 @@ pub(super) fn subject<'a>(analysis: &'a Analysis<'a>, spec: &'a Spec) -> Subject
         budget: &analysis.budget,
         worst: (worst, worst_of_all),
         compared: study.published.iter().map(|published| compare(analysis, published)).collect(),
-        first_order: (first_order.largest, first_order.checked),
+        ledger: ledger::listing(analysis),
+        allowed: analysis.admissible.as_ref().map(|admissible| tables::allowed(analysis, admissible)),
+        conclusions: conclusions::sentences(analysis),
         decimals: analysis.decimals(),
     }
 }

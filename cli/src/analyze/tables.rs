@@ -6,7 +6,7 @@ use super::agreement::{Agreement, of_source};
 use super::{Analysis, json};
 use crate::number::{self, error_decimals, fixed, short};
 use crate::study::{CombinedFigure, Metric, Published};
-use crate::table::Table;
+use crate::table::{Listing, Table};
 
 impl Analysis<'_> {
     /// How many decimals errors have: three digits of the smallest source that matters.
@@ -42,20 +42,24 @@ pub(super) fn sources(analysis: &Analysis) -> String {
 }
 
 /// What the tolerance allows each source, and what is gained by making it smaller.
-pub(super) fn allowed(analysis: &Analysis, admissible: &Admissible) -> String {
-    let mut table = Table::new(&["source", "alone at most", "equal shares", "gain per percent"]);
+pub(super) fn allowed(analysis: &Analysis, admissible: &Admissible) -> Listing {
     let times = |scale: Option<f64>| {
         scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
     };
-    for source in analysis.budget.tighten_first() {
-        table.row(vec![
+    let row = |source: usize| {
+        vec![
             analysis.description.sources[source].name.to_owned(),
             times(admissible.alone[source]),
             times(admissible.equal[source]),
             fixed(analysis.budget.gains[source], analysis.decimals() + 1),
-        ]);
+        ]
+    };
+    let rows = analysis.budget.tighten_first().into_iter().map(row).collect();
+    Listing {
+        header: vec!["source", "alone at most", "equal shares", "gain per percent"],
+        rows,
+        numbers: 1..4,
     }
-    table.right(&[1, 2, 3]).to_string()
 }
 
 pub(super) fn combined(analysis: &Analysis) -> String {

@@ -12,7 +12,7 @@ pub(super) fn of(analysis: &Analysis) -> String {
     } else {
         parts.push(format!("Each source alone ({unit})\n{}", tables::sources(analysis)));
         parts.push(format!("All together ({unit})\n{}", tables::combined(analysis)));
-        parts.push(format!("Ledger: norms of the errors ({unit})\n{}", ledger::table(analysis)));
+        parts.push(format!("Ledger: norms of the errors ({unit})\n{}", ledger::listing(analysis)));
         if let Some(admissible) = &analysis.admissible {
             let table = tables::allowed(analysis, admissible);
             parts.push(format!("What the tolerance allows, and what to tighten first ({unit})\n{table}"));

@@ -6,6 +6,7 @@ use abbe_codegen::spec::Spec;
 
 use crate::number;
 use crate::study::{self, Published, Study};
+use crate::table::Listing;
 
 /// What was analyzed, and what was found.
 pub(crate) struct Subject<'a> {
@@ -24,8 +25,12 @@ pub(crate) struct Subject<'a> {
     pub(crate) worst: (Vec<Option<Configuration>>, Option<Configuration>),
     /// What was found beside each published figure of the study; none where its source is switched off.
     pub(crate) compared: Vec<Option<Compared>>,
-    /// The largest difference between first order and the exact chain, and at how many configurations.
-    pub(crate) first_order: (f64, usize),
+    /// The sources in rows, their sums in the last ones.
+    pub(crate) ledger: Listing,
+    /// What the tolerance allows each source, if there is one.
+    pub(crate) allowed: Option<Listing>,
+    /// The results in sentences.
+    pub(crate) conclusions: Vec<String>,
     /// How many decimals errors have.
     pub(crate) decimals: usize,
 }

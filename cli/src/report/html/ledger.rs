@@ -7,7 +7,7 @@ use super::escaped;
 use crate::number::{percent, short};
 use crate::report::subject::Subject;
 use crate::study::{self, CombinedFigure, Metric};
-use crate::table::unbroken;
+use crate::table::{Listing, unbroken};
 
 /// Every source alone, the largest first.
 pub(super) fn sources(subject: &Subject) -> String {
@@ -118,6 +118,22 @@ pub(super) fn combined(subject: &Subject) -> String {
         "<table class=\"ledger\"><thead><tr><th class=\"words\">all together</th><th>x ({unit})</th>\
          <th>y ({unit})</th><th>z ({unit})</th><th>norm ({unit})</th>{share}<th class=\"words\">verdict</th>\
          </tr></thead>\n<tbody>{rows}</tbody></table>\n"
+    )
+}
+
+/// Any table, as it is.
+pub(super) fn listed(listing: &Listing) -> String {
+    let class = |column: usize| if listing.numbers.contains(&column) { "" } else { " class=\"words\"" };
+    let cells = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
+        let cells =
+            cells.enumerate().map(|(i, cell)| format!("<{tag}{}>{}</{tag}>", class(i), escaped(cell)));
+        format!("<tr>{}</tr>\n", cells.collect::<String>())
+    };
+    let head = cells("th", &mut listing.header.iter().copied());
+    let rows = listing.rows.iter().map(|row| cells("td", &mut row.iter().map(String::as_str)));
+    format!(
+        "<table class=\"ledger\"><thead>{head}</thead>\n<tbody>{}</tbody></table>\n",
+        rows.collect::<String>()
     )
 }
 

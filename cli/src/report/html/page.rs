@@ -3,7 +3,7 @@
 use plotly::Plot;
 
 use super::{escaped, facts, ledger, plots};
-use crate::number::{self, percent, trimmed};
+use crate::number::{percent, trimmed};
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
 
@@ -22,6 +22,8 @@ pub(in crate::report) fn page(
         summary(subject),
         section("Every source alone", &format!("{METRICS}\n{}", ledger::sources(subject))),
         section("All together", &(ledger::combined(subject) + &conclusions(subject))),
+        section("Ledger", &format!("{LEDGER}\n{}", ledger::listed(&subject.ledger))),
+        allowed(subject),
         drawn(figures, drawings, left_out, subject),
         section("Conventions", &facts::conventions(subject)),
         section("Values", &facts::values(subject)),
@@ -43,6 +45,9 @@ const METRICS: &str = "<p>Largest errors of the tool point over the workspace, a
     <i>Plain maximum</i>: the largest |ΔX|. <i>Half peak-to-peak</i>: half of what it varies by. \
     <i>Relative to home</i>: the largest difference from the error at home. Of a random source the bound, plus or \
     minus. Sources in order of their largest norm.</p>";
+
+const LEDGER: &str =
+    "<p>Norms of the errors of the tool point: the largest and the root mean square over the workspace.</p>";
 
 /// The script that draws the figures: the first of two, the second sets formulas, of which there are none.
 fn script() -> String {
@@ -108,38 +113,18 @@ fn summary(subject: &Subject) -> String {
     )
 }
 
-/// What compensation leaves, and what first order neglects.
+/// The results in sentences.
 fn conclusions(subject: &Subject) -> String {
-    let unit = subject.description.length.symbol();
-    let show = |value| format!("{} {unit}", trimmed(value, subject.decimals));
-    let combined = &subject.budget.combined;
-    let mut text = String::new();
-    if let Some(worst) = subject.worst.1.as_ref().filter(|_| combined.radius.value > 0.0) {
-        text += &format!("<p>The radius is reached at {}.</p>\n", escaped(&subject.label(worst)));
-    }
-    if let Some(compensated) = &subject.study.compensated {
-        let random = combined.random_radius.value;
-        text += &format!(
-            "<p>After compensation: {} repeatable residual + {} random = {}; {} prints {} + {} = {} ({}).</p>\n",
-            show(compensated.residual),
-            show(random),
-            show(compensated.residual + random),
-            escaped(subject.publisher()),
-            number::short(compensated.residual),
-            number::short(compensated.random),
-            show(compensated.total),
-            escaped(&compensated.reference),
-        );
-    }
-    let (difference, checked) = subject.first_order;
-    if combined.repeatable_radius.value > 0.0 {
-        text += &format!(
-            "<p>First order: J<sub>e</sub> ε of the repeatable sources differs from the exact chain by at most {}, \
-             at {checked} configurations.</p>\n",
-            show(difference)
-        );
-    }
-    text
+    subject.conclusions.iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect()
+}
+
+/// The budget backwards.
+fn allowed(subject: &Subject) -> String {
+    let about = "<p><i>Alone at most</i>: how much larger a source may be if it is the only one. <i>Equal shares</i>: how \
+        much larger it may be if each takes the same share of the tolerance. <i>Gain</i>: by how much the radius shrinks \
+        per percent that the source becomes smaller; the first is the one to tighten first.</p>\n";
+    let table = subject.allowed.as_ref().map(|allowed| format!("{about}{}", ledger::listed(allowed)));
+    table.map_or_else(String::new, |table| section("What the tolerance allows", &table))
 }
 
 fn drawn(figures: &[Figure], drawings: &[String], left_out: &[&str], subject: &Subject) -> String {
