@@ -44,6 +44,11 @@ impl Changes {
         Ok(changes)
     }
 
+    /// Whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.values.is_empty() && self.switches.is_empty()
+    }
+
     /// Sets a parameter or input, if the value is within its range.
     pub(crate) fn set(
         &mut self,

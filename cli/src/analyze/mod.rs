@@ -63,8 +63,11 @@ struct Drawn {
 
 pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
     let mut found = manipulator::find(&arguments.spec)?;
-    let study = Study::find(arguments.study.as_deref(), &found)?;
+    let mut study = Study::find(arguments.study.as_deref(), &found)?;
     let changes = Changes::from_arguments(&arguments.changes, &found.spec)?;
+    if !changes.is_empty() && study.forget_published() {
+        note("note: published figures are left out: --set, --enable and --disable make another machine");
+    }
     study.changes.apply(&mut found.spec);
     changes.apply(&mut found.spec);
     if let Some(threads) = arguments.threads {

@@ -80,6 +80,15 @@ pub(crate) struct Study {
 }
 
 impl Study {
+    /// Leaves out what others printed: the machine is not theirs any more. Whether there was anything.
+    pub(crate) fn forget_published(&mut self) -> bool {
+        let any = !self.published.is_empty() || self.compensated.is_some();
+        self.published.clear();
+        self.compensated = None;
+        self.not_reproducible.clear();
+        any
+    }
+
     /// The study of that file, or else the one shipped with the manipulator, or else joint samples.
     pub(crate) fn find(file: Option<&Path>, found: &Found) -> Result<Self, Diagnostics> {
         match (file, found.study) {

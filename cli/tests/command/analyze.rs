@@ -297,3 +297,13 @@ const SLIDE: &str = r#"
     variable = { name = "d", kind = "prismatic" }
     transform = "Tx(d)"
 "#;
+
+/// A machine that was changed is not the one that the figures were printed of.
+#[test]
+fn published_figures_are_of_the_machine_as_it_is() {
+    let run = abbe(&["analyze", "pps", "--set", "arm_EI=5e13 N*mm^2"]);
+    assert_eq!(run.status, 0);
+    assert!(run.stderr.contains("published figures are left out"), "{}", run.stderr);
+    assert!(!run.stdout.contains("the paper  "), "{}", run.stdout);
+    assert!(prints(&["analyze", "pps"]).contains("the paper  "));
+}
