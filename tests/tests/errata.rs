@@ -61,16 +61,19 @@ fn the_rotation_of_a_rail_is_its_slope() {
 #[test]
 fn the_printed_numbers_belong_together_in_one_reading_only() {
     use std::f64::consts::PI;
-    // The cosine's factor is the sine's times π/1600, so that d1 multiplies inside the sine.
-    assert_eq!(format!("{:.7}", 0.060_706 * PI / 1600.0), "0.0001192");
-    let [ez, _] = rail(named(&pps(), CONSISTENT), 3200.0);
-    assert_eq!(format!("{:.3}", ez.abs()), "0.198");
-    // 0.000125 = 0.2/1600 is not the steepest slope of the printed curve.
-    assert_eq!(format!("{:.6}", 0.2 / 1600.0), "0.000125");
     let spec = pps();
-    let steepest =
-        (0..=32).map(|i| rail(named(&spec, CONSISTENT), 100.0 * f64::from(i))[1].abs()).fold(0.0, f64::max);
+    let source = named(&spec, CONSISTENT);
+    // A quarter period from d1 = 0 the sine is 1: what is left beside the line is its factor.
+    let amplitude = -rail(source, 800.0)[0] - 0.000_062 * 800.0;
+    let cosine = (rail(source, 0.0)[1] - rail(source, 1600.0)[1]) / 2.0;
+    // The printed cosine's factor is the sine's times π/1600 to its last digit: d1 multiplies inside the sine.
+    assert!((cosine - amplitude * PI / 1600.0).abs() < 0.5e-6, "{cosine}, {amplitude}");
+    // 0.2 mm is the deviation after one full period.
+    assert_eq!(format!("{:.3}", rail(source, 3200.0)[0].abs()), "0.198");
+    // 0.000125 = 0.2/1600 is not the steepest slope of the printed curve.
+    let steepest = (0..=32).map(|i| rail(source, 100.0 * f64::from(i))[1].abs()).fold(0.0, f64::max);
     assert_eq!(format!("{steepest:.6}"), "0.000181");
+    assert!(steepest > 1.4 * 0.2 / 1600.0);
 }
 
 /// With the printed signs and d1 along +X the Z error cannot come below 0.154 mm, against 0.08 in the paper. It

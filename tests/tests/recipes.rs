@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use abbe::{Class, Component, Distribution, Manipulator};
+use abbe::{Class, Distribution, Manipulator};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 
@@ -102,7 +102,6 @@ fn classes_are_as_recommended() {
     assert!(
         spec.sources.iter().any(|source| !source.enabled && source.name == "backlash, direction unknown")
     );
-    assert_eq!(Component::Spin.axis(), 1);
 }
 
 /// The effects of one random source share one magnitude: at q2 = 0 the two slips partly cancel.

@@ -2,6 +2,8 @@
 
 use abbe::Manipulator;
 use abbe::analysis::{Measurement, Workspace, identifiable, joint_samples};
+use abbe_codegen::spec::{Orientation, Spec};
+use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 /// How many configurations show the rank: 60 that of any arm, more that of a very long chain.
@@ -15,17 +17,26 @@ pub(super) struct Identified {
     pub(super) measurement: &'static str,
     /// Whether the errors of a base frame are unknown too.
     pub(super) base: bool,
-    /// None where Euler rows do not exist at one of the samples.
+    /// None where a sample could not be evaluated.
     pub(super) rank: Option<usize>,
     pub(super) unknowns: usize,
+    /// Why there is no rank.
+    #[serde(skip)]
+    pub(super) reason: String,
 }
 
 /// Counts what can be identified when all joints are moved.
-pub(super) fn count(manipulator: &dyn Manipulator) -> Vec<Identified> {
+///
+/// What measurements tell does not depend on how orientations are written: small rotations are taken, which exist
+/// everywhere, also where Euler rows do not.
+pub(super) fn count(spec: &Spec) -> Vec<Identified> {
+    let spec = Spec { orientation: Orientation::RotationVector, ..spec.clone() };
+    let manipulator = &Interpreter::new(&spec);
     let description = manipulator.description();
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
     let samples = joint_samples(manipulator, &moved, configurations(description.frames.len()))
-        .map(|workspace| workspace.reached());
+        .map(|workspace| workspace.reached())
+        .map_err(|error| error.to_string());
     let ways = [
         ("pose", Measurement::Pose, false),
         ("pose", Measurement::Pose, true),
@@ -33,12 +44,14 @@ pub(super) fn count(manipulator: &dyn Manipulator) -> Vec<Identified> {
         ("point", Measurement::Point, true),
     ];
     let counted = ways.into_iter().map(|(name, measurement, base)| {
-        let samples = samples.as_ref().ok();
-        let found = samples.and_then(|samples| identifiable(manipulator, samples, measurement, base).ok());
+        let found = samples.as_ref().map_err(String::clone).and_then(|samples| {
+            identifiable(manipulator, samples, measurement, base).map_err(|error| error.to_string())
+        });
         Identified {
             measurement: name,
             base,
-            rank: found.map(|found| found.rank),
+            rank: found.as_ref().ok().map(|found| found.rank),
+            reason: found.err().unwrap_or_default(),
             unknowns: 6 * (description.frames.len() + usize::from(base)),
         }
     });

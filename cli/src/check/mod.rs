@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let configurations = laws::configurations(&found.spec);
     let report = Report {
         facts: Facts::new(&found.spec, &found.origin),
-        identifiable: identifiable::count(&interpreter),
+        identifiable: identifiable::count(&found.spec),
         configurations,
         laws: laws::check(&interpreter, configurations),
     };

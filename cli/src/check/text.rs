@@ -76,9 +76,10 @@ fn frames(spec: &Spec) -> String {
 fn identifiable(identified: &[Identified], spec: &Spec) -> String {
     let find = |measurement: &str, base: bool| {
         let found = identified.iter().find(|found| found.measurement == measurement && found.base == base);
-        match found.map(|found| (found.rank, found.unknowns)) {
-            Some((Some(rank), unknowns)) => format!("{rank} of {unknowns}"),
-            _ => "not known: Euler angles are singular at a sample".to_owned(),
+        match found.map(|found| (found.rank, found.unknowns, &found.reason)) {
+            Some((Some(rank), unknowns, _)) => format!("{rank} of {unknowns}"),
+            Some((None, unknowns, reason)) => format!("an unknown number ({reason}) of {unknowns}"),
+            None => String::new(),
         }
     };
     let (pose, pose_base) = (find("pose", false), find("pose", true));

@@ -71,3 +71,23 @@ fn a_law_that_fails_is_exit_status_1() {
     assert_eq!((run.status, run.stdout.as_str()), (2, ""));
     assert!(run.stderr.contains("at d = -0.5 mm: the source \"wear\" has no finite value"), "{}", run.stderr);
 }
+
+/// What can be known does not depend on how orientations are written, nor on samples where Euler rows do not exist.
+#[test]
+fn euler_rows_hide_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let spec = |orientation: &str| {
+        let text = format!(
+            "[manipulator]\nname = \"arm\"\nlength = \"m\"\norientation = \"{orientation}\"\n\
+             [[frame]]\nname = \"roll\"\nvariable = {{ name = \"q1\", kind = \"revolute\", limits = [\"-180 deg\", \"180 deg\"] }}\n\
+             transform = \"Rz(q1) Tx(1)\"\n\
+             [[frame]]\nname = \"slide\"\nvariable = {{ name = \"d2\", kind = \"prismatic\", limits = [0, 1] }}\ntransform = \"Tx(d2)\"\n"
+        );
+        let path = crate::running::write(folder.path(), &format!("{orientation}.toml"), &text);
+        json(&["check", path.to_str().unwrap(), "--json"])["identifiable"].clone()
+    };
+    let found = spec("euler-yzx");
+    assert_eq!(found, spec("rotation-vector"));
+    // With poses and a base frame 4 of the revolute and 2 of the prismatic joint, and 6.
+    assert_eq!(found[1]["rank"], 12);
+}

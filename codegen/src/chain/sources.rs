@@ -75,8 +75,7 @@ fn at_frame(graph: &mut Graph, effect: &Effect, frame: &Frame, loads: &[Force]) 
         }
         Cause::Compliance(entries) => {
             let zero = graph.zero();
-            let lower = |entry: &Option<_>| entry.as_ref().map_or(zero, |entry| graph.lower(entry));
-            let mut lower = lower;
+            let mut lower = |entry: &Option<_>| entry.as_ref().map_or(zero, |entry| graph.lower(entry));
             let compliance = entries.each_ref().map(|row| row.each_ref().map(&mut lower));
             give_way(graph, effect, frame, &place, loads, &compliance)
         }

@@ -132,15 +132,9 @@ fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Optio
             return None;
         }
     }
-    let mut entries = read.into_iter();
-    let mut next = || entries.next().map(Some);
-    let mut rows: [[Option<Expression>; 4]; 3] = Default::default();
-    for entry in rows.iter_mut().flatten() {
-        *entry = next()?;
-    }
-    let rows = rows.map(|row| row.map(|entry| entry.expect("twelve entries were read")));
-    let matrix = Matrix { rows, span: item.span() };
-    Some(matrix)
+    let mut rows = read.chunks_exact(4).map(|row| row.to_vec().try_into().ok());
+    let rows = [rows.next()??, rows.next()??, rows.next()??];
+    Some(Matrix { rows, span: item.span() })
 }
 
 fn denavit_hartenberg(
