@@ -51,6 +51,9 @@ impl<const N: usize> Block<N> {
             Action::Add(..) => self.map(instruction, |a, b| a + b),
             Action::Sub(..) => self.map(instruction, |a, b| a - b),
             Action::Mul(..) => self.map(instruction, |a, b| a * b),
+            Action::MulAdd(..) => self.map3(instruction, Scalar::mul_add),
+            Action::MulSub(..) => self.map3(instruction, Scalar::mul_sub),
+            Action::NegMulAdd(..) => self.map3(instruction, Scalar::neg_mul_add),
             Action::Div(..) => self.map(instruction, |a, b| a / b),
             Action::Pow(..) => self.map(instruction, Scalar::powf),
             Action::Atan2(..) => self.map(instruction, Scalar::atan2),
@@ -74,6 +77,13 @@ impl<const N: usize> Block<N> {
         // The result may take the place of an operand: it is put there when it is complete.
         let (a, b) = (&self.rows[instruction.a], &self.rows[instruction.b]);
         let result = std::array::from_fn(|lane| f(a[lane], b[lane]));
+        self.rows[instruction.result] = result;
+    }
+
+    #[inline(always)]
+    fn map3(&mut self, instruction: &Instruction, f: impl Fn(f64, f64, f64) -> f64) {
+        let (a, b, c) = (&self.rows[instruction.a], &self.rows[instruction.b], &self.rows[instruction.c]);
+        let result = std::array::from_fn(|lane| f(a[lane], b[lane], c[lane]));
         self.rows[instruction.result] = result;
     }
 

@@ -12,6 +12,7 @@ pub(crate) struct Instruction {
     pub(crate) action: Action,
     pub(crate) a: Slot,
     pub(crate) b: Slot,
+    pub(crate) c: Slot,
     pub(crate) result: Slot,
     /// Where a cosine goes that is computed with its sine.
     pub(crate) second: Slot,
@@ -38,6 +39,7 @@ impl Tape {
             let mut operands = step.action.operands();
             let a = operands.next().map_or(0, |operand| packer.slot(operand));
             let b = operands.next().map_or(a, |operand| packer.slot(operand));
+            let c = operands.next().map_or(b, |operand| packer.slot(operand));
             // Operands that end here make room for the result: each lane reads before it writes.
             packer.release(step.action, at);
             let result = packer.define(step.register, at);
@@ -45,7 +47,7 @@ impl Tape {
                 Action::SinCos(_) => packer.define(step.register + 1, at),
                 _ => result,
             };
-            instructions.push(Instruction { action: step.action, a, b, result, second });
+            instructions.push(Instruction { action: step.action, a, b, c, result, second });
         }
         let outputs = program.outputs.iter().map(|output| packer.slot(*output)).collect();
         Self { instructions, constants: packer.constants, outputs, slots: packer.slots, symbols }
@@ -109,16 +111,14 @@ impl Packer {
     }
 
     fn release(&mut self, action: Action, at: usize) {
-        let mut released = None;
-        for operand in action.operands() {
-            if let Operand::Register(register) = operand
-                && self.last_use[register] == at
-                && released != Some(register)
-            {
-                self.free.push(self.registers[register]);
-                released = Some(register);
-            }
-        }
+        let ends = |operand: Operand| match operand {
+            Operand::Register(register) => (self.last_use[register] == at).then_some(register),
+            _ => None,
+        };
+        let mut released: Vec<usize> = action.operands().filter_map(ends).collect();
+        released.sort_unstable();
+        released.dedup();
+        self.free.extend(released.into_iter().map(|register| self.registers[register]));
     }
 
     fn define(&mut self, register: usize, at: usize) -> Slot {

@@ -10,6 +10,21 @@ pub trait Scalar:
 {
     /// The nearest value to a constant of the spec.
     fn constant(value: f64) -> Self;
+    /// `self · b + c`, rounded once where the type has an instruction for it, twice otherwise.
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    /// `self · b − c`, rounded as [`mul_add`](Self::mul_add).
+    #[inline(always)]
+    fn mul_sub(self, b: Self, c: Self) -> Self {
+        self * b - c
+    }
+    /// `c − self · b`, rounded as [`mul_add`](Self::mul_add).
+    #[inline(always)]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
     /// Sine.

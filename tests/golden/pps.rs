@@ -291,6 +291,7 @@ pub mod pps {
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
         /// 2 mul, 2 add, 3 sincos, 3 neg.
+        #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -301,51 +302,11 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let p2_y = y_offset + d2;
-            let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let r4_31 = -s4;
-            let (s5, c5) = q5.sin_cos();
-            let (s6, c6) = q6.sin_cos();
-            let t1 = -s5;
-            let t2 = -s6;
-            let t3 = c6 * couch_offset;
-            let t4 = s6 * couch_offset;
             transforms[0] = [
                 [one, zero, zero],
                 [zero, one, zero],
                 [zero, zero, one],
                 [d1, zero, zero],
-            ];
-            transforms[1] = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [zero, p2_y, zero],
-            ];
-            transforms[2] = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [zero, zero, p3_z],
-            ];
-            transforms[3] = [
-                [c4, zero, r4_31],
-                [zero, one, zero],
-                [s4, zero, c4],
-                [zero, zero, zero],
-            ];
-            transforms[4] = [
-                [c5, s5, zero],
-                [t1, c5, zero],
-                [zero, zero, one],
-                [zero, roll_offset, zero],
-            ];
-            transforms[5] = [
-                [one, zero, zero],
-                [zero, c6, s6],
-                [zero, t2, c6],
-                [zero, t3, t4],
             ];
             transforms[6] = [
                 [one, zero, zero],
@@ -353,10 +314,51 @@ pub mod pps {
                 [zero, zero, one],
                 [x, y, z],
             ];
+            let p2_y = y_offset + d2;
+            transforms[1] = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [zero, p2_y, zero],
+            ];
+            let p3_z = z_offset + d3;
+            transforms[2] = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [zero, zero, p3_z],
+            ];
+            let (s4, c4) = q4.sin_cos();
+            let r4_31 = -s4;
+            transforms[3] = [
+                [c4, zero, r4_31],
+                [zero, one, zero],
+                [s4, zero, c4],
+                [zero, zero, zero],
+            ];
+            let (s5, c5) = q5.sin_cos();
+            let (s6, c6) = q6.sin_cos();
+            let t1 = -s5;
+            transforms[4] = [
+                [c5, s5, zero],
+                [t1, c5, zero],
+                [zero, zero, one],
+                [zero, roll_offset, zero],
+            ];
+            let t2 = -s6;
+            let t3 = c6 * couch_offset;
+            let t4 = s6 * couch_offset;
+            transforms[5] = [
+                [one, zero, zero],
+                [zero, c6, s6],
+                [zero, t2, c6],
+                [zero, t3, t4],
+            ];
         }
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
         ///
         /// 26 mul, 19 add, 3 sincos, 2 neg.
+        #[inline(always)]
         pub fn pose<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -378,17 +380,17 @@ pub mod pps {
             let (s6, c6) = q6.sin_cos();
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
             *pose = [
                 [r5_11, s5, r5_31],
                 [r6_12, r6_22, r6_32],
@@ -401,6 +403,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 99 mul, 62 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
+        #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -412,33 +415,57 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            columns[0] = [one, zero, zero, zero, zero, zero];
+            columns[1] = [zero, one, zero, zero, zero, zero];
+            columns[2] = [zero, zero, one, zero, zero, zero];
+            columns[6] = [one, zero, zero, zero, zero, zero];
+            columns[7] = [zero, one, zero, zero, zero, zero];
+            columns[8] = [zero, zero, one, zero, zero, zero];
+            columns[12] = [one, zero, zero, zero, zero, zero];
+            columns[13] = [zero, one, zero, zero, zero, zero];
+            columns[14] = [zero, zero, one, zero, zero, zero];
+            columns[19] = [zero, one, zero, zero, zero, zero];
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
             let (s4, c4) = q4.sin_cos();
+            columns[20] = [s4, zero, c4, zero, zero, zero];
+            columns[26] = [s4, zero, c4, zero, zero, zero];
             let r4_31 = -s4;
+            columns[18] = [c4, zero, r4_31, zero, zero, zero];
             let p5_y = p2_y + roll_offset;
             let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
+            columns[24] = [r5_11, s5, r5_31, zero, zero, zero];
+            columns[30] = [r5_11, s5, r5_31, zero, zero, zero];
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let r5_12 = -t2;
+            columns[25] = [r5_12, c5, r5_32, zero, zero, zero];
             let (s6, c6) = q6.sin_cos();
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            columns[32] = [r6_13, r6_23, r6_33, zero, zero, zero];
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
+            *pose = [
+                [r5_11, s5, r5_31],
+                [r6_12, r6_22, r6_32],
+                [r6_13, r6_23, r6_33],
+                [pt_x, pt_y, pt_z],
+            ];
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             let t4 = T::constant(1.0) / cos_roll;
             let t5 = r5_11 * t4;
             let t6 = t1 * t4;
@@ -448,100 +475,76 @@ pub mod pps {
             let lever1_x = pt_x - d1;
             let t10 = -pt_z;
             let t11 = -lever1_x;
+            columns[3] = [pt_z, zero, t11, one, zero, zero];
+            columns[9] = [pt_z, zero, t11, one, zero, zero];
             let t12 = -pt_y;
             let t13 = s5 * t8;
+            columns[4] = [t12, lever1_x, zero, t13, t5, t9];
             let t14 = -(s5 * t7);
+            columns[5] = [zero, t10, pt_y, t14, t6, t7];
             let lever4_y = pt_y - p2_y;
+            columns[11] = [zero, t10, lever4_y, t14, t6, t7];
             let t15 = -lever4_y;
+            columns[10] = [t15, lever1_x, zero, t13, t5, t9];
+            columns[16] = [t15, lever1_x, zero, t13, t5, t9];
             let t16 = p3_z - pt_z;
+            columns[17] = [zero, t16, lever4_y, t14, t6, t7];
             let lever4_z = -t16;
+            columns[15] = [lever4_z, zero, t11, one, zero, zero];
+            columns[21] = [lever4_z, zero, t11, one, zero, zero];
             let t17 = s4 * lever4_y;
-            let t18 = c4 * t16 - s4 * lever1_x;
+            let t18 = c4.mul_sub(t16, s4 * lever1_x);
             let t19 = c4 * lever4_y;
             let t20 = -t19;
-            let t21 = c4 * lever1_x + s4 * t16;
-            let t22 = s4 * t7 - c4 * t8;
-            let t23 = c4 * t5 + s4 * t6;
+            let t21 = c4.mul_add(lever1_x, s4 * t16);
+            let t22 = s4.mul_sub(t7, c4 * t8);
+            let t23 = c4.mul_add(t5, s4 * t6);
             let t24 = -(s5 * t22);
-            let t25 = c4 * t7 + s4 * t8;
-            let t26 = c4 * t6 - s4 * t5;
+            columns[22] = [t20, t21, t17, t24, t23, t22];
+            let t25 = c4.mul_add(t7, s4 * t8);
+            let t26 = c4.mul_sub(t6, s4 * t5);
             let t27 = -(s5 * t25);
+            columns[23] = [t17, t18, t19, t27, t26, t25];
             let lever5_y = pt_y - p5_y;
-            let t28 = t1 * lever5_y - s5 * t16;
-            let t29 = r5_11 * t16 - t1 * lever1_x;
-            let t30 = r5_11 * lever5_y - s5 * lever1_x;
-            let t31 = -(c5 * t16 + r5_32 * lever5_y);
-            let t32 = r5_32 * lever1_x - t2 * t16;
-            let t33 = -(t2 * lever5_y + c5 * lever1_x);
-            let t34 = c4 * roll_offset - t19;
-            let t35 = t17 - s4 * roll_offset;
-            let t36 = t2 * t7 + r5_32 * t8;
+            let t28 = t1.mul_sub(lever5_y, s5 * t16);
+            let t29 = r5_11.mul_sub(t16, t1 * lever1_x);
+            let t30 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            let t31 = -c5.mul_add(t16, r5_32 * lever5_y);
+            let t32 = r5_32.mul_sub(lever1_x, t2 * t16);
+            let t33 = -t2.mul_add(lever5_y, c5 * lever1_x);
+            let t34 = c4.mul_sub(roll_offset, t19);
+            let t35 = s4.neg_mul_add(roll_offset, t17);
+            columns[28] = [t34, t21, t35, t24, t23, t22];
+            let t36 = t2.mul_add(t7, r5_32 * t8);
             let t37 = -t36;
-            let t38 = r5_32 * t5 - t2 * t6;
-            let t39 = c5 + s5 * t36;
-            let t40 = r5_11 * t7 + t1 * t8;
-            let t41 = r5_11 * t6 - t1 * t5;
-            let t42 = s5 - s5 * t40;
-            let t43 = t28 - r6_13 * couch_offset;
-            let t44 = t29 + t3 * couch_offset;
-            let t45 = t30 - r6_33 * couch_offset;
+            let t38 = r5_32.mul_sub(t5, t2 * t6);
+            let t39 = s5.mul_add(t36, c5);
+            columns[27] = [t31, t32, t33, t39, t38, t37];
+            let t40 = r5_11.mul_add(t7, t1 * t8);
+            let t41 = r5_11.mul_sub(t6, t1 * t5);
+            let t42 = s5.neg_mul_add(t40, s5);
+            columns[29] = [t28, t29, t30, t42, t41, t40];
+            let t43 = r6_13.neg_mul_add(couch_offset, t28);
+            let t44 = t3.mul_add(couch_offset, t29);
+            let t45 = r6_33.neg_mul_add(couch_offset, t30);
+            columns[35] = [t43, t44, t45, t42, t41, t40];
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;
             let lever6_z = pt_z - p6_z;
-            let t46 = r6_22 * lever6_z - r6_32 * lever6_y;
-            let t47 = r6_32 * lever6_x - r6_12 * lever6_z;
-            let t48 = r6_12 * lever6_y - r6_22 * lever6_x;
-            let t49 = -(t3 * lever6_z + r6_33 * lever6_y);
-            let t50 = r6_33 * lever6_x - r6_13 * lever6_z;
-            let t51 = r6_13 * lever6_y + t3 * lever6_x;
-            let t52 = r6_12 * t7 - r6_32 * t8;
-            let t53 = r6_32 * t5 + r6_12 * t6;
-            let t54 = r6_22 - s5 * t52;
-            let t55 = r6_13 * t7 - r6_33 * t8;
-            let t56 = r6_33 * t5 + r6_13 * t6;
-            let t57 = -(t3 + s5 * t55);
-            *pose = [
-                [r5_11, s5, r5_31],
-                [r6_12, r6_22, r6_32],
-                [r6_13, r6_23, r6_33],
-                [pt_x, pt_y, pt_z],
-            ];
-            columns[0] = [one, zero, zero, zero, zero, zero];
-            columns[1] = [zero, one, zero, zero, zero, zero];
-            columns[2] = [zero, zero, one, zero, zero, zero];
-            columns[3] = [pt_z, zero, t11, one, zero, zero];
-            columns[4] = [t12, lever1_x, zero, t13, t5, t9];
-            columns[5] = [zero, t10, pt_y, t14, t6, t7];
-            columns[6] = [one, zero, zero, zero, zero, zero];
-            columns[7] = [zero, one, zero, zero, zero, zero];
-            columns[8] = [zero, zero, one, zero, zero, zero];
-            columns[9] = [pt_z, zero, t11, one, zero, zero];
-            columns[10] = [t15, lever1_x, zero, t13, t5, t9];
-            columns[11] = [zero, t10, lever4_y, t14, t6, t7];
-            columns[12] = [one, zero, zero, zero, zero, zero];
-            columns[13] = [zero, one, zero, zero, zero, zero];
-            columns[14] = [zero, zero, one, zero, zero, zero];
-            columns[15] = [lever4_z, zero, t11, one, zero, zero];
-            columns[16] = [t15, lever1_x, zero, t13, t5, t9];
-            columns[17] = [zero, t16, lever4_y, t14, t6, t7];
-            columns[18] = [c4, zero, r4_31, zero, zero, zero];
-            columns[19] = [zero, one, zero, zero, zero, zero];
-            columns[20] = [s4, zero, c4, zero, zero, zero];
-            columns[21] = [lever4_z, zero, t11, one, zero, zero];
-            columns[22] = [t20, t21, t17, t24, t23, t22];
-            columns[23] = [t17, t18, t19, t27, t26, t25];
-            columns[24] = [r5_11, s5, r5_31, zero, zero, zero];
-            columns[25] = [r5_12, c5, r5_32, zero, zero, zero];
-            columns[26] = [s4, zero, c4, zero, zero, zero];
-            columns[27] = [t31, t32, t33, t39, t38, t37];
-            columns[28] = [t34, t21, t35, t24, t23, t22];
-            columns[29] = [t28, t29, t30, t42, t41, t40];
-            columns[30] = [r5_11, s5, r5_31, zero, zero, zero];
-            columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[32] = [r6_13, r6_23, r6_33, zero, zero, zero];
+            let t46 = r6_22.mul_sub(lever6_z, r6_32 * lever6_y);
+            let t47 = r6_32.mul_sub(lever6_x, r6_12 * lever6_z);
+            let t48 = r6_12.mul_sub(lever6_y, r6_22 * lever6_x);
+            let t49 = -t3.mul_add(lever6_z, r6_33 * lever6_y);
+            let t50 = r6_33.mul_sub(lever6_x, r6_13 * lever6_z);
+            let t51 = r6_13.mul_add(lever6_y, t3 * lever6_x);
+            let t52 = r6_12.mul_sub(t7, r6_32 * t8);
+            let t53 = r6_32.mul_add(t5, r6_12 * t6);
+            let t54 = s5.neg_mul_add(t52, r6_22);
             columns[33] = [t46, t47, t48, t54, t53, t52];
+            let t55 = r6_13.mul_sub(t7, r6_33 * t8);
+            let t56 = r6_33.mul_add(t5, r6_13 * t6);
+            let t57 = -s5.mul_add(t55, t3);
             columns[34] = [t49, t50, t51, t57, t56, t55];
-            columns[35] = [t43, t44, t45, t42, t41, t40];
             cos_roll
         }
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
@@ -549,6 +552,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 52 mul, 32 add, 1 div, 3 sincos, 1 sqrt, 6 neg.
+        #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -560,6 +564,9 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            columns[0] = [one, zero, zero, zero, zero, zero];
+            columns[1] = [zero, one, zero, zero, zero, zero];
+            columns[2] = [zero, zero, one, zero, zero, zero];
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
             let (s4, c4) = q4.sin_cos();
@@ -573,18 +580,24 @@ pub mod pps {
             let (s6, c6) = q6.sin_cos();
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
+            *pose = [
+                [r5_11, s5, r5_31],
+                [r6_12, r6_22, r6_32],
+                [r6_13, r6_23, r6_33],
+                [pt_x, pt_y, pt_z],
+            ];
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             let t4 = T::constant(1.0) / cos_roll;
             let t5 = r5_11 * t4;
             let t6 = t1 * t4;
@@ -594,31 +607,22 @@ pub mod pps {
             let t9 = -lever1_x;
             let t10 = p3_z - pt_z;
             let lever4_z = -t10;
-            let t11 = c4 * lever1_x + s4 * t10;
-            let t12 = s4 * t7 - c4 * t8;
-            let t13 = c4 * t5 + s4 * t6;
+            columns[3] = [lever4_z, zero, t9, one, zero, zero];
+            let t11 = c4.mul_add(lever1_x, s4 * t10);
+            let t12 = s4.mul_sub(t7, c4 * t8);
+            let t13 = c4.mul_add(t5, s4 * t6);
             let t14 = -(s5 * t12);
             let lever5_y = pt_y - p5_y;
-            let t15 = t1 * lever5_y - s5 * t10;
-            let t16 = r5_11 * t10 - t1 * lever1_x;
-            let t17 = r5_11 * lever5_y - s5 * lever1_x;
-            let t18 = r5_11 * t7 + t1 * t8;
-            let t19 = r5_11 * t6 - t1 * t5;
-            let t20 = s5 - s5 * t18;
+            let t15 = t1.mul_sub(lever5_y, s5 * t10);
+            let t16 = r5_11.mul_sub(t10, t1 * lever1_x);
+            let t17 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            let t18 = r5_11.mul_add(t7, t1 * t8);
+            let t19 = r5_11.mul_sub(t6, t1 * t5);
+            let t20 = s5.neg_mul_add(t18, s5);
+            columns[5] = [t15, t16, t17, t20, t19, t18];
             let t21 = -(c4 * lever5_y);
             let t22 = s4 * lever5_y;
-            *pose = [
-                [r5_11, s5, r5_31],
-                [r6_12, r6_22, r6_32],
-                [r6_13, r6_23, r6_33],
-                [pt_x, pt_y, pt_z],
-            ];
-            columns[0] = [one, zero, zero, zero, zero, zero];
-            columns[1] = [zero, one, zero, zero, zero, zero];
-            columns[2] = [zero, zero, one, zero, zero, zero];
-            columns[3] = [lever4_z, zero, t9, one, zero, zero];
             columns[4] = [t21, t11, t22, t14, t13, t12];
-            columns[5] = [t15, t16, t17, t20, t19, t18];
             cos_roll
         }
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
@@ -626,6 +630,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 28 mul, 20 add, 3 sincos, 1 sqrt, 2 neg.
+        #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -637,6 +642,15 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            columns[0] = [zero, one, zero, zero, zero, zero];
+            columns[1] = [zero, zero, one, zero, zero, zero];
+            columns[2] = [zero, one, zero, zero, zero, zero];
+            columns[7] = [zero; 6];
+            columns[8] = [zero; 6];
+            columns[9] = [zero; 6];
+            columns[10] = [zero; 6];
+            columns[11] = [zero; 6];
+            columns[12] = [zero; 6];
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
             let (s4, c4) = q4.sin_cos();
@@ -645,47 +659,39 @@ pub mod pps {
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
+            columns[4] = [r5_11, s5, r5_31, zero, zero, zero];
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let (s6, c6) = q6.sin_cos();
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            columns[3] = [r6_12, r6_22, r6_32, zero, zero, zero];
+            columns[5] = [r6_12, r6_22, r6_32, zero, zero, zero];
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            columns[6] = [r6_13, r6_23, r6_33, zero, zero, zero];
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
             *pose = [
                 [r5_11, s5, r5_31],
                 [r6_12, r6_22, r6_32],
                 [r6_13, r6_23, r6_33],
                 [pt_x, pt_y, pt_z],
             ];
-            columns[0] = [zero, one, zero, zero, zero, zero];
-            columns[1] = [zero, zero, one, zero, zero, zero];
-            columns[2] = [zero, one, zero, zero, zero, zero];
-            columns[3] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[4] = [r5_11, s5, r5_31, zero, zero, zero];
-            columns[5] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[6] = [r6_13, r6_23, r6_33, zero, zero, zero];
-            columns[7] = [zero; 6];
-            columns[8] = [zero; 6];
-            columns[9] = [zero; 6];
-            columns[10] = [zero; 6];
-            columns[11] = [zero; 6];
-            columns[12] = [zero; 6];
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             cos_roll
         }
         /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 13 mul, 5 add, 7 div, 2 sincos, 5 neg.
+        #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -700,8 +706,8 @@ pub mod pps {
             let (sin_1, cos_1) = (d1 * T::constant(::core::f64::consts::PI)
                 / T::constant(1600.0))
                 .sin_cos();
-            let t2 = -(d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_1);
-            let t3 = T::constant(6.2e-5) + T::constant(0.000119) * cos_1;
+            let t2 = -d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1);
+            let t3 = cos_1.mul_add(T::constant(0.000119), T::constant(6.2e-5));
             let t4 = c4 * tip_lever;
             let t5 = tip_load * (p3_z * p3_z) / arm_EI
                 * (p3_z / T::constant(3.0) + t4 / T::constant(2.0));
@@ -761,6 +767,7 @@ pub mod pps {
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
         ///
         /// 13 mul, 10 add, 7 div, 2 sincos, 4 neg.
+        #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -776,30 +783,33 @@ pub mod pps {
                 / T::constant(1600.0))
                 .sin_cos();
             let t2 = c4 * tip_lever;
-            let t3 = tip_load * (p3_z * p3_z) / arm_EI
-                * (p3_z / T::constant(3.0) + t2 / T::constant(2.0));
-            let t4 = -assembly_shift;
-            let t5 = -assembly_turn;
-            let t6 = -(d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_1
-                + assembly_shift);
-            let t7 = T::constant(6.2e-5) + T::constant(0.000119) * cos_1 - assembly_turn;
-            let t8 = assembly_shift - t3;
-            let t9 = -(p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ + assembly_turn);
-            let t10 = p3_z * tip_load / arm_EI * (t2 + p3_z / T::constant(2.0))
-                + assembly_turn;
-            errors[0] = [assembly_shift, assembly_shift, t6, t7, t5, assembly_turn];
-            errors[1] = [t4, assembly_shift, t4, t5, t5, t5];
-            errors[2] = [t4, t8, assembly_shift, t5, t9, t10];
-            errors[3] = [t4, assembly_shift, t4, t5, t5, assembly_turn];
-            errors[4] = [t4, t4, assembly_shift, t5, assembly_turn, assembly_turn];
+            let t3 = -assembly_shift;
             errors[5] = [
                 assembly_shift,
-                t4,
-                t4,
+                t3,
+                t3,
                 assembly_turn,
                 assembly_turn,
                 assembly_turn,
             ];
+            let t4 = -assembly_turn;
+            errors[1] = [t3, assembly_shift, t3, t4, t4, t4];
+            errors[3] = [t3, assembly_shift, t3, t4, t4, assembly_turn];
+            errors[4] = [t3, t3, assembly_shift, t4, assembly_turn, assembly_turn];
+            let t5 = -(d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1)
+                + assembly_shift);
+            let t6 = cos_1.mul_add(T::constant(0.000119), T::constant(6.2e-5))
+                - assembly_turn;
+            errors[0] = [assembly_shift, assembly_shift, t5, t6, t4, assembly_turn];
+            let t7 = (tip_load * (p3_z * p3_z) / arm_EI)
+                .neg_mul_add(
+                    p3_z / T::constant(3.0) + t2 / T::constant(2.0),
+                    assembly_shift,
+                );
+            let t8 = -(p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ + assembly_turn);
+            let t9 = (p3_z * tip_load / arm_EI)
+                .mul_add(t2 + p3_z / T::constant(2.0), assembly_turn);
+            errors[2] = [t3, t7, assembly_shift, t4, t8, t9];
         }
     }
 }

@@ -190,6 +190,7 @@ pub mod puma560 {
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
         /// 4 mul, 0 add, 6 sincos, 6 neg.
+        #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -198,61 +199,61 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            transforms[6] = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [zero, zero, zero],
+            ];
             let (s1, c1) = q1.sin_cos();
             let r1_23 = -c1;
-            let (s2, c2) = q2.sin_cos();
-            let t1 = -s2;
-            let t2 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
-            let (s3, c3) = q3.sin_cos();
-            let t3 = -s3;
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let (s4, c4) = q4.sin_cos();
-            let t6 = -c4;
-            let (s5, c5) = q5.sin_cos();
-            let t7 = -s5;
-            let (s6, c6) = q6.sin_cos();
-            let t8 = -s6;
             transforms[0] = [
                 [c1, s1, zero],
                 [zero, zero, one],
                 [s1, r1_23, zero],
                 [zero, zero, zero],
             ];
+            let (s2, c2) = q2.sin_cos();
+            let t1 = -s2;
+            let t2 = c2 * T::constant(0.4318);
+            let p2_z = s2 * T::constant(0.4318);
             transforms[1] = [
                 [c2, s2, zero],
                 [t1, c2, zero],
                 [zero, zero, one],
                 [t2, p2_z, zero],
             ];
+            let (s3, c3) = q3.sin_cos();
+            let t3 = -s3;
+            let t4 = c3 * T::constant(0.0203);
+            let t5 = s3 * T::constant(0.0203);
             transforms[2] = [
                 [c3, s3, zero],
                 [zero, zero, T::constant(-1.0)],
                 [t3, c3, zero],
                 [t4, t5, T::constant(0.15005)],
             ];
+            let (s4, c4) = q4.sin_cos();
+            let t6 = -c4;
             transforms[3] = [
                 [c4, s4, zero],
                 [zero, zero, one],
                 [s4, t6, zero],
                 [zero, zero, T::constant(0.4318)],
             ];
+            let (s5, c5) = q5.sin_cos();
+            let t7 = -s5;
             transforms[4] = [
                 [c5, s5, zero],
                 [zero, zero, T::constant(-1.0)],
                 [t7, c5, zero],
                 [zero, zero, zero],
             ];
+            let (s6, c6) = q6.sin_cos();
+            let t8 = -s6;
             transforms[5] = [
                 [c6, s6, zero],
                 [t8, c6, zero],
-                [zero, zero, one],
-                [zero, zero, zero],
-            ];
-            transforms[6] = [
-                [one, zero, zero],
-                [zero, one, zero],
                 [zero, zero, one],
                 [zero, zero, zero],
             ];
@@ -260,6 +261,7 @@ pub mod puma560 {
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
         ///
         /// 67 mul, 33 add, 6 sincos, 5 neg.
+        #[inline(always)]
         pub fn pose<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -279,39 +281,41 @@ pub mod puma560 {
             let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
-            let r3_11 = r2_11 * c3 - t2 * s3;
-            let r3_21 = r2_21 * c3 - t3 * s3;
-            let r3_31 = s2 * c3 + c2 * s3;
-            let t6 = r2_11 * s3 + t2 * c3;
-            let t7 = r2_21 * s3 + t3 * c3;
-            let r3_33 = c2 * c3 - s2 * s3;
-            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
-            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
-            let p3_z = p2_z + (s2 * t4 + c2 * t5);
+            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
+            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            let t6 = r2_11.mul_add(s3, t2 * c3);
+            let t7 = r2_21.mul_add(s3, t3 * c3);
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            let p3_x = p2_x
+                + s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y
+                + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
+            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11 * c4 - s1 * s4;
-            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
             let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11 * s4 + s1 * c4;
-            let r4_23 = r3_21 * s4 - c1 * c4;
-            let p4_x = p3_x - T::constant(0.4318) * t6;
-            let p4_y = p3_y - T::constant(0.4318) * t7;
-            let p4_z = p3_z + T::constant(0.4318) * r3_33;
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
+            let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
+            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
             let (s5, c5) = q5.sin_cos();
-            let r5_11 = r4_11 * c5 - t6 * s5;
-            let r5_21 = r4_21 * c5 - t7 * s5;
-            let r5_31 = r4_31 * c5 + r3_33 * s5;
-            let r5_13 = -(r4_11 * s5 + t6 * c5);
-            let r5_23 = -(r4_21 * s5 + t7 * c5);
-            let r5_33 = r3_33 * c5 - r4_31 * s5;
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
             let (s6, c6) = q6.sin_cos();
-            let r6_11 = r5_11 * c6 - r4_13 * s6;
-            let r6_21 = r5_21 * c6 - r4_23 * s6;
-            let r6_31 = r5_31 * c6 - r4_33 * s6;
-            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
-            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
-            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
             *pose = [
                 [r6_11, r6_21, r6_31],
                 [r6_12, r6_22, r6_32],
@@ -322,6 +326,7 @@ pub mod puma560 {
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
         ///
         /// 94 mul, 45 add, 6 sincos, 21 neg.
+        #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -331,8 +336,12 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            columns[1] = [zero, zero, one, zero, zero, zero];
             let (s1, c1) = q1.sin_cos();
+            columns[0] = [c1, s1, zero, zero, zero, zero];
             let r1_23 = -c1;
+            columns[2] = [s1, r1_23, zero, zero, zero, zero];
+            columns[8] = [s1, r1_23, zero, zero, zero, zero];
             let (s2, c2) = q2.sin_cos();
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
@@ -340,121 +349,120 @@ pub mod puma560 {
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
             let r2_21 = s1 * c2;
+            columns[6] = [r2_11, r2_21, s2, zero, zero, zero];
             let t2 = c1 * s2;
             let r2_12 = -t2;
             let t3 = s1 * s2;
             let r2_22 = -t3;
+            columns[7] = [r2_12, r2_22, c2, zero, zero, zero];
             let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
-            let r3_11 = r2_11 * c3 - t2 * s3;
-            let r3_21 = r2_21 * c3 - t3 * s3;
-            let r3_31 = s2 * c3 + c2 * s3;
+            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
+            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            columns[12] = [r3_11, r3_21, r3_31, zero, zero, zero];
             let r3_12 = -s1;
-            let t6 = r2_11 * s3 + t2 * c3;
+            columns[13] = [r3_12, c1, zero, zero, zero, zero];
+            let t6 = r2_11.mul_add(s3, t2 * c3);
             let r3_13 = -t6;
-            let t7 = r2_21 * s3 + t3 * c3;
+            let t7 = r2_21.mul_add(s3, t3 * c3);
             let r3_23 = -t7;
-            let r3_33 = c2 * c3 - s2 * s3;
-            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
-            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
-            let p3_z = p2_z + (s2 * t4 + c2 * t5);
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            columns[14] = [r3_13, r3_23, r3_33, zero, zero, zero];
+            columns[16] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            columns[19] = [r3_13, r3_23, r3_33, zero, zero, zero];
+            columns[21] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            let p3_x = p2_x
+                + s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y
+                + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
+            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11 * c4 - s1 * s4;
-            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
+            columns[18] = [r4_11, r4_21, r4_31, zero, zero, zero];
+            columns[23] = [zero, zero, zero, r4_11, r4_21, r4_31];
             let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11 * s4 + s1 * c4;
-            let r4_23 = r3_21 * s4 - c1 * c4;
-            let p4_x = p3_x - T::constant(0.4318) * t6;
-            let p4_y = p3_y - T::constant(0.4318) * t7;
-            let p4_z = p3_z + T::constant(0.4318) * r3_33;
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            columns[20] = [r4_13, r4_23, r4_33, zero, zero, zero];
+            columns[22] = [zero, zero, zero, r4_13, r4_23, r4_33];
+            let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
+            let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
+            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
             let (s5, c5) = q5.sin_cos();
-            let r5_11 = r4_11 * c5 - t6 * s5;
-            let r5_21 = r4_21 * c5 - t7 * s5;
-            let r5_31 = r4_31 * c5 + r3_33 * s5;
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            columns[24] = [r5_11, r5_21, r5_31, zero, zero, zero];
+            columns[29] = [zero, zero, zero, r5_11, r5_21, r5_31];
             let r5_12 = -r4_13;
             let r5_22 = -r4_23;
             let r5_32 = -r4_33;
-            let r5_13 = -(r4_11 * s5 + t6 * c5);
-            let r5_23 = -(r4_21 * s5 + t7 * c5);
-            let r5_33 = r3_33 * c5 - r4_31 * s5;
+            columns[25] = [r5_12, r5_22, r5_32, zero, zero, zero];
+            columns[27] = [zero, zero, zero, r5_12, r5_22, r5_32];
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
+            columns[26] = [r5_13, r5_23, r5_33, zero, zero, zero];
+            columns[28] = [zero, zero, zero, r5_13, r5_23, r5_33];
+            columns[32] = [r5_13, r5_23, r5_33, zero, zero, zero];
+            columns[34] = [zero, zero, zero, r5_13, r5_23, r5_33];
             let (s6, c6) = q6.sin_cos();
-            let r6_11 = r5_11 * c6 - r4_13 * s6;
-            let r6_21 = r5_21 * c6 - r4_23 * s6;
-            let r6_31 = r5_31 * c6 - r4_33 * s6;
-            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
-            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
-            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
-            let t8 = s1 * p4_z;
-            let t9 = -(c1 * p4_z);
-            let t10 = c1 * p4_y - s1 * p4_x;
-            let t11 = -p4_y;
-            let t12 = -t8;
-            let t13 = s1 * p4_y + c1 * p4_x;
-            let lever2_x = p4_x - p2_x;
-            let lever2_y = p4_y - p2_y;
-            let lever2_z = p4_z - p2_z;
-            let t14 = r2_21 * lever2_z - s2 * lever2_y;
-            let t15 = s2 * lever2_x - r2_11 * lever2_z;
-            let t16 = r2_11 * lever2_y - r2_21 * lever2_x;
-            let t17 = -(t3 * lever2_z + c2 * lever2_y);
-            let t18 = c2 * lever2_x + t2 * lever2_z;
-            let t19 = t3 * lever2_x - t2 * lever2_y;
-            let t20 = -(c1 * lever2_z);
-            let t21 = -(s1 * lever2_z);
-            let t22 = s1 * lever2_y + c1 * lever2_x;
-            let t23 = s1 * T::constant(0.4318);
-            let t24 = -(c1 * T::constant(0.4318));
-            let t25 = T::constant(0.4318) * r3_11;
-            let t26 = T::constant(0.4318) * r3_21;
-            let t27 = T::constant(0.4318) * r3_31;
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            columns[30] = [r6_11, r6_21, r6_31, zero, zero, zero];
+            columns[35] = [zero, zero, zero, r6_11, r6_21, r6_31];
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
             *pose = [
                 [r6_11, r6_21, r6_31],
                 [r6_12, r6_22, r6_32],
                 [r5_13, r5_23, r5_33],
                 [p4_x, p4_y, p4_z],
             ];
-            columns[0] = [c1, s1, zero, zero, zero, zero];
-            columns[1] = [zero, zero, one, zero, zero, zero];
-            columns[2] = [s1, r1_23, zero, zero, zero, zero];
-            columns[3] = [t11, p4_x, zero, zero, zero, one];
-            columns[4] = [t9, t12, t13, s1, r1_23, zero];
-            columns[5] = [t8, t9, t10, c1, s1, zero];
-            columns[6] = [r2_11, r2_21, s2, zero, zero, zero];
-            columns[7] = [r2_12, r2_22, c2, zero, zero, zero];
-            columns[8] = [s1, r1_23, zero, zero, zero, zero];
-            columns[9] = [t17, t18, t19, r2_12, r2_22, c2];
-            columns[10] = [t20, t21, t22, s1, r1_23, zero];
-            columns[11] = [t14, t15, t16, r2_11, r2_21, s2];
-            columns[12] = [r3_11, r3_21, r3_31, zero, zero, zero];
-            columns[13] = [r3_12, c1, zero, zero, zero, zero];
-            columns[14] = [r3_13, r3_23, r3_33, zero, zero, zero];
-            columns[15] = [t25, t26, t27, r3_12, c1, zero];
-            columns[16] = [zero, zero, zero, r3_13, r3_23, r3_33];
-            columns[17] = [t23, t24, zero, r3_11, r3_21, r3_31];
-            columns[18] = [r4_11, r4_21, r4_31, zero, zero, zero];
-            columns[19] = [r3_13, r3_23, r3_33, zero, zero, zero];
-            columns[20] = [r4_13, r4_23, r4_33, zero, zero, zero];
-            columns[21] = [zero, zero, zero, r3_13, r3_23, r3_33];
-            columns[22] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            columns[23] = [zero, zero, zero, r4_11, r4_21, r4_31];
-            columns[24] = [r5_11, r5_21, r5_31, zero, zero, zero];
-            columns[25] = [r5_12, r5_22, r5_32, zero, zero, zero];
-            columns[26] = [r5_13, r5_23, r5_33, zero, zero, zero];
-            columns[27] = [zero, zero, zero, r5_12, r5_22, r5_32];
-            columns[28] = [zero, zero, zero, r5_13, r5_23, r5_33];
-            columns[29] = [zero, zero, zero, r5_11, r5_21, r5_31];
-            columns[30] = [r6_11, r6_21, r6_31, zero, zero, zero];
             columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[32] = [r5_13, r5_23, r5_33, zero, zero, zero];
             columns[33] = [zero, zero, zero, r6_12, r6_22, r6_32];
-            columns[34] = [zero, zero, zero, r5_13, r5_23, r5_33];
-            columns[35] = [zero, zero, zero, r6_11, r6_21, r6_31];
+            let t8 = s1 * p4_z;
+            let t9 = -(c1 * p4_z);
+            let t10 = c1.mul_sub(p4_y, s1 * p4_x);
+            columns[5] = [t8, t9, t10, c1, s1, zero];
+            let t11 = -p4_y;
+            columns[3] = [t11, p4_x, zero, zero, zero, one];
+            let t12 = -t8;
+            let t13 = s1.mul_add(p4_y, c1 * p4_x);
+            columns[4] = [t9, t12, t13, s1, r1_23, zero];
+            let lever2_x = p4_x - p2_x;
+            let lever2_y = p4_y - p2_y;
+            let lever2_z = p4_z - p2_z;
+            let t14 = r2_21.mul_sub(lever2_z, s2 * lever2_y);
+            let t15 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
+            let t16 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
+            columns[11] = [t14, t15, t16, r2_11, r2_21, s2];
+            let t17 = -t3.mul_add(lever2_z, c2 * lever2_y);
+            let t18 = c2.mul_add(lever2_x, t2 * lever2_z);
+            let t19 = t3.mul_sub(lever2_x, t2 * lever2_y);
+            columns[9] = [t17, t18, t19, r2_12, r2_22, c2];
+            let t20 = -(c1 * lever2_z);
+            let t21 = -(s1 * lever2_z);
+            let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
+            columns[10] = [t20, t21, t22, s1, r1_23, zero];
+            let t23 = s1 * T::constant(0.4318);
+            let t24 = -(c1 * T::constant(0.4318));
+            columns[17] = [t23, t24, zero, r3_11, r3_21, r3_31];
+            let t25 = T::constant(0.4318) * r3_11;
+            let t26 = T::constant(0.4318) * r3_21;
+            let t27 = T::constant(0.4318) * r3_31;
+            columns[15] = [t25, t26, t27, r3_12, c1, zero];
         }
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
         ///
         /// 83 mul, 50 add, 6 sincos, 13 neg.
+        #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -478,68 +486,72 @@ pub mod puma560 {
             let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
-            let r3_11 = r2_11 * c3 - t2 * s3;
-            let r3_21 = r2_21 * c3 - t3 * s3;
-            let r3_31 = s2 * c3 + c2 * s3;
-            let t6 = r2_11 * s3 + t2 * c3;
+            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
+            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            let t6 = r2_11.mul_add(s3, t2 * c3);
             let r3_13 = -t6;
-            let t7 = r2_21 * s3 + t3 * c3;
+            let t7 = r2_21.mul_add(s3, t3 * c3);
             let r3_23 = -t7;
-            let r3_33 = c2 * c3 - s2 * s3;
-            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
-            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
-            let p3_z = p2_z + (s2 * t4 + c2 * t5);
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            let p3_x = p2_x
+                + s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y
+                + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
+            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11 * c4 - s1 * s4;
-            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
             let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11 * s4 + s1 * c4;
-            let r4_23 = r3_21 * s4 - c1 * c4;
-            let p4_x = p3_x - T::constant(0.4318) * t6;
-            let p4_y = p3_y - T::constant(0.4318) * t7;
-            let p4_z = p3_z + T::constant(0.4318) * r3_33;
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
+            let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
+            let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
+            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
             let (s5, c5) = q5.sin_cos();
-            let r5_11 = r4_11 * c5 - t6 * s5;
-            let r5_21 = r4_21 * c5 - t7 * s5;
-            let r5_31 = r4_31 * c5 + r3_33 * s5;
-            let r5_13 = -(r4_11 * s5 + t6 * c5);
-            let r5_23 = -(r4_21 * s5 + t7 * c5);
-            let r5_33 = r3_33 * c5 - r4_31 * s5;
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
+            columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
             let (s6, c6) = q6.sin_cos();
-            let r6_11 = r5_11 * c6 - r4_13 * s6;
-            let r6_21 = r5_21 * c6 - r4_23 * s6;
-            let r6_31 = r5_31 * c6 - r4_33 * s6;
-            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
-            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
-            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
-            let t8 = -p4_y;
-            let lever2_x = p4_x - p2_x;
-            let lever2_y = p4_y - p2_y;
-            let lever2_z = p4_z - p2_z;
-            let t9 = -(c1 * lever2_z + c1 * p2_z);
-            let t10 = -(s1 * lever2_z + s1 * p2_z);
-            let t11 = t1 + (s1 * lever2_y + c1 * lever2_x);
-            let t12 = p4_z - p3_z;
-            let t13 = -(r2_11 * t5 + t2 * t4 + c1 * t12);
-            let t14 = -(r2_21 * t5 + t3 * t4 + s1 * t12);
-            let t15 = c2 * t4 - s2 * t5 + (s1 * (p4_y - p3_y) + c1 * (p4_x - p3_x));
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
             *pose = [
                 [r6_11, r6_21, r6_31],
                 [r6_12, r6_22, r6_32],
                 [r5_13, r5_23, r5_33],
                 [p4_x, p4_y, p4_z],
             ];
+            let t8 = -p4_y;
             columns[0] = [t8, p4_x, zero, zero, zero, one];
+            let lever2_x = p4_x - p2_x;
+            let lever2_y = p4_y - p2_y;
+            let lever2_z = p4_z - p2_z;
+            let t9 = -c1.mul_add(lever2_z, c1 * p2_z);
+            let t10 = -s1.mul_add(lever2_z, s1 * p2_z);
+            let t11 = t1 + s1.mul_add(lever2_y, c1 * lever2_x);
             columns[1] = [t9, t10, t11, s1, r1_23, zero];
+            let t12 = p4_z - p3_z;
+            let t13 = -c1.mul_add(t12, r2_11.mul_add(t5, t2 * t4));
+            let t14 = -s1.mul_add(t12, r2_21.mul_add(t5, t3 * t4));
+            let t15 = c2.mul_sub(t4, s2 * t5)
+                + s1.mul_add(p4_y - p3_y, c1 * (p4_x - p3_x));
             columns[2] = [t13, t14, t15, s1, r1_23, zero];
-            columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
-            columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
         }
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
         ///
         /// 67 mul, 33 add, 6 sincos, 5 neg.
+        #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -560,39 +572,41 @@ pub mod puma560 {
             let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
-            let r3_11 = r2_11 * c3 - t2 * s3;
-            let r3_21 = r2_21 * c3 - t3 * s3;
-            let r3_31 = s2 * c3 + c2 * s3;
-            let t6 = r2_11 * s3 + t2 * c3;
-            let t7 = r2_21 * s3 + t3 * c3;
-            let r3_33 = c2 * c3 - s2 * s3;
-            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
-            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
-            let p3_z = p2_z + (s2 * t4 + c2 * t5);
+            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
+            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            let t6 = r2_11.mul_add(s3, t2 * c3);
+            let t7 = r2_21.mul_add(s3, t3 * c3);
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            let p3_x = p2_x
+                + s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y
+                + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
+            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11 * c4 - s1 * s4;
-            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
             let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11 * s4 + s1 * c4;
-            let r4_23 = r3_21 * s4 - c1 * c4;
-            let p4_x = p3_x - T::constant(0.4318) * t6;
-            let p4_y = p3_y - T::constant(0.4318) * t7;
-            let p4_z = p3_z + T::constant(0.4318) * r3_33;
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
+            let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
+            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
             let (s5, c5) = q5.sin_cos();
-            let r5_11 = r4_11 * c5 - t6 * s5;
-            let r5_21 = r4_21 * c5 - t7 * s5;
-            let r5_31 = r4_31 * c5 + r3_33 * s5;
-            let r5_13 = -(r4_11 * s5 + t6 * c5);
-            let r5_23 = -(r4_21 * s5 + t7 * c5);
-            let r5_33 = r3_33 * c5 - r4_31 * s5;
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
             let (s6, c6) = q6.sin_cos();
-            let r6_11 = r5_11 * c6 - r4_13 * s6;
-            let r6_21 = r5_21 * c6 - r4_23 * s6;
-            let r6_31 = r5_31 * c6 - r4_33 * s6;
-            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
-            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
-            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
             *pose = [
                 [r6_11, r6_21, r6_31],
                 [r6_12, r6_22, r6_32],
@@ -603,6 +617,7 @@ pub mod puma560 {
         /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -623,6 +638,7 @@ pub mod puma560 {
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],

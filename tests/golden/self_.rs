@@ -177,6 +177,7 @@ pub mod self_ {
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
         /// 26 mul, 7 add, 5 sincos, 3 other, 5 neg.
+        #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -186,55 +187,56 @@ pub mod self_ {
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let r1_32 = -sin_r1_11;
-            let r1_33 = -cos_r1_11;
-            let r1_12 = s1 * cos_r1_11;
-            let r1_22 = -(c1 * cos_r1_11);
-            let r1_23 = c1 * sin_r1_11;
-            let r1_13 = -(s1 * sin_r1_11);
-            let (sin__s, cos__s) = _s.sin_cos();
-            let (sin_2, cos_2) = self_.atan2(q_).sin_cos();
-            let (sin_3, cos_3) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let t4 = cos__s * self_;
-            let t5 = sin__s * self_;
-            let t6 = cos__s * cos_2;
-            let t7 = sin__s * cos_2;
-            let t8 = cos__s * sin_2;
-            let t9 = sin__s * sin_2;
-            let t10 = -sin_2;
-            let t11 = cos_2 * cos_3;
-            let t12 = cos_2 * sin_3;
-            let t13 = sin_3 * t8 - sin__s * cos_3;
-            let t14 = cos__s * cos_3 + sin_3 * t9;
-            let t15 = sin__s * sin_3 + cos_3 * t8;
-            let t16 = cos_3 * t9 - cos__s * sin_3;
-            transforms[0] = [
-                [c1, s1, zero],
-                [r1_12, r1_22, r1_32],
-                [r1_13, r1_23, r1_33],
-                [p1_x, p1_y, zero],
-            ];
-            transforms[1] = [
-                [t6, t7, t10],
-                [t13, t14, t12],
-                [t15, t16, t11],
-                [t4, t5, zero],
-            ];
             transforms[2] = [
                 [one, zero, zero],
                 [zero, one, zero],
                 [zero, zero, one],
                 [zero, zero, zero],
             ];
+            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
+            let t2 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
+            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
+            let r1_32 = -sin_r1_11;
+            let r1_33 = -cos_r1_11;
+            let r1_12 = sin_1 * cos_r1_11;
+            let r1_22 = -(cos_1 * cos_r1_11);
+            let r1_23 = cos_1 * sin_r1_11;
+            let r1_13 = -(sin_1 * sin_r1_11);
+            transforms[0] = [
+                [cos_1, sin_1, zero],
+                [r1_12, r1_22, r1_32],
+                [r1_13, r1_23, r1_33],
+                [p1_x, p1_y, zero],
+            ];
+            let (sin__s, cos__s) = _s.sin_cos();
+            let (sin_3, cos_3) = self_.atan2(q_).sin_cos();
+            let (sin_4, cos_4) = Some_.abs().powf(T::constant(2.7)).sin_cos();
+            let t5 = cos__s * self_;
+            let t6 = sin__s * self_;
+            let t7 = cos__s * cos_3;
+            let t8 = sin__s * cos_3;
+            let t9 = cos__s * sin_3;
+            let t10 = sin__s * sin_3;
+            let t11 = -sin_3;
+            let t12 = cos_3 * cos_4;
+            let t13 = cos_3 * sin_4;
+            let t14 = sin_4.mul_sub(t9, sin__s * cos_4);
+            let t15 = cos__s.mul_add(cos_4, sin_4 * t10);
+            let t16 = sin__s.mul_add(sin_4, cos_4 * t9);
+            let t17 = cos_4.mul_sub(t10, cos__s * sin_4);
+            transforms[1] = [
+                [t7, t8, t11],
+                [t14, t15, t13],
+                [t16, t17, t12],
+                [t5, t6, zero],
+            ];
         }
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
         ///
         /// 47 mul, 21 add, 5 sincos, 3 other, 2 neg.
+        #[inline(always)]
         pub fn pose<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -242,39 +244,39 @@ pub mod self_ {
         ) {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
+            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
+            let t2 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
             let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let r1_12 = s1 * cos_r1_11;
-            let t2 = c1 * cos_r1_11;
-            let t3 = s1 * sin_r1_11;
-            let r1_23 = c1 * sin_r1_11;
+            let r1_12 = sin_1 * cos_r1_11;
+            let t3 = cos_1 * cos_r1_11;
+            let t4 = sin_1 * sin_r1_11;
+            let r1_23 = cos_1 * sin_r1_11;
             let (sin__s, cos__s) = _s.sin_cos();
-            let t4 = sin_r1_11 * cos__s;
-            let t5 = sin_r1_11 * sin__s;
-            let t6 = c1 * cos__s + r1_12 * sin__s;
-            let t7 = s1 * cos__s - t2 * sin__s;
-            let t8 = r1_12 * cos__s - c1 * sin__s;
-            let t9 = s1 * sin__s + t2 * cos__s;
-            let p2_z = -(t5 * self_);
-            let p2_x = p1_x + t6 * self_;
-            let p2_y = p1_y + t7 * self_;
-            let (sin_10, cos_10) = self_.atan2(q_).sin_cos();
-            let t11 = t6 * sin_10 - t3 * cos_10;
-            let t12 = r1_23 * cos_10 + t7 * sin_10;
-            let t13 = cos_r1_11 * cos_10 + t5 * sin_10;
-            let r2_11 = t3 * sin_10 + t6 * cos_10;
-            let r2_21 = t7 * cos_10 - r1_23 * sin_10;
-            let r2_31 = cos_r1_11 * sin_10 - t5 * cos_10;
-            let (sin_14, cos_14) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t8 * cos_14 + t11 * sin_14;
-            let r2_22 = t12 * sin_14 - t9 * cos_14;
-            let r2_32 = -(t4 * cos_14 + t13 * sin_14);
-            let r2_13 = t11 * cos_14 - t8 * sin_14;
-            let r2_23 = t9 * sin_14 + t12 * cos_14;
-            let r2_33 = t4 * sin_14 - t13 * cos_14;
+            let t5 = sin_r1_11 * cos__s;
+            let t6 = sin_r1_11 * sin__s;
+            let t7 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t8 = sin_1.mul_sub(cos__s, t3 * sin__s);
+            let t9 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t10 = sin_1.mul_add(sin__s, t3 * cos__s);
+            let p2_z = -(t6 * self_);
+            let p2_x = t7.mul_add(self_, p1_x);
+            let p2_y = t8.mul_add(self_, p1_y);
+            let (sin_11, cos_11) = self_.atan2(q_).sin_cos();
+            let t12 = t7.mul_sub(sin_11, t4 * cos_11);
+            let t13 = r1_23.mul_add(cos_11, t8 * sin_11);
+            let t14 = cos_r1_11.mul_add(cos_11, t6 * sin_11);
+            let r2_11 = t4.mul_add(sin_11, t7 * cos_11);
+            let r2_21 = t8.mul_sub(cos_11, r1_23 * sin_11);
+            let r2_31 = cos_r1_11.mul_sub(sin_11, t6 * cos_11);
+            let (sin_15, cos_15) = Some_.abs().powf(T::constant(2.7)).sin_cos();
+            let r2_12 = t9.mul_add(cos_15, t12 * sin_15);
+            let r2_22 = t13.mul_sub(sin_15, t10 * cos_15);
+            let r2_32 = -t5.mul_add(cos_15, t14 * sin_15);
+            let r2_13 = t12.mul_sub(cos_15, t9 * sin_15);
+            let r2_23 = t10.mul_add(sin_15, t13 * cos_15);
+            let r2_33 = t5.mul_sub(sin_15, t14 * cos_15);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
@@ -285,6 +287,7 @@ pub mod self_ {
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
         ///
         /// 63 mul, 30 add, 5 sincos, 3 other, 9 neg.
+        #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -294,77 +297,78 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
+            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
+            columns[0] = [cos_1, sin_1, zero, zero, zero, zero];
+            let t2 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
             let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
             let r1_32 = -sin_r1_11;
             let r1_33 = -cos_r1_11;
-            let r1_12 = s1 * cos_r1_11;
-            let t2 = c1 * cos_r1_11;
-            let r1_22 = -t2;
-            let t3 = s1 * sin_r1_11;
-            let r1_23 = c1 * sin_r1_11;
-            let r1_13 = -t3;
+            let r1_12 = sin_1 * cos_r1_11;
+            let t3 = cos_1 * cos_r1_11;
+            let r1_22 = -t3;
+            columns[1] = [r1_12, r1_22, r1_32, zero, zero, zero];
+            let t4 = sin_1 * sin_r1_11;
+            let r1_23 = cos_1 * sin_r1_11;
+            let r1_13 = -t4;
+            columns[2] = [r1_13, r1_23, r1_33, zero, zero, zero];
             let (sin__s, cos__s) = _s.sin_cos();
-            let t4 = sin_r1_11 * cos__s;
-            let t5 = sin_r1_11 * sin__s;
-            let t6 = c1 * cos__s + r1_12 * sin__s;
-            let t7 = s1 * cos__s - t2 * sin__s;
-            let t8 = r1_12 * cos__s - c1 * sin__s;
-            let t9 = s1 * sin__s + t2 * cos__s;
-            let t10 = t5 * self_;
-            let p2_z = -t10;
-            let p2_x = p1_x + t6 * self_;
-            let p2_y = p1_y + t7 * self_;
-            let (sin_11, cos_11) = self_.atan2(q_).sin_cos();
-            let t12 = t6 * sin_11 - t3 * cos_11;
-            let t13 = r1_23 * cos_11 + t7 * sin_11;
-            let t14 = cos_r1_11 * cos_11 + t5 * sin_11;
-            let r2_11 = t3 * sin_11 + t6 * cos_11;
-            let r2_21 = t7 * cos_11 - r1_23 * sin_11;
-            let r2_31 = cos_r1_11 * sin_11 - t5 * cos_11;
-            let (sin_15, cos_15) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t8 * cos_15 + t12 * sin_15;
-            let r2_22 = t13 * sin_15 - t9 * cos_15;
-            let r2_32 = -(t4 * cos_15 + t14 * sin_15);
-            let r2_13 = t12 * cos_15 - t8 * sin_15;
-            let r2_23 = t9 * sin_15 + t13 * cos_15;
-            let r2_33 = t4 * sin_15 - t14 * cos_15;
-            let lever1_x = p2_x - p1_x;
-            let lever1_y = p2_y - p1_y;
-            let t16 = -(s1 * t10);
-            let t17 = c1 * t10;
-            let t18 = c1 * lever1_y - s1 * lever1_x;
-            let t19 = t2 * t10 + sin_r1_11 * lever1_y;
-            let t20 = r1_12 * t10 - sin_r1_11 * lever1_x;
-            let t21 = r1_12 * lever1_y + t2 * lever1_x;
-            let t22 = cos_r1_11 * lever1_y - r1_23 * t10;
-            let t23 = -(cos_r1_11 * lever1_x + t3 * t10);
-            let t24 = -(t3 * lever1_y + r1_23 * lever1_x);
+            let t5 = sin_r1_11 * cos__s;
+            let t6 = sin_r1_11 * sin__s;
+            let t7 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t8 = sin_1.mul_sub(cos__s, t3 * sin__s);
+            let t9 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t10 = sin_1.mul_add(sin__s, t3 * cos__s);
+            let t11 = t6 * self_;
+            let p2_z = -t11;
+            let p2_x = t7.mul_add(self_, p1_x);
+            let p2_y = t8.mul_add(self_, p1_y);
+            let (sin_12, cos_12) = self_.atan2(q_).sin_cos();
+            let t13 = t7.mul_sub(sin_12, t4 * cos_12);
+            let t14 = r1_23.mul_add(cos_12, t8 * sin_12);
+            let t15 = cos_r1_11.mul_add(cos_12, t6 * sin_12);
+            let r2_11 = t4.mul_add(sin_12, t7 * cos_12);
+            let r2_21 = t8.mul_sub(cos_12, r1_23 * sin_12);
+            let r2_31 = cos_r1_11.mul_sub(sin_12, t6 * cos_12);
+            columns[6] = [r2_11, r2_21, r2_31, zero, zero, zero];
+            columns[11] = [zero, zero, zero, r2_11, r2_21, r2_31];
+            let (sin_16, cos_16) = Some_.abs().powf(T::constant(2.7)).sin_cos();
+            let r2_12 = t9.mul_add(cos_16, t13 * sin_16);
+            let r2_22 = t14.mul_sub(sin_16, t10 * cos_16);
+            let r2_32 = -t5.mul_add(cos_16, t15 * sin_16);
+            columns[7] = [r2_12, r2_22, r2_32, zero, zero, zero];
+            columns[9] = [zero, zero, zero, r2_12, r2_22, r2_32];
+            let r2_13 = t13.mul_sub(cos_16, t9 * sin_16);
+            let r2_23 = t10.mul_add(sin_16, t14 * cos_16);
+            let r2_33 = t5.mul_sub(sin_16, t15 * cos_16);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            columns[0] = [c1, s1, zero, zero, zero, zero];
-            columns[1] = [r1_12, r1_22, r1_32, zero, zero, zero];
-            columns[2] = [r1_13, r1_23, r1_33, zero, zero, zero];
-            columns[3] = [t19, t20, t21, r1_12, r1_22, r1_32];
-            columns[4] = [t22, t23, t24, r1_13, r1_23, r1_33];
-            columns[5] = [t16, t17, t18, c1, s1, zero];
-            columns[6] = [r2_11, r2_21, r2_31, zero, zero, zero];
-            columns[7] = [r2_12, r2_22, r2_32, zero, zero, zero];
             columns[8] = [r2_13, r2_23, r2_33, zero, zero, zero];
-            columns[9] = [zero, zero, zero, r2_12, r2_22, r2_32];
             columns[10] = [zero, zero, zero, r2_13, r2_23, r2_33];
-            columns[11] = [zero, zero, zero, r2_11, r2_21, r2_31];
+            let lever1_x = p2_x - p1_x;
+            let lever1_y = p2_y - p1_y;
+            let t17 = -(sin_1 * t11);
+            let t18 = cos_1 * t11;
+            let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
+            columns[5] = [t17, t18, t19, cos_1, sin_1, zero];
+            let t20 = t3.mul_add(t11, sin_r1_11 * lever1_y);
+            let t21 = r1_12.mul_sub(t11, sin_r1_11 * lever1_x);
+            let t22 = r1_12.mul_add(lever1_y, t3 * lever1_x);
+            columns[3] = [t20, t21, t22, r1_12, r1_22, r1_32];
+            let t23 = cos_r1_11.mul_sub(lever1_y, r1_23 * t11);
+            let t24 = -cos_r1_11.mul_add(lever1_x, t4 * t11);
+            let t25 = -t4.mul_add(lever1_y, r1_23 * lever1_x);
+            columns[4] = [t23, t24, t25, r1_13, r1_23, r1_33];
         }
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
         ///
         /// 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg.
+        #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -374,64 +378,65 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
+            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
+            let t2 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
             let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let r1_12 = s1 * cos_r1_11;
-            let t2 = c1 * cos_r1_11;
-            let t3 = s1 * sin_r1_11;
-            let r1_23 = c1 * sin_r1_11;
+            let r1_12 = sin_1 * cos_r1_11;
+            let t3 = cos_1 * cos_r1_11;
+            let t4 = sin_1 * sin_r1_11;
+            let r1_23 = cos_1 * sin_r1_11;
             let (sin__s, cos__s) = _s.sin_cos();
-            let t4 = sin_r1_11 * cos__s;
-            let t5 = sin_r1_11 * sin__s;
-            let t6 = -t5;
-            let t7 = c1 * cos__s + r1_12 * sin__s;
-            let t8 = s1 * cos__s - t2 * sin__s;
-            let t9 = r1_12 * cos__s - c1 * sin__s;
-            let t10 = s1 * sin__s + t2 * cos__s;
-            let p2_z = -(t5 * self_);
-            let p2_x = p1_x + t7 * self_;
-            let p2_y = p1_y + t8 * self_;
-            let (sin_11, cos_11) = self_.atan2(q_).sin_cos();
-            let t12 = t7 * sin_11 - t3 * cos_11;
-            let t13 = r1_23 * cos_11 + t8 * sin_11;
-            let t14 = cos_r1_11 * cos_11 + t5 * sin_11;
-            let r2_11 = t3 * sin_11 + t7 * cos_11;
-            let r2_21 = t8 * cos_11 - r1_23 * sin_11;
-            let r2_31 = cos_r1_11 * sin_11 - t5 * cos_11;
-            let t15 = Some_.abs();
-            let (sin_16, cos_16) = t15.powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t9 * cos_16 + t12 * sin_16;
-            let r2_22 = t13 * sin_16 - t10 * cos_16;
-            let r2_32 = -(t4 * cos_16 + t14 * sin_16);
-            let r2_13 = t12 * cos_16 - t9 * sin_16;
-            let r2_23 = t10 * sin_16 + t13 * cos_16;
-            let r2_33 = t4 * sin_16 - t14 * cos_16;
-            let t17 = -(p2_y + s1 * ERRORS_);
-            let t18 = p2_x + c1 * ERRORS_;
-            let t19 = Some_.sign()
-                * (T::constant(2.7) * t15.powf(T::constant(1.7000000000000002)));
-            let t20 = r2_11 * t19;
-            let t21 = r2_21 * t19;
-            let t22 = T::constant(1.0) + r2_31 * t19;
-            let t23 = q_ / (q_ * q_ + self_ * self_);
-            let t24 = t9 * t23;
-            let t25 = -(t10 * t23);
-            let t26 = -(t4 * t23);
+            let t5 = sin_r1_11 * cos__s;
+            let t6 = sin_r1_11 * sin__s;
+            let t7 = -t6;
+            let t8 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t9 = sin_1.mul_sub(cos__s, t3 * sin__s);
+            let t10 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t11 = sin_1.mul_add(sin__s, t3 * cos__s);
+            let p2_z = -(t6 * self_);
+            let p2_x = t8.mul_add(self_, p1_x);
+            let p2_y = t9.mul_add(self_, p1_y);
+            let (sin_12, cos_12) = self_.atan2(q_).sin_cos();
+            let t13 = t8.mul_sub(sin_12, t4 * cos_12);
+            let t14 = r1_23.mul_add(cos_12, t9 * sin_12);
+            let t15 = cos_r1_11.mul_add(cos_12, t6 * sin_12);
+            let r2_11 = t4.mul_add(sin_12, t8 * cos_12);
+            let r2_21 = t9.mul_sub(cos_12, r1_23 * sin_12);
+            let r2_31 = cos_r1_11.mul_sub(sin_12, t6 * cos_12);
+            let t16 = Some_.abs();
+            let (sin_17, cos_17) = t16.powf(T::constant(2.7)).sin_cos();
+            let r2_12 = t10.mul_add(cos_17, t13 * sin_17);
+            let r2_22 = t14.mul_sub(sin_17, t11 * cos_17);
+            let r2_32 = -t5.mul_add(cos_17, t15 * sin_17);
+            let r2_13 = t13.mul_sub(cos_17, t10 * sin_17);
+            let r2_23 = t11.mul_add(sin_17, t14 * cos_17);
+            let r2_33 = t5.mul_sub(sin_17, t15 * cos_17);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            columns[0] = [t17, t18, zero, t20, t21, t22];
-            columns[1] = [t7, t8, t6, t24, t25, t26];
+            let t18 = -sin_1.mul_add(ERRORS_, p2_y);
+            let t19 = cos_1.mul_add(ERRORS_, p2_x);
+            let t20 = Some_.sign()
+                * (T::constant(2.7) * t16.powf(T::constant(1.7000000000000002)));
+            let t21 = r2_11 * t20;
+            let t22 = r2_21 * t20;
+            let t23 = r2_31.mul_add(t20, T::constant(1.0));
+            columns[0] = [t18, t19, zero, t21, t22, t23];
+            let t24 = q_ / q_.mul_add(q_, self_ * self_);
+            let t25 = t10 * t24;
+            let t26 = -(t11 * t24);
+            let t27 = -(t5 * t24);
+            columns[1] = [t8, t9, t7, t25, t26, t27];
         }
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
         ///
         /// 68 mul, 28 add, 1 div, 5 sincos, 3 other, 11 neg.
+        #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -441,80 +446,81 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
+            columns[4] = [zero; 6];
+            columns[5] = [zero; 6];
+            columns[7] = [zero; 6];
+            columns[8] = [zero; 6];
+            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
+            let t2 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
             let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
             let r1_33 = -cos_r1_11;
-            let r1_12 = s1 * cos_r1_11;
-            let t2 = c1 * cos_r1_11;
-            let t3 = s1 * sin_r1_11;
-            let r1_23 = c1 * sin_r1_11;
-            let r1_13 = -t3;
+            let r1_12 = sin_1 * cos_r1_11;
+            let t3 = cos_1 * cos_r1_11;
+            let t4 = sin_1 * sin_r1_11;
+            let r1_23 = cos_1 * sin_r1_11;
+            let r1_13 = -t4;
             let (sin__s, cos__s) = _s.sin_cos();
-            let t4 = sin_r1_11 * cos__s;
-            let t5 = sin_r1_11 * sin__s;
-            let t6 = c1 * cos__s + r1_12 * sin__s;
-            let t7 = s1 * cos__s - t2 * sin__s;
-            let t8 = r1_12 * cos__s - c1 * sin__s;
-            let t9 = s1 * sin__s + t2 * cos__s;
-            let t10 = t5 * self_;
-            let p2_z = -t10;
-            let p2_x = p1_x + t6 * self_;
-            let p2_y = p1_y + t7 * self_;
-            let (sin_11, cos_11) = self_.atan2(q_).sin_cos();
-            let t12 = t6 * sin_11 - t3 * cos_11;
-            let t13 = r1_23 * cos_11 + t7 * sin_11;
-            let t14 = cos_r1_11 * cos_11 + t5 * sin_11;
-            let r2_11 = t3 * sin_11 + t6 * cos_11;
-            let r2_21 = t7 * cos_11 - r1_23 * sin_11;
-            let r2_31 = cos_r1_11 * sin_11 - t5 * cos_11;
-            let (sin_15, cos_15) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t8 * cos_15 + t12 * sin_15;
-            let r2_22 = t13 * sin_15 - t9 * cos_15;
-            let r2_32 = -(t4 * cos_15 + t14 * sin_15);
-            let r2_13 = t12 * cos_15 - t8 * sin_15;
-            let r2_23 = t9 * sin_15 + t13 * cos_15;
-            let r2_33 = t4 * sin_15 - t14 * cos_15;
-            let lever1_x = p2_x - p1_x;
-            let lever1_y = p2_y - p1_y;
-            let t16 = -(s1 * t10);
-            let t17 = c1 * t10;
-            let t18 = c1 * lever1_y - s1 * lever1_x;
-            let t19 = cos_r1_11 * lever1_y - r1_23 * t10;
-            let t20 = -(cos_r1_11 * lever1_x + t3 * t10);
-            let t21 = -(t3 * lever1_y + r1_23 * lever1_x);
-            let t22 = self_ / (q_ * q_ + self_ * self_);
-            let t23 = -(t8 * t22);
-            let t24 = t9 * t22;
-            let t25 = t4 * t22;
-            let t26 = -(T * p2_y);
-            let t27 = T * p2_x;
-            let t28 = -(Some_ * s1);
-            let t29 = Some_ * c1;
-            let t30 = -(None_ * p2_y);
-            let t31 = None_ * p2_x;
+            let t5 = sin_r1_11 * cos__s;
+            let t6 = sin_r1_11 * sin__s;
+            let t7 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t8 = sin_1.mul_sub(cos__s, t3 * sin__s);
+            let t9 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t10 = sin_1.mul_add(sin__s, t3 * cos__s);
+            let t11 = t6 * self_;
+            let p2_z = -t11;
+            let p2_x = t7.mul_add(self_, p1_x);
+            let p2_y = t8.mul_add(self_, p1_y);
+            let (sin_12, cos_12) = self_.atan2(q_).sin_cos();
+            let t13 = t7.mul_sub(sin_12, t4 * cos_12);
+            let t14 = r1_23.mul_add(cos_12, t8 * sin_12);
+            let t15 = cos_r1_11.mul_add(cos_12, t6 * sin_12);
+            let r2_11 = t4.mul_add(sin_12, t7 * cos_12);
+            let r2_21 = t8.mul_sub(cos_12, r1_23 * sin_12);
+            let r2_31 = cos_r1_11.mul_sub(sin_12, t6 * cos_12);
+            let (sin_16, cos_16) = Some_.abs().powf(T::constant(2.7)).sin_cos();
+            let r2_12 = t9.mul_add(cos_16, t13 * sin_16);
+            let r2_22 = t14.mul_sub(sin_16, t10 * cos_16);
+            let r2_32 = -t5.mul_add(cos_16, t15 * sin_16);
+            let r2_13 = t13.mul_sub(cos_16, t9 * sin_16);
+            let r2_23 = t10.mul_add(sin_16, t14 * cos_16);
+            let r2_33 = t5.mul_sub(sin_16, t15 * cos_16);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            columns[0] = [c1, s1, zero, t23, t24, t25];
-            columns[1] = [t26, t27, zero, zero, zero, T];
-            columns[2] = [t28, t29, zero, zero, zero, zero];
-            columns[3] = [t30, t31, zero, zero, zero, None_];
-            columns[4] = [zero; 6];
-            columns[5] = [zero; 6];
-            columns[6] = [t16, t17, t18, c1, s1, zero];
-            columns[7] = [zero; 6];
-            columns[8] = [zero; 6];
-            columns[9] = [t19, t20, t21, r1_13, r1_23, r1_33];
+            let lever1_x = p2_x - p1_x;
+            let lever1_y = p2_y - p1_y;
+            let t17 = -(sin_1 * t11);
+            let t18 = cos_1 * t11;
+            let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
+            columns[6] = [t17, t18, t19, cos_1, sin_1, zero];
+            let t20 = cos_r1_11.mul_sub(lever1_y, r1_23 * t11);
+            let t21 = -cos_r1_11.mul_add(lever1_x, t4 * t11);
+            let t22 = -t4.mul_add(lever1_y, r1_23 * lever1_x);
+            columns[9] = [t20, t21, t22, r1_13, r1_23, r1_33];
+            let t23 = self_ / q_.mul_add(q_, self_ * self_);
+            let t24 = -(t9 * t23);
+            let t25 = t10 * t23;
+            let t26 = t5 * t23;
+            columns[0] = [cos_1, sin_1, zero, t24, t25, t26];
+            let t27 = -(T * p2_y);
+            let t28 = T * p2_x;
+            columns[1] = [t27, t28, zero, zero, zero, T];
+            let t29 = -(Some_ * sin_1);
+            let t30 = Some_ * cos_1;
+            columns[2] = [t29, t30, zero, zero, zero, zero];
+            let t31 = -(None_ * p2_y);
+            let t32 = None_ * p2_x;
+            columns[3] = [t31, t32, zero, zero, zero, None_];
         }
         /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 9 mul, 3 add, 4 div, 1 sqrt, 2 other.
+        #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -524,15 +530,16 @@ pub mod self_ {
             let [q_, _, _, T, zero_, t1, _, EI, pose_, _s] = *s;
             let [u_, columns_] = *u;
             let t1_ = u_ * (q_ * (q_ * q_)) / (T::constant(3.0) * EI) * t1.sqrt();
-            let t2 = t1_ / q_ + T::constant(1e-6) * zero_;
+            let t2 = zero_.mul_add(T::constant(1e-6), t1_ / q_);
             let t3 = T.tan();
-            let t4 = T::constant(1e-6) * columns_ + T::constant(1e-6) * pose_
+            let t4 = columns_.mul_add(T::constant(1e-6), T::constant(1e-6) * pose_)
                 + (_s / T::constant(2.0)).asin() / (t3 * t3);
             *effects = [t2, t4];
         }
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],

@@ -97,6 +97,7 @@ pub mod slide {
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -121,6 +122,7 @@ pub mod slide {
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn pose<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -139,6 +141,7 @@ pub mod slide {
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -164,6 +167,7 @@ pub mod slide {
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -184,6 +188,7 @@ pub mod slide {
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -203,6 +208,7 @@ pub mod slide {
         /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -214,6 +220,7 @@ pub mod slide {
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],

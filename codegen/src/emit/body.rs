@@ -4,7 +4,7 @@
 //! stays short; the order of the arithmetic, and so every bit of the result, stays the same.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::literal::number;
 use super::names::Names;
@@ -33,12 +33,34 @@ struct Written {
 /// The statements of a program, and its outputs as expressions.
 pub(super) struct Body {
     pub(super) statements: Vec<TokenStream>,
-    pub(super) outputs: Vec<TokenStream>,
+    pub(super) outputs: Vec<Output>,
+}
+
+/// A result of a program.
+pub(super) struct Output {
+    expression: TokenStream,
+    /// After how many statements it is known.
+    pub(super) ready: usize,
+    zero: bool,
+}
+
+impl Output {
+    /// Whether it is zero in every configuration.
+    pub(super) fn is_zero(&self) -> bool {
+        self.zero
+    }
+}
+
+impl ToTokens for Output {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        self.expression.to_tokens(tokens);
+    }
 }
 
 pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
     let mut writer = Writer { names, registers: vec![None; program.registers] };
     let mut statements = Vec::new();
+    let mut ready = vec![0; program.registers];
     // Results are written as they are, without arithmetic.
     let mut returned = vec![false; program.registers];
     for output in &program.outputs {
@@ -53,6 +75,7 @@ pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
             writer.registers[step.register] = Some(Written::name(&sine));
             writer.registers[step.register + 1] = Some(Written::name(&cosine));
             statements.push(quote!(let (#sine, #cosine) = #angle.sin_cos();));
+            ready[step.register..step.register + 2].fill(statements.len());
             continue;
         }
         let written = writer.write(step);
@@ -62,10 +85,16 @@ pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
         } else {
             let (name, tokens) = (writer.names.step(step.name.as_deref()), written.tokens);
             statements.push(quote!(let #name = #tokens;));
+            ready[step.register] = statements.len();
             writer.registers[step.register] = Some(Written::name(&name));
         }
     }
-    let outputs = program.outputs.iter().map(|output| writer.output(*output)).collect();
+    let output = |output: &Operand| Output {
+        expression: writer.output(*output),
+        ready: if let Operand::Register(register) = output { ready[*register] } else { 0 },
+        zero: *output == Operand::Constant(0.0),
+    };
+    let outputs = program.outputs.iter().map(output).collect();
     Body { statements, outputs }
 }
 
@@ -88,10 +117,13 @@ impl Writer<'_, '_> {
             Action::Sub(a, b) => self.infix(a, b, &quote!(-), Binding::Sum, Binding::Product),
             Action::Mul(a, b) => self.infix(a, b, &quote!(*), Binding::Product, Binding::Sign),
             Action::Div(a, b) => self.infix(a, b, &quote!(/), Binding::Product, Binding::Sign),
-            Action::Pow(a, b) => self.method(a, "powf", Some(b)),
-            Action::Atan2(a, b) => self.method(a, "atan2", Some(b)),
-            Action::Call(function, a) => self.method(a, function.name(), None),
-            Action::SinCos(a) => self.method(a, Function::Sin.name(), None),
+            Action::MulAdd(a, b, c) => self.fused(a, b, c, "mul_add"),
+            Action::MulSub(a, b, c) => self.fused(a, b, c, "mul_sub"),
+            Action::NegMulAdd(a, b, c) => self.fused(a, b, c, "neg_mul_add"),
+            Action::Pow(a, b) => self.method(a, "powf", &[b]),
+            Action::Atan2(a, b) => self.method(a, "atan2", &[b]),
+            Action::Call(function, a) => self.method(a, function.name(), &[]),
+            Action::SinCos(a) => self.method(a, Function::Sin.name(), &[]),
         }
     }
 
@@ -103,13 +135,21 @@ impl Writer<'_, '_> {
         Written { tokens: quote!(#a #sign #b), binding: own, operations }
     }
 
-    fn method(&self, a: Operand, name: &str, argument: Option<Operand>) -> Written {
+    /// `a · b ± c`, a number that is constant as the second factor.
+    fn fused(&self, a: Operand, b: Operand, c: Operand, name: &str) -> Written {
+        let (a, b) = if matches!(a, Operand::Constant(_)) { (b, a) } else { (a, b) };
+        let mut written = self.method(a, name, &[b, c]);
+        written.operations += 1;
+        written
+    }
+
+    fn method(&self, a: Operand, name: &str, arguments: &[Operand]) -> Written {
         let name = format_ident!("{name}");
         let a = self.operand(a);
-        let argument = argument.map(|argument| self.operand(argument));
-        let operations = a.operations + argument.as_ref().map_or(0, |b| b.operations) + 1;
-        let (a, argument) = (a.at_least(Binding::Atom), argument.map(|argument| argument.tokens));
-        Written { tokens: quote!(#a.#name(#argument)), binding: Binding::Atom, operations }
+        let arguments = arguments.iter().map(|argument| self.operand(*argument)).collect::<Vec<_>>();
+        let operations = a.operations + arguments.iter().map(|b| b.operations).sum::<usize>() + 1;
+        let (a, arguments) = (a.at_least(Binding::Atom), arguments.into_iter().map(|b| b.tokens));
+        Written { tokens: quote!(#a.#name(#(#arguments),*)), binding: Binding::Atom, operations }
     }
 
     fn operand(&self, operand: Operand) -> Written {

@@ -1,9 +1,9 @@
 //! The array functions of a module: generic over the scalar, without checks.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
-use super::body::body;
+use super::body::{Output, body};
 use super::names::Names;
 use crate::expr::Symbol;
 use crate::program::{FunctionKind, Operand, Program};
@@ -40,7 +40,9 @@ pub(super) fn raw_function(spec: &Spec, kind: FunctionKind, program: &Program) -
     }
     let (results, margin) = results(spec, kind, &body.outputs);
     let result_arguments = results.iter().map(|result| &result.argument);
-    let assignments = results.iter().flat_map(|result| &result.assignments);
+    let mut assignments = results.iter().flat_map(|result| &result.assignments).collect::<Vec<_>>();
+    assignments.sort_by_key(|assignment| assignment.ready);
+    let mut assignments = assignments.into_iter().peekable();
     let constants = [(0.0, "zero"), (1.0, "one")].into_iter().filter_map(|(value, name)| {
         let name = format_ident!("{name}");
         let literal = super::literal::number(value);
@@ -51,15 +53,22 @@ pub(super) fn raw_function(spec: &Spec, kind: FunctionKind, program: &Program) -
     });
     let returned = margin.as_ref().map(|_| quote!(-> T));
     let name = format_ident!("{}", kind.name());
-    let statements = &body.statements;
+    // What is known is written at once, so that it need not be kept.
+    let mut statements = Vec::new();
+    for known in 0..=body.statements.len() {
+        statements.extend(known.checked_sub(1).map(|last| &body.statements[last]));
+        while let Some(assignment) = assignments.next_if(|assignment| assignment.ready == known) {
+            statements.push(&assignment.statement);
+        }
+    }
     let documentation = documentation(kind, program, margin.is_some());
     quote! {
         #(#[doc = #documentation])*
+        #[inline(always)]
         pub fn #name<T: Scalar>(#(#arguments,)* #(#result_arguments),*) #returned {
             #(#bindings)*
             #(#constants)*
             #(#statements)*
-            #(#assignments)*
             #margin
         }
     }
@@ -79,34 +88,49 @@ fn used_symbols(program: &Program) -> Vec<Symbol> {
 /// An argument that a function fills.
 struct FilledArgument {
     argument: TokenStream,
-    assignments: Vec<TokenStream>,
+    assignments: Vec<Assignment>,
+}
+
+/// A statement that writes results.
+struct Assignment {
+    statement: TokenStream,
+    /// After how many statements of the body all of them are known.
+    ready: usize,
+}
+
+impl Assignment {
+    fn new(values: &[Output], statement: TokenStream) -> Self {
+        Self { statement, ready: values.iter().map(|value| value.ready).max().unwrap_or(0) }
+    }
 }
 
 fn results(
     spec: &Spec,
     kind: FunctionKind,
-    outputs: &[TokenStream],
+    outputs: &[Output],
 ) -> (Vec<FilledArgument>, Option<TokenStream>) {
-    let matrix = |values: &[TokenStream]| {
+    let matrix = |values: &[Output]| {
         let columns = values.chunks(3).map(|column| quote!([#(#column),*]));
         quote!([#(#columns),*])
     };
-    let pose = |values: &[TokenStream]| {
+    let pose = |values: &[Output]| {
         let value = matrix(values);
         FilledArgument {
             argument: quote!(pose: &mut [[T; 3]; 4]),
-            assignments: vec![quote!(*pose = #value;)],
+            assignments: vec![Assignment::new(values, quote!(*pose = #value;))],
         }
     };
-    let rows = |name: &str, size: TokenStream, width: usize, values: &[TokenStream]| {
+    let rows = |name: &str, size: TokenStream, width: usize, values: &[Output]| {
         let name = format_ident!("{name}");
         let assignments = values.chunks(width).enumerate().map(|(i, row)| {
             let i = proc_macro2::Literal::usize_unsuffixed(i);
-            if row.iter().all(|entry| entry.to_string() == "zero") {
+            let statement = if row.iter().all(Output::is_zero) {
                 let width = proc_macro2::Literal::usize_unsuffixed(width);
-                return quote!(#name[#i] = [zero; #width];);
-            }
-            quote!(#name[#i] = [#(#row),*];)
+                quote!(#name[#i] = [zero; #width];)
+            } else {
+                quote!(#name[#i] = [#(#row),*];)
+            };
+            Assignment::new(row, statement)
         });
         let assignments = assignments.collect();
         let width = proc_macro2::Literal::usize_unsuffixed(width);
@@ -116,7 +140,7 @@ fn results(
         FunctionKind::Transforms => {
             let assignments = outputs.chunks(12).enumerate().map(|(i, values)| {
                 let (i, value) = (proc_macro2::Literal::usize_unsuffixed(i), matrix(values));
-                quote!(transforms[#i] = #value;)
+                Assignment::new(values, quote!(transforms[#i] = #value;))
             });
             let assignments = assignments.collect();
             let argument = quote!(transforms: &mut [[[T; 3]; 4]; FRAMES + 1]);
@@ -126,7 +150,7 @@ fn results(
         FunctionKind::ErrorJacobian | FunctionKind::JointJacobian | FunctionKind::ParameterJacobian => {
             let euler = spec.orientation == Orientation::EulerYzx;
             let (outputs, margin) = match outputs.split_last() {
-                Some((margin, outputs)) if euler => (outputs, Some(margin.clone())),
+                Some((margin, outputs)) if euler => (outputs, Some(margin.to_token_stream())),
                 _ => (outputs, None),
             };
             let size = match kind {
@@ -140,7 +164,7 @@ fn results(
             (vec![pose(first), columns], margin)
         }
         FunctionKind::Effects => {
-            let assignments = vec![quote!(*effects = [#(#outputs),*];)];
+            let assignments = vec![Assignment::new(outputs, quote!(*effects = [#(#outputs),*];))];
             (vec![FilledArgument { argument: quote!(effects: &mut [T; EFFECTS]), assignments }], None)
         }
         FunctionKind::GeneralizedErrors => (vec![rows("errors", quote!(FRAMES), 6, outputs)], None),

@@ -34,6 +34,10 @@ impl Program {
                 Action::Neg(_) => &mut count.neg,
                 Action::Add(..) | Action::Sub(..) => &mut count.add,
                 Action::Mul(..) => &mut count.mul,
+                Action::MulAdd(..) | Action::MulSub(..) | Action::NegMulAdd(..) => {
+                    count.add += 1;
+                    &mut count.mul
+                }
                 Action::Div(..) => &mut count.div,
                 Action::SinCos(_) | Action::Call(Function::Sin | Function::Cos, _) => &mut count.sincos,
                 Action::Call(Function::Sqrt, _) => &mut count.sqrt,

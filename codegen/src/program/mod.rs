@@ -5,6 +5,7 @@
 
 mod count;
 mod functions;
+mod fuse;
 mod straight_line;
 
 pub use count::Operations;

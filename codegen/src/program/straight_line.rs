@@ -25,6 +25,12 @@ pub enum Action {
     Sub(Operand, Operand),
     /// `a · b`.
     Mul(Operand, Operand),
+    /// `a · b + c`.
+    MulAdd(Operand, Operand, Operand),
+    /// `a · b - c`.
+    MulSub(Operand, Operand, Operand),
+    /// `c - a · b`.
+    NegMulAdd(Operand, Operand, Operand),
     /// `a / b`.
     Div(Operand, Operand),
     /// `a ^ b`.
@@ -38,18 +44,19 @@ pub enum Action {
 }
 
 impl Action {
-    /// The operands, one or two.
+    /// The operands, one to three.
     pub fn operands(self) -> impl Iterator<Item = Operand> {
-        let (first, second) = match self {
-            Self::Neg(a) | Self::Call(_, a) | Self::SinCos(a) => (a, None),
+        let (first, second, third) = match self {
+            Self::Neg(a) | Self::Call(_, a) | Self::SinCos(a) => (a, None, None),
             Self::Add(a, b)
             | Self::Sub(a, b)
             | Self::Mul(a, b)
             | Self::Div(a, b)
             | Self::Pow(a, b)
-            | Self::Atan2(a, b) => (a, Some(b)),
+            | Self::Atan2(a, b) => (a, Some(b), None),
+            Self::MulAdd(a, b, c) | Self::MulSub(a, b, c) | Self::NegMulAdd(a, b, c) => (a, Some(b), Some(c)),
         };
-        [Some(first), second].into_iter().flatten()
+        [Some(first), second, third].into_iter().flatten()
     }
 }
 
@@ -99,6 +106,7 @@ impl Program {
         }
         program.outputs = outputs.iter().filter_map(|node| values[node.index()]).collect();
         program.count_uses();
+        program.fuse();
         program
     }
 
@@ -145,7 +153,7 @@ impl Program {
         self.steps.push(Step { register, action, name });
     }
 
-    fn count_uses(&mut self) {
+    pub(super) fn count_uses(&mut self) {
         let mut uses = vec![0; self.registers];
         let operands = self.steps.iter().flat_map(|step| step.action.operands());
         for operand in operands.chain(self.outputs.iter().copied()) {
