@@ -22,6 +22,14 @@ pub enum Quantity {
     Jacobian,
     /// The generalized errors of the sources.
     Errors,
+    /// The rows of arguments of a batch.
+    Arguments,
+    /// The rows of results of a batch.
+    Results,
+    /// The configurations of a batch.
+    Configurations,
+    /// The lanes of a batch.
+    Lanes,
 }
 
 impl fmt::Display for Quantity {
@@ -33,6 +41,10 @@ impl fmt::Display for Quantity {
             Self::Pose => "pose entry",
             Self::Jacobian => "Jacobian column",
             Self::Errors => "effect of a source",
+            Self::Arguments => "row of arguments",
+            Self::Results => "row of results",
+            Self::Configurations => "configuration of a batch",
+            Self::Lanes => "lane",
         })
     }
 }

@@ -44,6 +44,7 @@
 //! # }
 //! ```
 
+mod batches;
 mod contract;
 mod derivatives;
 mod differences;
@@ -53,6 +54,7 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
+pub use batches::batches;
 pub use contract::{contract, pose};
 pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian};
 pub use failure::{Discrepancy, Failure};
@@ -72,6 +74,7 @@ pub const SLOPE_TOLERANCE: f64 = 0.05;
 /// All laws, each to its tolerance.
 pub fn all(manipulator: &dyn Manipulator, samples: usize) -> Result<(), Failure> {
     contract(manipulator, samples)?.within("outputs", ROUNDING_TOLERANCE)?;
+    batches(manipulator, samples)?.within("batches", ROUNDING_TOLERANCE)?;
     pose(manipulator, samples)?.within("pose", ROUNDING_TOLERANCE)?;
     error_jacobian(manipulator, samples)?.within("error Jacobian", DERIVATIVE_TOLERANCE)?;
     joint_jacobian(manipulator, samples)?.within("joint Jacobian", DERIVATIVE_TOLERANCE)?;
@@ -100,6 +103,12 @@ macro_rules! test_manipulator {
             fn outputs_are_finite_and_bad_inputs_are_refused() {
                 let found = holds(laws::contract(&$manipulator, laws::SAMPLES));
                 holds(found.within("outputs", laws::ROUNDING_TOLERANCE));
+            }
+
+            #[test]
+            fn batches_say_what_single_configurations_say() {
+                let found = holds(laws::batches(&$manipulator, laws::SAMPLES));
+                holds(found.within("batches", laws::ROUNDING_TOLERANCE));
             }
 
             #[test]

@@ -30,9 +30,12 @@ mod faces;
 mod manipulator;
 mod pose;
 mod scalar;
+mod sin_cos;
 
 #[cfg(feature = "analysis")]
 pub mod analysis;
+#[cfg(feature = "lanes")]
+pub mod lanes;
 #[cfg(feature = "analysis")]
 pub mod laws;
 

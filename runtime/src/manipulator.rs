@@ -44,29 +44,17 @@ pub trait Manipulator: Sync {
         errors: &mut [[f64; 6]],
     ) -> Result<(), Error>;
 
-    /// Pose, error Jacobian and effects of many configurations at once, configuration after configuration.
+    /// A function of many configurations at once, see [`Path`](crate::lanes::Path) for what it takes and gives.
     ///
-    /// `q`, `s`, `u` and the results hold one row per configuration; there are `poses.len()` of them. An
-    /// error comes with the index of its configuration, and the results are then unspecified.
-    fn error_models(
+    /// Nothing but counts is checked: what is not finite, or not defined, stays so in its configuration. By default
+    /// one configuration after the other; generated and interpreted manipulators fill the lanes of the machine.
+    #[cfg(feature = "lanes")]
+    fn batch(
         &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        poses: &mut [Pose],
-        columns: &mut [[f64; 6]],
-        effects: &mut [f64],
-    ) -> Result<(), (usize, Error)> {
-        let counts = self.description();
-        let row = |values: usize, i: usize| i * values..(i + 1) * values;
-        for (i, pose) in poses.iter_mut().enumerate() {
-            let q = &q[row(counts.variables.len(), i)];
-            let s = &s[row(counts.parameters.len(), i)];
-            let u = &u[row(counts.inputs.len(), i)];
-            let at = |error| (i, error);
-            *pose = self.error_jacobian(q, s, &mut columns[row(6 * counts.frames.len(), i)]).map_err(at)?;
-            self.effects(q, s, u, &mut effects[row(counts.effects.len(), i)]).map_err(at)?;
-        }
-        Ok(())
+        path: crate::lanes::Path,
+        arguments: &crate::lanes::Tiles,
+        results: &mut crate::lanes::Tiles,
+    ) -> Result<(), Error> {
+        crate::lanes::one_by_one(self, path, arguments, results)
     }
 }

@@ -56,7 +56,7 @@ pub trait Scalar:
 }
 
 macro_rules! scalar {
-    ($float:ident, $($function:ident: $libm:ident),+; $sincos:ident, $atan2:ident, $pow:ident) => {
+    ($float:ident, $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
         impl Scalar for $float {
             #[inline]
             fn constant(value: f64) -> Self {
@@ -64,10 +64,8 @@ macro_rules! scalar {
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                #[cfg(feature = "std")]
-                { $float::sin_cos(self) }
-                #[cfg(not(feature = "std"))]
-                { libm::$sincos(self) }
+                let (sine, cosine) = crate::sin_cos::scalar(self.into());
+                (sine as $float, cosine as $float)
             }
             $(
                 #[inline]
@@ -101,6 +99,6 @@ macro_rules! scalar {
 }
 
 scalar!(f64, sin: sin, cos: cos, tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs;
-    sincos, atan2, pow);
+    atan2, pow);
 scalar!(f32, sin: sinf, cos: cosf, tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf;
-    sincosf, atan2f, powf);
+    atan2f, powf);

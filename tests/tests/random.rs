@@ -133,7 +133,7 @@ fn zero_and_one_sided_sources_have_clear_results() {
     "#);
     let robot = Interpreter::new(&spec);
     let workspace = joint_samples(&robot, &[0, 1], 500).unwrap();
-    let budget = error_budget(&robot, &workspace, &[], &mut |_| ()).unwrap();
+    let budget = error_budget(&robot, &workspace, &[], None, &mut ()).unwrap();
     let [nothing, one_sided] = &budget.sources[..] else { panic!("two sources") };
     assert_eq!((nothing.plain_max.norm, nothing.rms), (0.0, 0.0));
     // It never goes below nothing, so half of what it varies by is half of the largest.

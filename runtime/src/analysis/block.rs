@@ -3,154 +3,227 @@
 use core::ops::Range;
 
 use super::{Configuration, Row, Unevaluated, Unreachable, Unreached, Workspace};
-use crate::{Class, Error, Manipulator, Pose, Quantity};
+use crate::lanes::{InstructionSet, Kernel, Lanes, Path, Register, Tiles};
+use crate::{Class, Error, MINIMUM_MARGIN, Manipulator, Orientation, Pose, Quantity, Scalar};
 
-/// What a block of configurations came to: everything that a [`Row`] shows, row after row.
-pub(super) struct Block {
-    indices: Vec<usize>,
-    q: Vec<f64>,
-    s: Vec<f64>,
-    poses: Vec<Pose>,
-    sources: Vec<[f64; 6]>,
-    sums: Vec<Sums>,
+/// A block of configurations, evaluated again and again for others.
+pub(super) struct Block<'a> {
+    manipulator: &'a dyn Manipulator,
+    workspace: &'a dyn Workspace,
+    /// What the results of every source are multiplied with.
+    bounds: Vec<f64>,
+    /// Index in the workspace of every configuration that is reached.
+    pub(super) indices: Vec<usize>,
+    arguments: Tiles,
+    /// ΔX of every source, of a random one its bound: six rows each, and the margin of Euler rows.
+    pub(super) displacements: Tiles,
     pub(super) unreachable: Vec<Unreachable>,
 }
 
-/// The repeatable sources summed, the random ones as root sum of squares.
-struct Sums {
-    repeatable: [f64; 6],
-    random: [f64; 6],
-}
-
-impl Block {
-    /// Evaluates the configurations of a range of indices.
+impl<'a> Block<'a> {
+    /// Of a manipulator in a workspace with inputs `u`, for as many configurations as are asked for at most.
     pub(super) fn new(
-        manipulator: &dyn Manipulator,
-        workspace: &dyn Workspace,
+        manipulator: &'a dyn Manipulator,
+        workspace: &'a dyn Workspace,
         u: &[f64],
-        range: Range<usize>,
-    ) -> Result<Self, Unevaluated> {
-        let mut block = Self::reached(workspace, range);
+        size: usize,
+    ) -> Self {
         let description = manipulator.description();
-        let (columns_each, effects_each) = (6 * description.frames.len(), description.effects.len());
-        let (rows, columns, effects) = loop {
-            let rows = block.indices.len();
-            let mut columns = vec![[0.0; 6]; rows * columns_each];
-            let mut effects = vec![0.0; rows * effects_each];
-            block.poses.resize(rows, Pose::IDENTITY);
-            let Block { q, s, poses, .. } = &mut block;
-            match manipulator.error_models(q, s, &u.repeat(rows), poses, &mut columns, &mut effects) {
-                Ok(()) => break (rows, columns, effects),
-                // Where Euler rows do not exist there is nothing to sum up: set aside and counted, like a point
-                // that cannot be reached.
-                Err((i, error @ Error::EulerSingularity { .. })) if i < rows => {
-                    block.set_aside(workspace, i, error);
-                }
-                Err((i, error)) => return Err(block.at(i, error)),
-            }
-        };
-
-        block.unreachable.sort_by_key(|unreachable| unreachable.index);
-
-        // Of every effect: its source, its column of J_e, and what its value is multiplied with.
-        let parts = description.effects.iter().map(|effect| {
-            let column = 6 * effect.frame + effect.component.index();
-            (effect.source, column, bound(description.sources[effect.source].class))
+        let rows = |path: Path| (path.arguments(&description), path.results(&description));
+        let (given, wanted) = rows(Path::SourceDisplacements);
+        let set = InstructionSet::best();
+        let mut arguments = Tiles::new(set, given, size);
+        for (input, value) in u.iter().enumerate() {
+            arguments.fill_row(given - u.len() + input, *value);
+        }
+        let bounds = description.sources.iter().map(|source| match source.class {
+            Class::Repeatable => 1.0,
+            Class::Random(distribution) => distribution.bound(),
         });
-        let parts = parts.collect::<Vec<_>>();
-        let sources_each = description.sources.len();
-        block.sources.resize(rows * sources_each, [0.0; 6]);
-        for i in 0..rows {
-            let columns = &columns[i * columns_each..][..columns_each];
-            let effects = &effects[i * effects_each..][..effects_each];
-            let sources = &mut block.sources[i * sources_each..][..sources_each];
-            for (&(source, column, bound), value) in parts.iter().zip(effects) {
-                add_scaled(&mut sources[source], &columns[column], value * bound);
-            }
-            let (mut repeatable, mut squares) = ([0.0; 6], [0.0; 6]);
-            for (source, deviation) in description.sources.iter().zip(&*sources) {
-                match source.class {
-                    Class::Repeatable => add_scaled(&mut repeatable, deviation, 1.0),
-                    Class::Random(_) => add_scaled(&mut squares, &deviation.map(|row| row * row), 1.0),
-                }
-            }
-            if repeatable.iter().chain(&squares).any(|row| !row.is_finite()) {
-                let infinite = |sum: &[f64; 6]| sum.iter().any(|row| !row.is_finite());
-                let source = sources.iter().position(infinite).unwrap_or(0);
-                let index = parts.iter().position(|part| part.0 == source).unwrap_or(0);
-                return Err(block.at(i, Error::NotFinite { quantity: Quantity::Errors, index }));
-            }
-            block.sums.push(Sums { repeatable, random: squares.map(f64::sqrt) });
+        Self {
+            manipulator,
+            workspace,
+            bounds: bounds.collect(),
+            indices: Vec::with_capacity(size),
+            arguments,
+            displacements: Tiles::new(set, wanted, size),
+            unreachable: Vec::new(),
         }
-        Ok(block)
     }
 
-    /// The configurations that can be reached, and why the others cannot.
-    fn reached(workspace: &dyn Workspace, range: Range<usize>) -> Self {
-        let home = workspace.home();
-        let (mut q, mut s) = (Vec::new(), Vec::new());
-        q.reserve_exact(range.len() * home.q.len());
-        s.reserve_exact(range.len() * home.s.len());
-        let (mut indices, mut unreachable) = (Vec::with_capacity(range.len()), Vec::new());
-        for index in range {
-            let (q_end, s_end) = (q.len(), s.len());
-            q.resize(q_end + home.q.len(), 0.0);
-            s.resize(s_end + home.s.len(), 0.0);
-            match workspace.fill(index, &mut q[q_end..], &mut s[s_end..]) {
-                Ok(()) => indices.push(index),
-                Err(reason) => {
-                    let asked = Configuration { q: q.split_off(q_end), s: s.split_off(s_end) };
-                    unreachable.push(Unreachable { index, point: workspace.point(index), asked, reason });
-                }
-            }
-        }
-        Self { indices, q, s, poses: Vec::new(), sources: Vec::new(), sums: Vec::new(), unreachable }
-    }
-
-    fn set_aside(&mut self, workspace: &dyn Workspace, i: usize, error: Error) {
-        let (variables, parameters) = (workspace.home().q.len(), workspace.home().s.len());
-        let asked = Configuration {
-            q: self.q.drain(i * variables..(i + 1) * variables).collect(),
-            s: self.s.drain(i * parameters..(i + 1) * parameters).collect(),
-        };
-        let index = self.indices.remove(i);
-        let reason = Unreached::Evaluation(error);
-        self.unreachable.push(Unreachable { index, point: workspace.point(index), asked, reason });
-    }
-
-    fn at(&self, i: usize, error: Error) -> Unevaluated {
-        Unevaluated { configuration: self.indices.get(i).copied(), error }
-    }
-
-    /// Visits the rows. The place holds one configuration at a time, as long as those of the workspace.
-    pub(super) fn visit(&self, place: &mut Configuration, visit: &mut dyn FnMut(&Row)) {
-        let (variables, parameters) = (place.q.len(), place.s.len());
-        let sources = self.sources.len() / self.indices.len().max(1);
-        for (i, sums) in self.sums.iter().enumerate() {
-            place.q.copy_from_slice(&self.q[i * variables..][..variables]);
-            place.s.copy_from_slice(&self.s[i * parameters..][..parameters]);
-            visit(&Row {
-                index: self.indices[i],
-                configuration: place,
-                pose: self.poses[i],
-                sources: &self.sources[i * sources..][..sources],
-                repeatable: sums.repeatable,
-                random: sums.random,
+    /// Evaluates the configurations of a range of indices, no more than there is room for.
+    pub(super) fn evaluate(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
+        self.fill(range);
+        loop {
+            let batch =
+                self.manipulator.batch(Path::SourceDisplacements, &self.arguments, &mut self.displacements);
+            batch.map_err(|error| self.at(0, error))?;
+            let euler = self.manipulator.description().orientation == Orientation::EulerYzx;
+            let sound = self.displacements.set().run(Scaled {
+                displacements: &mut self.displacements,
+                bounds: &self.bounds,
+                euler,
             });
+            let reached = self.indices.len();
+            if sound || reached == 0 {
+                break;
+            }
+            self.set_aside()?;
+            if self.indices.len() == reached {
+                break;
+            }
+        }
+        self.unreachable.sort_by_key(|unreachable| unreachable.index);
+        Ok(())
+    }
+
+    /// Writes those configurations of a range that can be reached, one after the other.
+    fn fill(&mut self, range: Range<usize>) {
+        self.indices.clear();
+        self.arguments.resize(range.len());
+        if self.workspace.fill_rows(range.clone(), &mut self.arguments) {
+            self.indices.extend(range);
+        } else {
+            let mut place = self.workspace.home().clone();
+            for index in range {
+                match self.workspace.fill(index, &mut place.q, &mut place.s) {
+                    Ok(()) => {
+                        self.write(self.indices.len(), &place);
+                        self.indices.push(index);
+                    }
+                    Err(reason) => {
+                        let (point, asked) = (self.workspace.point(index), place.clone());
+                        self.unreachable.push(Unreachable { index, point, asked, reason });
+                    }
+                }
+            }
+        }
+        self.finish_filling();
+    }
+
+    fn finish_filling(&mut self) {
+        self.arguments.resize(self.indices.len());
+        self.arguments.pad();
+        self.displacements.resize(self.indices.len());
+    }
+
+    fn write(&mut self, place: usize, configuration: &Configuration) {
+        for (row, value) in configuration.q.iter().chain(&configuration.s).enumerate() {
+            self.arguments.set_value(row, place, *value);
+        }
+    }
+
+    /// Reads a configuration back, as long as those of the workspace.
+    pub(super) fn configuration(&self, place: usize, configuration: &mut Configuration) {
+        let variables = configuration.q.len();
+        self.arguments.copy_rows(0..variables, place, &mut configuration.q);
+        self.arguments.copy_rows(variables..variables + configuration.s.len(), place, &mut configuration.s);
+    }
+
+    /// Where Euler rows do not exist there is nothing to sum up: set aside and counted, like a point that cannot be
+    /// reached. What else is not finite is an error.
+    fn set_aside(&mut self) -> Result<(), Unevaluated> {
+        let description = self.manipulator.description();
+        let mut here = self.workspace.home().clone();
+        let u: Vec<f64> = (here.q.len() + here.s.len()..self.arguments.rows())
+            .map(|row| self.arguments.get(row, 0))
+            .collect();
+        let mut kept = 0;
+        for place in 0..self.indices.len() {
+            self.configuration(place, &mut here);
+            let index = self.indices[place];
+            let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+            let mut effects = vec![0.0; description.effects.len()];
+            let evaluated = self.manipulator.error_jacobian(&here.q, &here.s, &mut columns);
+            let evaluated =
+                evaluated.and_then(|_| self.manipulator.effects(&here.q, &here.s, &u, &mut effects));
+            match evaluated {
+                Ok(()) => {
+                    let infinite = |source: &usize| {
+                        (0..6).any(|row| !self.displacements.get(6 * source + row, place).is_finite())
+                    };
+                    if let Some(source) = (0..description.sources.len()).find(infinite) {
+                        let effect = description.effects.iter().position(|effect| effect.source == source);
+                        let index = effect.unwrap_or(0);
+                        return Err(self.at(place, Error::NotFinite { quantity: Quantity::Errors, index }));
+                    }
+                    self.indices[kept] = index;
+                    self.write(kept, &here);
+                    kept += 1;
+                }
+                Err(error @ Error::EulerSingularity { .. }) => {
+                    let (point, reason) = (self.workspace.point(index), Unreached::Evaluation(error));
+                    self.unreachable.push(Unreachable { index, point, asked: here.clone(), reason });
+                }
+                Err(error) => return Err(self.at(place, error)),
+            }
+        }
+        self.indices.truncate(kept);
+        self.finish_filling();
+        Ok(())
+    }
+
+    fn at(&self, place: usize, error: Error) -> Unevaluated {
+        Unevaluated { configuration: self.indices.get(place).copied(), error }
+    }
+
+    /// Visits the rows in order. The place holds one configuration at a time, as long as those of the workspace.
+    pub(super) fn visit(&self, here: &mut Configuration, visit: &mut dyn FnMut(&Row)) {
+        let description = self.manipulator.description();
+        let mut poses = Tiles::new(self.arguments.set(), 12, self.indices.len());
+        let posed = self.manipulator.batch(Path::Pose, &self.arguments, &mut poses);
+        debug_assert!(posed.is_ok(), "the same arguments served before");
+        let mut sources = vec![[0.0; 6]; description.sources.len()];
+        for (place, &index) in self.indices.iter().enumerate() {
+            self.configuration(place, here);
+            let mut pose = Pose::IDENTITY;
+            poses.copy_rows(0..12, place, pose.0.as_flattened_mut());
+            self.displacements.copy_rows(0..6 * sources.len(), place, sources.as_flattened_mut());
+            let (mut repeatable, mut squares) = ([0.0; 6], [0.0; 6]);
+            for (source, deviation) in description.sources.iter().zip(&sources) {
+                for (row, entry) in deviation.iter().enumerate() {
+                    match source.class {
+                        Class::Repeatable => repeatable[row] += entry,
+                        Class::Random(_) => squares[row] += entry * entry,
+                    }
+                }
+            }
+            let random = squares.map(f64::sqrt);
+            visit(&Row { index, configuration: here, pose, sources: &sources, repeatable, random });
         }
     }
 }
 
-/// What a source's value is multiplied with: its sign counts, or its bound.
-fn bound(class: Class) -> f64 {
-    match class {
-        Class::Repeatable => 1.0,
-        Class::Random(distribution) => distribution.bound(),
-    }
+/// Multiplies the displacements of every source with its bound, and says whether all are sound.
+struct Scaled<'a> {
+    displacements: &'a mut Tiles,
+    bounds: &'a [f64],
+    euler: bool,
 }
 
-fn add_scaled(sum: &mut [f64; 6], column: &[f64; 6], factor: f64) {
-    for (sum, entry) in sum.iter_mut().zip(column) {
-        *sum += entry * factor;
+impl Kernel for Scaled<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<R: Register>(self) -> bool {
+        let zero = Lanes::<R>::constant(0.0);
+        // What is finite times 0 is 0, anything else is not.
+        let (mut nothing, mut margin) = (zero, Lanes::constant(f64::INFINITY));
+        for tile in 0..self.displacements.tiles() {
+            let rows = self.displacements.tile_mut::<R>(tile);
+            for (bound, rows) in self.bounds.iter().zip(rows.chunks_exact_mut(6)) {
+                let bound = Lanes::constant(*bound);
+                for row in rows {
+                    *row = *row * bound;
+                    nothing = row.mul_add(zero, nothing);
+                }
+            }
+            if self.euler {
+                margin = margin.min(rows[6 * self.bounds.len()]);
+                nothing = rows[6 * self.bounds.len()].mul_add(zero, nothing);
+            }
+        }
+        nothing.to_slice().iter().all(|value| *value == 0.0)
+            && margin.to_slice().iter().all(|margin| *margin >= MINIMUM_MARGIN)
     }
 }

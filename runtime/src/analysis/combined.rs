@@ -1,11 +1,11 @@
 //! What all sources do together over the workspace.
 
-use super::covariance::{covariance, eigenvalue_bound};
-use super::enclosing::{Enclosing, Sphere};
-use super::sampling::norm;
-use super::single::position;
-use super::{Ellipsoid, Row};
-use crate::Source;
+use super::Ellipsoid;
+use super::enclosing::{Enclosing, Shell, Sphere};
+use super::peak::{self, Peak};
+use super::together::Together;
+use crate::Scalar;
+use crate::lanes::{Lanes, Register};
 
 /// The largest value over the workspace, and where.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,76 +61,221 @@ pub struct Combined {
     pub enclosing: Sphere,
 }
 
-/// Gathers [`Combined`] configuration by configuration.
-pub(super) struct Gather<'a> {
-    sources: &'a [Source<'a>],
+/// Largest eigenvalues that differ by less than this share of them count as equal.
+const ALIKE: f64 = 1e-9;
+
+impl Combined {
+    /// Takes in what follows, but for the spheres, which [`Gathered`] has.
+    fn merge(&mut self, other: &Self) {
+        for (here, other) in [
+            (&mut self.repeatable_radius, &other.repeatable_radius),
+            (&mut self.random_radius, &other.random_radius),
+            (&mut self.radius, &other.radius),
+            (&mut self.standard_radius, &other.standard_radius),
+            (&mut self.worst_case_radius, &other.worst_case_radius),
+        ] {
+            if let Some(index) = other.configuration {
+                here.add(index, other.value);
+            }
+        }
+        for (here, other) in [
+            (&mut self.repeatable, other.repeatable),
+            (&mut self.random, other.random),
+            (&mut self.standard_deviation, other.standard_deviation),
+            (&mut self.worst_case, other.worst_case),
+        ] {
+            *here = core::array::from_fn(|i| here[i].max(other[i]));
+        }
+        if other.ellipsoid.semi_axes[0] > self.ellipsoid.semi_axes[0] {
+            self.ellipsoid = other.ellipsoid;
+        }
+    }
+}
+
+/// What was gathered over some configurations: [`Combined`] without the last steps.
+pub(super) struct Gathered {
     combined: Combined,
-    /// How many configurations, and the sums of squares of the three norms.
-    count: usize,
+    /// The sums of squares of the three norms.
     squares: [f64; 3],
-    enclosing: Enclosing,
+    /// The errors that may be on the sphere around all, in order, and how far the others are from its beginning.
+    outside: Vec<[f64; 3]>,
+    inside: f64,
 }
 
-impl<'a> Gather<'a> {
-    /// Begins with the error sphere of some configurations from everywhere.
-    pub(super) fn new(sources: &'a [Source<'a>], enclosing: Enclosing) -> Self {
-        Self { sources, combined: Combined::default(), count: 0, squares: [0.0; 3], enclosing }
+impl Gathered {
+    /// Of no configurations, beginning with the ellipsoid of some.
+    pub(super) fn new(ellipsoid: Ellipsoid) -> Self {
+        let combined = Combined { ellipsoid, ..Combined::default() };
+        Self { combined, squares: [0.0; 3], outside: Vec::new(), inside: 0.0 }
     }
 
-    pub(super) fn add(&mut self, row: &Row) {
-        let combined = &mut self.combined;
-        let (repeatable, random) = (position(&row.repeatable), position(&row.random));
-        let norms = [norm(repeatable), norm(random)];
-        combined.repeatable_radius.add(row.index, norms[0]);
-        combined.random_radius.add(row.index, norms[1]);
-        combined.radius.add(row.index, norms[0] + norms[1]);
-        self.count += 1;
-        for (sum, norm) in self.squares.iter_mut().zip([norms[0], norms[1], norms[0] + norms[1]]) {
-            *sum += norm * norm;
+    /// Takes in what follows. The sphere is grown as it comes.
+    pub(super) fn merge(&mut self, other: &Self, sphere: &mut Enclosing) {
+        self.combined.merge(&other.combined);
+        for (sum, other) in self.squares.iter_mut().zip(other.squares) {
+            *sum += other;
         }
-        for i in 0..3 {
-            combined.repeatable[i] = combined.repeatable[i].max(repeatable[i].abs());
-            combined.random[i] = combined.random[i].max(random[i]);
-        }
-
-        // The sum of nothing is −0: these begin with 0.
-        let absolute = |i: usize| row.sources.iter().fold(0.0, |sum, source| sum + source[i].abs());
-        for i in 0..3 {
-            combined.worst_case[i] = combined.worst_case[i].max(absolute(i));
-        }
-        let norms = row.sources.iter().fold(0.0, |sum, source| sum + norm(position(source)));
-        combined.worst_case_radius.add(row.index, norms);
-
-        let covariance = covariance(self.sources, row.sources);
-        for (i, largest) in combined.standard_deviation.iter_mut().enumerate() {
-            *largest = largest.max(covariance[i][i].sqrt());
-        }
-        let trace = (0..3).map(|i| covariance[i][i]).sum::<f64>();
-        combined.standard_radius.add(row.index, trace.sqrt());
-        combined.ellipsoid.or_longer(row.index, covariance);
-        self.enclosing.add(repeatable);
+        sphere.forget(other.inside);
+        other.outside.iter().for_each(|point| sphere.add(*point));
     }
 
-    pub(super) fn finish(self) -> (Combined, usize) {
+    /// The result for so many configurations.
+    pub(super) fn finish(self, count: usize, sphere: Enclosing) -> Combined {
         let mut combined = self.combined;
-        combined.rms = self.squares.map(|sum| (sum / self.count.max(1) as f64).sqrt());
-        if self.count > 0 {
-            combined.enclosing = self.enclosing.finish();
+        combined.rms = self.squares.map(|sum| (sum / count.max(1) as f64).sqrt());
+        if count > 0 {
+            combined.enclosing = sphere.finish();
         }
-        (combined, self.count)
+        combined
     }
 }
 
-impl Ellipsoid {
-    /// The one with the longer semi-axis. No eigenvalues are computed where they cannot be larger.
-    fn or_longer(&mut self, index: usize, covariance: [[f64; 3]; 3]) {
-        let [longest, ..] = self.semi_axes;
-        if super::CHI_SQUARED_95 * eigenvalue_bound(&covariance) <= longest * longest {
+/// Gathers what all sources do together in lanes.
+pub(super) struct Lane<R: Register> {
+    shell: Shell,
+    ellipsoid: Ellipsoid,
+    repeatable_square: Peak<R>,
+    random_square: Peak<R>,
+    radius: Peak<R>,
+    trace: Peak<R>,
+    worst_case_radius: Peak<R>,
+    repeatable: [Lanes<R>; 3],
+    random: [Lanes<R>; 3],
+    variance: [Lanes<R>; 3],
+    worst_case: [Lanes<R>; 3],
+    squares: [Lanes<R>; 3],
+    inside: Lanes<R>,
+    outside: Vec<[f64; 3]>,
+}
+
+impl<R: Register> Lane<R> {
+    /// Beginning with the ellipsoid and the sphere of some configurations from everywhere.
+    pub(super) fn new(ellipsoid: Ellipsoid, shell: Shell) -> Self {
+        let zero = Lanes::constant(0.0);
+        Self {
+            shell,
+            ellipsoid,
+            repeatable_square: Peak::none(),
+            random_square: Peak::none(),
+            radius: Peak::none(),
+            trace: Peak::none(),
+            worst_case_radius: Peak::none(),
+            repeatable: [zero; 3],
+            random: [zero; 3],
+            variance: [zero; 3],
+            worst_case: [zero; 3],
+            squares: [zero; 3],
+            inside: zero,
+            outside: Vec::new(),
+        }
+    }
+
+    /// Takes in the configurations of a tile; `index` says which those at its places are.
+    #[inline(always)]
+    pub(super) fn add(&mut self, together: &Together<R>, index: impl Fn(usize) -> usize) {
+        let &Together { place, weight, .. } = together;
+        self.repeatable_square.add(together.repeatable_square, place);
+        self.random_square.add(together.random_square, place);
+        let norms = [together.repeatable_norm, together.random_norm, together.radius];
+        self.radius.add(together.radius, place);
+        self.worst_case_radius.add(together.norms, place);
+        for (sum, norm) in self.squares.iter_mut().zip(norms) {
+            *sum = (norm * norm).mul_add(weight, *sum);
+        }
+        let covariance = &together.covariance;
+        let diagonal = [covariance[0], covariance[1], covariance[2]];
+        self.trace.add(diagonal[0] + diagonal[1] + diagonal[2], place);
+        for i in 0..3 {
+            self.repeatable[i] = together.repeatable[i].abs().max(self.repeatable[i]);
+            self.random[i] = together.squares[i].max(self.random[i]);
+            self.variance[i] = diagonal[i].max(self.variance[i]);
+            self.worst_case[i] = together.absolute[i].max(self.worst_case[i]);
+        }
+        if self.may_be_longer(covariance) {
+            self.longer(together, &index);
+        }
+        self.enclose(together);
+    }
+
+    /// Whether `λ I − Σ` with the largest eigenvalue λ so far is not positive definite somewhere (Sylvester).
+    #[inline(always)]
+    fn may_be_longer(&self, covariance: &[Lanes<R>; 6]) -> bool {
+        let [longest, ..] = self.ellipsoid.semi_axes;
+        let limit = Lanes::<R>::constant(longest * longest / super::CHI_SQUARED_95 * (1.0 + ALIKE));
+        let [xx, yy, zz, xy, xz, yz] = *covariance;
+        let [a, b, c] = [limit - xx, limit - yy, limit - zz];
+        let minor = a * b - xy * xy;
+        let determinant = c * minor - yz * (a * yz - xy * xz) - xz * (b * xz - xy * yz);
+        let zero = Lanes::constant(0.0);
+        let least = a.min(minor).min(determinant);
+        // Where there is no random error all are 0, and nothing is longer.
+        zero.more_than(least).any()
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn longer(&mut self, together: &Together<R>, index: &dyn Fn(usize) -> usize) {
+        let [xx, yy, zz, xy, xz, yz] = together.covariance.each_ref().map(Lanes::to_slice);
+        for (lane, place) in together.place.to_slice().iter().enumerate() {
+            if together.weight.to_slice()[lane] == 0.0 {
+                continue;
+            }
+            let covariance = [
+                [xx[lane], xy[lane], xz[lane]],
+                [xy[lane], yy[lane], yz[lane]],
+                [xz[lane], yz[lane], zz[lane]],
+            ];
+            let other = Ellipsoid::new(covariance, index(*place as usize));
+            if other.semi_axes[0] > self.ellipsoid.semi_axes[0] {
+                self.ellipsoid = other;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn enclose(&mut self, together: &Together<R>) {
+        let centre = self.shell.centre.map(Lanes::constant);
+        let from = core::array::from_fn(|i| together.repeatable[i] - centre[i]);
+        let square = peak::square(from);
+        let outside = square.more_than(Lanes::constant(self.shell.inner * self.shell.inner));
+        if !outside.any() {
+            self.inside = square.max(self.inside);
             return;
         }
-        let other = Self::new(covariance, index);
-        if other.semi_axes[0] > longest {
-            *self = other;
+        let [x, y, z] = together.repeatable.each_ref().map(Lanes::to_slice);
+        let mut inside = 0.0_f64;
+        for (lane, square) in square.to_slice().iter().enumerate() {
+            if *square <= self.shell.inner * self.shell.inner {
+                inside = inside.max(*square);
+            } else if together.weight.to_slice()[lane] > 0.0 {
+                self.outside.push([x[lane], y[lane], z[lane]]);
+            }
         }
+        self.inside = Lanes::constant(inside).max(self.inside);
+    }
+
+    /// What was gathered, with the indices of the places.
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Gathered {
+        let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
+            let (value, configuration) =
+                peak.finish().map(|(value, place)| (f(value), Some(index(place)))).unwrap_or_default();
+            Extreme { value, configuration }
+        };
+        let roots = |largest: [Lanes<R>; 3]| largest.map(|square| peak::largest(square).sqrt());
+        let combined = Combined {
+            repeatable_radius: extreme(self.repeatable_square, f64::sqrt),
+            random_radius: extreme(self.random_square, f64::sqrt),
+            radius: extreme(self.radius, |radius| radius),
+            repeatable: self.repeatable.map(peak::largest),
+            random: roots(self.random),
+            standard_deviation: roots(self.variance),
+            standard_radius: extreme(self.trace, f64::sqrt),
+            worst_case: self.worst_case.map(peak::largest),
+            worst_case_radius: extreme(self.worst_case_radius, |radius| radius),
+            ellipsoid: self.ellipsoid,
+            ..Combined::default()
+        };
+        let squares = self.squares.map(peak::sum);
+        Gathered { combined, squares, outside: self.outside, inside: peak::largest(self.inside).sqrt() }
     }
 }

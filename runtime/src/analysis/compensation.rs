@@ -1,9 +1,10 @@
 //! What is left after compensation.
 
-use super::Row;
 use super::combined::Extreme;
-use super::sampling::norm;
-use super::single::position;
+use super::peak::Peak;
+use super::together::Together;
+use crate::Scalar;
+use crate::lanes::{Lanes, Register};
 
 /// What compensation leaves of a repeatable source.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,21 +15,10 @@ pub enum Residual {
     Bound(f64),
 }
 
-impl Residual {
-    fn of(self, error: f64) -> f64 {
-        match self {
-            Self::Share(share) => share * error,
-            Self::Bound(bound) if error > 0.0 => bound,
-            Self::Bound(_) => 0.0,
-        }
-    }
-}
-
 /// What compensation leaves of all sources, and the total absolute accuracy, gathered configuration by
 /// configuration. Random errors cannot be compensated: they remain as they are.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Compensation {
-    residuals: Vec<Option<Residual>>,
     /// max √(Σ ρ_k²) with the residuals ρ_k of the repeatable sources: their signs are unknown and independent.
     pub residual: Extreme,
     /// max Σ ρ_k: all in one direction.
@@ -38,21 +28,72 @@ pub struct Compensation {
 }
 
 impl Compensation {
-    /// With what is left of each source, in their order; of random ones it must be none.
-    pub fn new(residuals: Vec<Option<Residual>>) -> Self {
-        let none = Extreme::default();
-        Self { residuals, residual: none, residual_sum: none, total: none }
+    /// Of no configurations.
+    pub(super) fn none() -> Self {
+        Self::default()
     }
 
-    /// Takes in a configuration.
-    pub fn add(&mut self, row: &Row) {
-        let residuals = self.residuals.iter().zip(row.sources);
-        let residuals = residuals
-            .map(|(residual, source)| residual.map_or(0.0, |residual| residual.of(norm(position(source)))));
-        let (sum, squares) = residuals
-            .fold((0.0, 0.0), |(sum, squares), residual| (sum + residual, squares + residual * residual));
-        self.residual.add(row.index, squares.sqrt());
-        self.residual_sum.add(row.index, sum);
-        self.total.add(row.index, squares.sqrt() + norm(position(&row.random)));
+    /// Takes in what follows.
+    pub(super) fn merge(&mut self, other: &Self) {
+        for (here, other) in [
+            (&mut self.residual, other.residual),
+            (&mut self.residual_sum, other.residual_sum),
+            (&mut self.total, other.total),
+        ] {
+            if let Some(index) = other.configuration {
+                here.add(index, other.value);
+            }
+        }
+    }
+}
+
+/// Gathers [`Compensation`] in lanes.
+pub(super) struct Lane<R: Register> {
+    square: Peak<R>,
+    sum: Peak<R>,
+    total: Peak<R>,
+}
+
+impl<R: Register> Lane<R> {
+    pub(super) fn new() -> Self {
+        Self { square: Peak::none(), sum: Peak::none(), total: Peak::none() }
+    }
+
+    /// Takes in the configurations of a tile, with the norm of each source.
+    #[inline(always)]
+    pub(super) fn add(
+        &mut self,
+        residuals: &[Option<Residual>],
+        norm_of: &[Lanes<R>],
+        together: &Together<R>,
+    ) {
+        let zero = Lanes::constant(0.0);
+        let (mut sum, mut square) = (zero, zero);
+        for (residual, norm) in residuals.iter().zip(norm_of) {
+            let residual = match *residual {
+                None => continue,
+                Some(Residual::Share(share)) => *norm * Lanes::constant(share),
+                // Wherever there is an error at all.
+                Some(Residual::Bound(bound)) => Lanes::constant(bound).or(zero, norm.more_than(zero)),
+            };
+            sum = sum + residual;
+            square = residual.mul_add(residual, square);
+        }
+        self.square.add(square, together.place);
+        self.sum.add(sum, together.place);
+        self.total.add(square.sqrt() + together.random_norm, together.place);
+    }
+
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Compensation {
+        let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
+            let found = peak.finish().map(|(value, place)| (f(value), Some(index(place))));
+            let (value, configuration) = found.unwrap_or_default();
+            Extreme { value, configuration }
+        };
+        Compensation {
+            residual: extreme(self.square, f64::sqrt),
+            residual_sum: extreme(self.sum, |sum| sum),
+            total: extreme(self.total, |total| total),
+        }
     }
 }

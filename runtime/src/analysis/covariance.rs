@@ -59,8 +59,3 @@ impl Ellipsoid {
         }
     }
 }
-
-/// An upper bound of the largest eigenvalue: the largest sum of absolute values in a row (Gershgorin).
-pub(super) fn eigenvalue_bound(covariance: &[[f64; 3]; 3]) -> f64 {
-    covariance.iter().map(|row| row.iter().map(|entry| entry.abs()).sum()).fold(0.0, f64::max)
-}

@@ -41,6 +41,13 @@ pub(super) struct Enclosing {
     earlier: Vec<Ball>,
 }
 
+/// Points within the inner radius of the centre need not be kept.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shell {
+    pub(super) centre: [f64; 3],
+    pub(super) inner: f64,
+}
+
 #[derive(Clone, Copy, Debug, Default)]
 struct Ball {
     centre: Vector3<f64>,
@@ -81,6 +88,17 @@ impl Enclosing {
         } else {
             self.forgotten = self.forgotten.max(distance);
         }
+    }
+
+    /// What is certainly inside, and will be, as long as the sphere is where it is now.
+    pub(super) fn shell(&self) -> Shell {
+        Shell { centre: self.ball.centre.into(), inner: (1.0 - SHELL) * self.ball.radius }
+    }
+
+    /// Takes in points within a distance of the centre that the sphere began with.
+    pub(super) fn forget(&mut self, distance: f64) {
+        let first = self.earlier.first_mut().map_or(&mut self.forgotten, |first| &mut first.radius);
+        *first = first.max(distance);
     }
 
     pub(super) fn finish(mut self) -> Sphere {

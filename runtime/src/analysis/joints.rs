@@ -1,10 +1,13 @@
 //! Workspaces of joint variables: grids, evenly spread samples, random samples, lists.
 
+use core::ops::Range;
+
 use rand::{Rng, RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand_xoshiro::{SplitMix64, Xoshiro256PlusPlus};
 
 use super::workspace::{combinations, combine, in_range};
 use super::{Axis, Configuration, Unreached, Workspace, sampling};
+use crate::lanes::Tiles;
 use crate::{Error, Manipulator, Quantity};
 
 /// Every combination of the values of some variables; see [`joint_grid`].
@@ -46,7 +49,7 @@ impl Workspace for JointGrid {
 enum Spread {
     /// The Halton sequence.
     Even,
-    /// Random numbers: a stream of ChaCha8 for each index.
+    /// Random numbers: a stream for every [`STREAM`] configurations.
     Random { seed: u64 },
 }
 
@@ -110,26 +113,58 @@ impl Workspace for JointSamples {
     fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
         q.copy_from_slice(&self.home.q);
         s.copy_from_slice(&self.home.s);
-        let mut random = match self.spread {
-            Spread::Even => None,
-            Spread::Random { seed } => Some(stream(seed, index as u64)),
-        };
-        for &(i, [lower, upper], base) in &self.moved {
-            let share = match &mut random {
-                Some(random) => random.random::<f64>(),
-                None => sampling::radical_inverse(index + 1, base),
-            };
-            q[i] = lower + (upper - lower) * share;
+        match self.spread {
+            Spread::Even => {
+                for &(i, [lower, upper], base) in &self.moved {
+                    q[i] = lower + (upper - lower) * sampling::radical_inverse(index + 1, base);
+                }
+            }
+            Spread::Random { seed } => {
+                let mut random = stream(seed, index / STREAM);
+                (0..index % STREAM * self.moved.len()).for_each(|_| _ = random.next_u64());
+                for &(i, range, _) in &self.moved {
+                    q[i] = between(range, &mut random);
+                }
+            }
         }
         Ok(())
     }
+
+    fn fill_rows(&self, range: Range<usize>, rows: &mut Tiles) -> bool {
+        let Spread::Random { seed } = self.spread else { return false };
+        if !range.start.is_multiple_of(STREAM) {
+            return false;
+        }
+        for (row, value) in self.home.q.iter().chain(&self.home.s).enumerate() {
+            if !self.moved.iter().any(|moved| moved.0 == row) {
+                rows.fill_row(row, *value);
+            }
+        }
+        for first in range.clone().step_by(STREAM) {
+            let mut random = stream(seed, first / STREAM);
+            for index in first..range.end.min(first + STREAM) {
+                for &(i, limits, _) in &self.moved {
+                    rows.set_value(i, index - range.start, between(limits, &mut random));
+                }
+            }
+        }
+        true
+    }
 }
 
-/// Random numbers that follow from a seed and the number of the stream.
-pub(super) fn stream(seed: u64, number: u64) -> impl Rng {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    random.set_stream(number);
-    random
+/// How many configurations take their numbers from one stream, one after the other.
+const STREAM: usize = 128;
+
+/// A random number within limits.
+#[inline]
+fn between([lower, upper]: [f64; 2], random: &mut impl Rng) -> f64 {
+    lower + (upper - lower) * random.random::<f64>()
+}
+
+/// Random numbers that follow from a seed and the number of the stream: xoshiro256++, whose state is the SplitMix64
+/// sequence from both.
+pub(super) fn stream(seed: u64, number: usize) -> impl Rng {
+    Xoshiro256PlusPlus::seed_from_u64(seed ^ SplitMix64::seed_from_u64(number as u64).next_u64())
 }
 
 /// Configurations one after the other, a path say; see [`listed`].

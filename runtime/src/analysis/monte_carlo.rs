@@ -72,7 +72,7 @@ pub fn monte_carlo(
     in_order(
         draws.div_ceil(DRAWS),
         |block| {
-            let mut random = stream(seed, block as u64);
+            let mut random = stream(seed, block);
             let mut magnitudes = vec![0.0; description.sources.len()];
             let mut errors = vec![[0.0; 6]; description.frames.len()];
             let (mut sums, mut norms) = (Sums::default(), Vec::with_capacity(DRAWS));

@@ -1,7 +1,8 @@
 //! What one source does alone over the workspace, in three metrics.
 
-use super::sampling::norm;
-use crate::Class;
+use super::peak::{self, Peak};
+use crate::lanes::{Lanes, Register};
+use crate::{Class, Scalar};
 
 /// A figure per axis of `F_0`, and of the norm of the position error. In the length unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,92 +55,146 @@ pub struct SourceErrors {
     pub worst: Option<usize>,
 }
 
-/// Gathers [`SourceErrors`] configuration by configuration.
+/// What one source does over some configurations: [`SourceErrors`] without the last steps.
+#[derive(Clone, Debug)]
 pub(super) struct Tally {
-    home: [f64; 6],
     least: [f64; 4],
     largest: [f64; 4],
-    count: usize,
+    worst: Option<usize>,
     squares: f64,
-    errors: SourceErrors,
+    relative: f64,
+    orientation: [f64; 3],
 }
 
 impl Tally {
-    /// Of a source with this error (bound, if random) at home.
-    pub(super) fn new(source: usize, class: Class, home: [f64; 6]) -> Self {
+    /// Of no configurations.
+    pub(super) fn new() -> Self {
+        Self {
+            least: [f64::INFINITY; 4],
+            largest: [f64::NEG_INFINITY; 4],
+            worst: None,
+            squares: 0.0,
+            relative: 0.0,
+            orientation: [0.0; 3],
+        }
+    }
+
+    /// Takes in what follows.
+    pub(super) fn merge(&mut self, other: &Self) {
+        if other.largest[3] > self.largest[3] {
+            self.worst = other.worst;
+        }
+        for i in 0..4 {
+            self.least[i] = self.least[i].min(other.least[i]);
+            self.largest[i] = self.largest[i].max(other.largest[i]);
+        }
+        self.squares += other.squares;
+        self.relative = self.relative.max(other.relative);
+        for (largest, other) in self.orientation.iter_mut().zip(other.orientation) {
+            *largest = largest.max(other);
+        }
+    }
+
+    /// The errors of a source with this error (bound, if random) at home, over so many configurations.
+    pub(super) fn finish(self, source: usize, class: Class, home: [f64; 6], count: usize) -> SourceErrors {
+        let Self { least, largest, worst, squares, relative, orientation } = self;
         let none = Figures::default();
-        let errors = SourceErrors {
+        let (plain_max, half_peak_to_peak, relative_to_home) = if worst.is_none() {
+            (none, none, none)
+        } else {
+            let plain = |i: usize| largest[i].max(-least[i]);
+            let plain_max = Figures::from([plain(0), plain(1), plain(2), largest[3]]);
+            let half = core::array::from_fn(|i| (largest[i] - least[i]) / 2.0);
+            // The difference of two draws `t b(q) − t' b(home)` is worst where t and t' are ±1.
+            let [x, y, z] = core::array::from_fn(|i| match class {
+                Class::Repeatable => (largest[i] - home[i]).max(home[i] - least[i]),
+                Class::Random(_) => plain(i) + home[i].abs(),
+            });
+            let half = if class == Class::Repeatable { half.into() } else { plain_max };
+            (plain_max, half, [x, y, z, relative].into())
+        };
+        let rms = (squares / count.max(1) as f64).sqrt();
+        SourceErrors {
             source,
             class,
-            plain_max: none,
-            half_peak_to_peak: none,
-            relative_to_home: none,
-            rms: 0.0,
-            orientation: [0.0; 3],
-            worst: None,
-        };
-        let (least, largest) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
-        Self { home, least, largest, count: 0, squares: 0.0, errors }
-    }
-
-    /// Takes in the error (bound, if random) at a configuration.
-    pub(super) fn add(&mut self, index: usize, deviation: &[f64; 6]) {
-        let position = position(deviation);
-        let [x, y, z] = position;
-        let figures = [x, y, z, norm(position)];
-        for (i, &figure) in figures.iter().enumerate() {
-            self.least[i] = self.least[i].min(figure);
-            self.largest[i] = self.largest[i].max(figure);
+            plain_max,
+            half_peak_to_peak,
+            relative_to_home,
+            rms,
+            orientation,
+            worst,
         }
-        self.count += 1;
-        self.squares += figures[3] * figures[3];
-        let errors = &mut self.errors;
-        if errors.worst.is_none() || figures[3] > errors.plain_max.norm {
-            errors.worst = Some(index);
-        }
-        errors.plain_max = errors.plain_max.or_larger(figures);
-        for (largest, row) in errors.orientation.iter_mut().zip(&deviation[3..]) {
-            *largest = largest.max(row.abs());
-        }
-        let relative = relative(errors.class, position, self::position(&self.home));
-        errors.relative_to_home = errors.relative_to_home.or_larger(relative);
-    }
-
-    pub(super) fn finish(self) -> SourceErrors {
-        let mut errors = self.errors;
-        errors.rms = (self.squares / self.count.max(1) as f64).sqrt();
-        errors.half_peak_to_peak = match errors.class {
-            Class::Random(_) => errors.plain_max,
-            Class::Repeatable if errors.worst.is_none() => Figures::default(),
-            Class::Repeatable => core::array::from_fn(|i| (self.largest[i] - self.least[i]) / 2.0).into(),
-        };
-        errors
     }
 }
 
-impl Figures {
-    fn or_larger(self, [x, y, z, norm]: [f64; 4]) -> Self {
+/// Gathers a [`Tally`] in lanes.
+pub(super) struct Lane<R: Register> {
+    random: bool,
+    home: [Lanes<R>; 3],
+    least: [Lanes<R>; 3],
+    largest: [Lanes<R>; 3],
+    least_square: Lanes<R>,
+    square: Peak<R>,
+    squares: Lanes<R>,
+    relative: Lanes<R>,
+    orientation: [Lanes<R>; 3],
+}
+
+impl<R: Register> Lane<R> {
+    /// Of a source with this error (bound, if random) at home.
+    pub(super) fn new(class: Class, home: [f64; 6]) -> Self {
+        let (zero, infinite) = (Lanes::constant(0.0), Lanes::constant(f64::INFINITY));
         Self {
-            x: self.x.max(x.abs()),
-            y: self.y.max(y.abs()),
-            z: self.z.max(z.abs()),
-            norm: self.norm.max(norm),
+            random: class != Class::Repeatable,
+            home: position(&home).map(Lanes::constant),
+            least: [infinite; 3],
+            largest: [-infinite; 3],
+            least_square: infinite,
+            square: Peak::none(),
+            squares: zero,
+            relative: zero,
+            orientation: [zero; 3],
         }
     }
-}
 
-/// The (worst) difference from home, per axis and its norm.
-///
-/// The difference of two draws `t b(q) − t' b(home)` is worst where t and t' are ±1.
-fn relative(class: Class, here: [f64; 3], home: [f64; 3]) -> [f64; 4] {
-    let difference = core::array::from_fn(|i| here[i] - home[i]);
-    let [x, y, z] = difference;
-    match class {
-        Class::Repeatable => [x, y, z, norm(difference)],
-        Class::Random(_) => {
-            let sum = core::array::from_fn(|i| here[i] + home[i]);
-            let [x, y, z] = core::array::from_fn(|i| here[i].abs() + home[i].abs());
-            [x, y, z, norm(difference).max(norm(sum))]
+    /// Takes in one row after the other of some tiles, with the places and the weights of their configurations.
+    #[inline(always)]
+    pub(super) fn add(&mut self, deviation: &[Lanes<R>], place: Lanes<R>, weight: Lanes<R>) {
+        let &[x, y, z, four, five, six] = deviation else { return };
+        let here = [x, y, z];
+        for i in 0..3 {
+            self.least[i] = here[i].min(self.least[i]);
+            self.largest[i] = here[i].max(self.largest[i]);
+        }
+        let square = peak::square(here);
+        self.least_square = square.min(self.least_square);
+        self.square.add(square, place);
+        self.squares = square.mul_add(weight, self.squares);
+        let differences = core::array::from_fn(|i| here[i] - self.home[i]);
+        self.relative = peak::square(differences).max(self.relative);
+        if self.random {
+            let sums = core::array::from_fn(|i| here[i] + self.home[i]);
+            self.relative = peak::square(sums).max(self.relative);
+        }
+        for (largest, row) in self.orientation.iter_mut().zip([four, five, six]) {
+            *largest = row.abs().max(*largest);
+        }
+    }
+
+    /// What was gathered, with the index of the place that is worst.
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Tally {
+        let least = |lanes: Lanes<R>| -peak::largest(-lanes);
+        let [x, y, z] = self.least.map(least);
+        let [a, b, c] = self.largest.map(peak::largest);
+        let worst = self.square.finish();
+        let root = |square: f64| square.max(0.0).sqrt();
+        Tally {
+            least: [x, y, z, least(self.least_square).sqrt()],
+            largest: [a, b, c, worst.map_or(f64::NEG_INFINITY, |(square, _)| root(square))],
+            worst: worst.map(|(_, place)| index(place)),
+            squares: peak::sum(self.squares),
+            relative: root(peak::largest(self.relative)),
+            orientation: self.orientation.map(peak::largest),
         }
     }
 }

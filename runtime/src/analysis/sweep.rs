@@ -5,10 +5,10 @@ use core::fmt;
 use super::block::Block;
 use super::stream::in_order;
 use super::{Configuration, Unreachables, Workspace};
-use crate::{Error, Manipulator, Pose, Quantity};
+use crate::{Error, Manipulator, Pose, Quantity, checks};
 
-/// How many configurations are evaluated at once: the only ones whose Jacobians are held, once per thread.
-pub const BLOCK: usize = 256;
+/// How many configurations are evaluated at once: few enough for what the sources do to stay in the cache.
+pub const BLOCK: usize = 128;
 
 /// A configuration of the workspace that could not be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,28 +62,44 @@ pub fn sweep(
     u: &[f64],
     visit: &mut dyn FnMut(&Row),
 ) -> Result<Unreachables, Unevaluated> {
-    let description = manipulator.description();
-    let mut place = workspace.home().clone();
-    for (quantity, expected, found) in [
-        (Quantity::Variables, description.variables.len(), place.q.len()),
-        (Quantity::Parameters, description.parameters.len(), place.s.len()),
-        (Quantity::Inputs, description.inputs.len(), u.len()),
-    ] {
-        if expected != found {
-            let error = Error::Count { quantity, expected, found };
-            return Err(Unevaluated { configuration: None, error });
-        }
-    }
+    ready(manipulator, workspace, u)?;
+    let mut here = workspace.home().clone();
     let mut unreachables = Unreachables::default();
     let count = workspace.len();
-    let range = |block: usize| block * BLOCK..count.min((block + 1) * BLOCK);
     in_order(
         count.div_ceil(BLOCK),
-        |block| Block::new(manipulator, workspace, u, range(block)),
+        |block| {
+            let range = block * BLOCK..count.min((block + 1) * BLOCK);
+            let mut block = Block::new(manipulator, workspace, u, range.len());
+            block.evaluate(range)?;
+            Ok(block)
+        },
         |mut block| {
             block.unreachable.drain(..).for_each(|unreachable| unreachables.add(unreachable));
-            block.visit(&mut place, visit);
+            block.visit(&mut here, visit);
         },
     )?;
     Ok(unreachables)
+}
+
+/// Whether a workspace and inputs are those of a manipulator.
+pub(super) fn ready(
+    manipulator: &dyn Manipulator,
+    workspace: &dyn Workspace,
+    u: &[f64],
+) -> Result<(), Unevaluated> {
+    let description = manipulator.description();
+    let Configuration { q, s } = workspace.home();
+    let at_home = |error| Unevaluated { configuration: None, error };
+    for (quantity, expected, found) in [
+        (Quantity::Variables, description.variables.len(), q.len()),
+        (Quantity::Parameters, description.parameters.len(), s.len()),
+        (Quantity::Inputs, description.inputs.len(), u.len()),
+    ] {
+        if expected != found {
+            return Err(at_home(Error::Count { quantity, expected, found }));
+        }
+    }
+    checks::finite(Quantity::Inputs, u).map_err(at_home)?;
+    checks::inputs(description.inputs, u).map_err(at_home)
 }

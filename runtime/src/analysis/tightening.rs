@@ -1,50 +1,90 @@
 //! Which source to make smaller first.
 
-use super::Row;
-use super::sampling::norm;
-use super::single::position;
-use crate::{Class, Source};
+use super::peak;
+use super::together::Together;
+use crate::lanes::{Lanes, Register};
+use crate::{Class, Scalar};
 
 /// By how much a source is made smaller.
 const PERCENT: f64 = 0.01;
 
-/// The radius that remains of every source made smaller by one percent, gathered configuration by configuration.
+/// The radius that remains of every source made smaller by one percent, over some configurations.
 ///
 /// `ρ_k = max_q ‖Σ r − r_k/100‖ + ‖RSS‖` for a repeatable source, and for a random one the root sum of squares with
 /// `0.99 b_k`. The maximum is looked for again, because it may move.
-pub(super) struct Tightening<'a> {
-    sources: &'a [Source<'a>],
+pub(super) struct Tightening {
     remaining: Vec<f64>,
 }
 
-impl<'a> Tightening<'a> {
-    pub(super) fn new(sources: &'a [Source<'a>]) -> Self {
-        Self { sources, remaining: vec![0.0; sources.len()] }
+impl Tightening {
+    /// Of no configurations.
+    pub(super) fn new(sources: usize) -> Self {
+        Self { remaining: vec![0.0; sources] }
     }
 
-    pub(super) fn add(&mut self, row: &Row) {
-        let (repeatable, random) = (position(&row.repeatable), position(&row.random));
-        let (repeatable_norm, random_norm) = (norm(repeatable), norm(random));
-        for ((source, deviation), remaining) in self.sources.iter().zip(row.sources).zip(&mut self.remaining)
-        {
-            let deviation = position(deviation);
-            let radius = match source.class {
-                Class::Repeatable => {
-                    norm(core::array::from_fn(|i| repeatable[i] - PERCENT * deviation[i])) + random_norm
-                }
-                // The square of the norm of a root sum of squares is the sum of the squares of all norms.
-                Class::Random(_) => {
-                    let less = 1.0 - (1.0 - PERCENT) * (1.0 - PERCENT);
-                    let square = deviation.iter().map(|b| b * b).sum::<f64>();
-                    repeatable_norm + (random_norm * random_norm - less * square).max(0.0).sqrt()
-                }
-            };
-            *remaining = remaining.max(radius);
+    /// Takes in what follows.
+    pub(super) fn merge(&mut self, other: &Self) {
+        for (remaining, other) in self.remaining.iter_mut().zip(&other.remaining) {
+            *remaining = remaining.max(*other);
         }
     }
 
     /// By how much the radius shrinks for each source; less than nothing where it counteracts the others.
     pub(super) fn gains(self, radius: f64) -> Vec<f64> {
         self.remaining.into_iter().map(|remaining| radius - remaining).collect()
+    }
+}
+
+/// Gathers [`Tightening`] in lanes.
+pub(super) struct Lane<R: Register> {
+    remaining: Vec<Lanes<R>>,
+    /// The least of them in any lane.
+    least: f64,
+}
+
+impl<R: Register> Lane<R> {
+    pub(super) fn new(sources: usize) -> Self {
+        Self { remaining: vec![Lanes::constant(0.0); sources], least: 0.0 }
+    }
+
+    /// Takes in the configurations of a tile, with the norm of each source.
+    #[inline(always)]
+    pub(super) fn add(
+        &mut self,
+        classes: &[Class],
+        rows: &[Lanes<R>],
+        norm_of: &[Lanes<R>],
+        together: &Together<R>,
+    ) {
+        // Less of one source adds no more than its share.
+        let at_most = together.norms.mul_add(Lanes::constant(PERCENT), together.radius);
+        if !at_most.more_than(Lanes::constant(self.least)).any() {
+            return;
+        }
+        let less = Lanes::constant(1.0 - (1.0 - PERCENT) * (1.0 - PERCENT));
+        let (percent, zero) = (Lanes::constant(PERCENT), Lanes::constant(0.0));
+        let mut least = f64::INFINITY;
+        for (k, class) in classes.iter().enumerate() {
+            let radius = match class {
+                Class::Repeatable => {
+                    let rest = core::array::from_fn(|i| {
+                        rows[6 * k + i].neg_mul_add(percent, together.repeatable[i])
+                    });
+                    peak::square(rest).sqrt() + together.random_norm
+                }
+                // The square of the norm of a root sum of squares is the sum of the squares of all norms.
+                Class::Random(_) => {
+                    let rest = (norm_of[k] * norm_of[k]).neg_mul_add(less, together.random_square);
+                    together.repeatable_norm + rest.max(zero).sqrt()
+                }
+            };
+            self.remaining[k] = radius.max(self.remaining[k]);
+            least = least.min(-peak::largest(-self.remaining[k]));
+        }
+        self.least = least;
+    }
+
+    pub(super) fn finish(self) -> Tightening {
+        Tightening { remaining: self.remaining.into_iter().map(peak::largest).collect() }
     }
 }

@@ -1,6 +1,9 @@
 //! The configurations over which errors are analyzed: made one by one when they are needed, never stored.
 
+use core::ops::Range;
+
 use super::{Unreached, sampling};
+use crate::lanes::Tiles;
 use crate::{Description, Error, Quantity};
 
 /// A configuration: joint variables, and the structural parameters (the tool point is one of those).
@@ -62,6 +65,12 @@ pub trait Workspace: Sync {
     /// Writes configuration `index`, less than [`len`](Self::len), over `q` and `s`, which are as long as those
     /// of home. If it cannot be had they hold what was asked for.
     fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached>;
+
+    /// Writes the configurations of a range into rows q, s of `rows`, which has room for them, if all can be had and
+    /// this is quicker than one by one; says whether it did.
+    fn fill_rows(&self, _range: Range<usize>, _rows: &mut Tiles) -> bool {
+        false
+    }
 
     /// The point of `F_0` that the tool is brought to in configuration `index`, if that differs from one to the next.
     fn point(&self, _index: usize) -> Option<[f64; 3]> {

@@ -1,4 +1,4 @@
-//! What the trait promises besides derivatives: one pose, finite outputs, batches, guarded inputs.
+//! What the trait promises besides derivatives: one pose, finite outputs, guarded inputs.
 
 use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
@@ -17,40 +17,18 @@ pub fn pose(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy
     Ok(discrepancy)
 }
 
-/// Every output is finite, batches say what single configurations say and ε is the sum of the repeatable effects
-/// (the discrepancy is between those), and NaN or a slice of the wrong length is refused.
+/// Every output is finite and ε is the sum of the repeatable effects (the discrepancy is between those), and NaN or a
+/// slice of the wrong length is refused.
 pub fn contract(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let subject = Subject::new(manipulator)?;
     let (samples, skipped) = subject.samples(samples)?;
-    let description = manipulator.description();
-    let (columns_each, effects_each) = (6 * description.frames.len(), description.effects.len());
-
-    let q = samples.iter().flat_map(|at| at.q.iter().copied()).collect::<Vec<_>>();
-    let (s, u) = (subject.s.repeat(samples.len()), subject.u.repeat(samples.len()));
-    let mut poses = vec![Pose::IDENTITY; samples.len()];
-    let mut columns = vec![[0.0; 6]; columns_each * samples.len()];
-    let mut effects = vec![0.0; effects_each * samples.len()];
-    manipulator.error_models(&q, &s, &u, &mut poses, &mut columns, &mut effects).map_err(|(i, error)| {
-        let q = samples.get(i).map(|at| at.q.clone()).unwrap_or_default();
-        Failure::Evaluation { q, error }
-    })?;
-
     let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Default::default() };
-    for (i, at) in samples.iter().enumerate() {
+    for at in &samples {
         guarded(&subject, at)?;
         let single = Outputs::at(&subject, at)?;
-        discrepancy.add(difference(&subject, &poses[i], &single.poses[1]), &at.q);
-        let columns = columns[i * columns_each..][..columns_each].as_flattened();
-        for (batch, single) in columns.iter().zip(single.columns.as_flattened()) {
-            discrepancy.add((batch - single).abs() / single.abs().max(1.0), &at.q);
-        }
         let [errors, sums] = single.errors.each_ref().map(|errors| errors.as_flattened());
         for (error, sum) in errors.iter().zip(sums) {
             discrepancy.add((error - sum).abs() / sum.abs().max(1.0), &at.q);
-        }
-        let effects = &effects[i * effects_each..][..effects_each];
-        for (batch, single) in effects.iter().zip(&single.effects) {
-            discrepancy.add((batch - single).abs() / single.abs().max(1.0), &at.q);
         }
     }
     Ok(discrepancy)
@@ -60,9 +38,6 @@ pub fn contract(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrep
 struct Outputs {
     /// From `pose`, `error_jacobian`, `joint_jacobian` and `parameter_jacobian`.
     poses: [Pose; 4],
-    /// `J_e`.
-    columns: Vec<[f64; 6]>,
-    effects: Vec<f64>,
     /// ε from `generalized_errors`, and as the sum of the repeatable effects.
     errors: [Vec<[f64; 6]>; 2],
 }
@@ -101,7 +76,7 @@ impl Outputs {
                 return Err(Failure::NotFinite { method, q: at.q.clone() });
             }
         }
-        Ok(Self { poses, columns, effects, errors })
+        Ok(Self { poses, errors })
     }
 }
 

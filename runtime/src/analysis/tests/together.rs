@@ -14,7 +14,7 @@ type Errors = (Configuration, Vec<Vector3<f64>>);
 fn papers() -> (Budget, Vec<Errors>) {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
     let mut rows = Vec::new();
-    let budget = error_budget(&Pps, &workspace, &[], &mut |row| {
+    let budget = error_budget(&Pps, &workspace, &[], None, &mut |row: &Row| {
         let sources = row.sources.iter().map(|source| Vector3::from_row_slice(&source[..3]));
         rows.push((row.configuration.clone(), sources.collect()));
     });
@@ -125,7 +125,7 @@ fn a_tolerance_is_met_at_the_scales_it_allows() {
 #[test]
 fn nothing_limits_a_source_that_does_nothing() {
     let workspace = joint_samples(&Pps, &[], 1).unwrap();
-    let mut budget = error_budget(&Pps, &workspace, &[], &mut |_| ()).unwrap();
+    let mut budget = error_budget(&Pps, &workspace, &[], None, &mut ()).unwrap();
     for errors in &mut budget.sources {
         errors.plain_max = Figures::default();
     }
@@ -141,9 +141,8 @@ fn compensation_leaves_what_it_is_said_to() {
     let left = |residual: Residual| {
         let sources = Pps.description().sources.iter();
         let residuals = sources.map(|source| (source.class == Class::Repeatable).then_some(residual));
-        let mut compensation = Compensation::new(residuals.collect());
-        let budget = error_budget(&Pps, &workspace, &[], &mut |row| compensation.add(row)).unwrap();
-        (compensation, budget.combined)
+        let budget = error_budget(&Pps, &workspace, &[], Some(residuals.collect()), &mut ()).unwrap();
+        (budget.compensation.unwrap(), budget.combined)
     };
     let (perfect, combined) = left(Residual::Share(0.0));
     assert_eq!((perfect.residual.value, perfect.total.value), (0.0, combined.random_radius.value));

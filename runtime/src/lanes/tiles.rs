@@ -1,0 +1,157 @@
+//! The numbers of many configurations, as lanes want them.
+
+use core::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{InstructionSet, Lanes, Register};
+
+/// A cache line: what registers are read from and written to in one go.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C, align(64))]
+struct Line([f64; 8]);
+
+/// So many rows of numbers for so many configurations.
+///
+/// As many configurations as the instruction set has lanes make a tile; tile after tile, row after row in it, the
+/// lanes of a row next to each other. The lanes after the last configuration hold what was set last, or 0.
+#[derive(Clone, Debug)]
+pub struct Tiles {
+    set: InstructionSet,
+    rows: usize,
+    count: usize,
+    lines: Vec<Line>,
+}
+
+impl Tiles {
+    /// Room for `rows` numbers of each of `count` configurations, all 0, for an instruction set.
+    pub fn new(set: InstructionSet, rows: usize, count: usize) -> Self {
+        let mut tiles = Self { set, rows, count: 0, lines: Vec::new() };
+        tiles.resize(count);
+        tiles
+    }
+
+    /// Makes room for `count` configurations. What they hold is 0 or what was there.
+    pub fn resize(&mut self, count: usize) {
+        self.count = count;
+        let numbers = self.tiles() * self.set.width() * self.rows;
+        self.lines.resize(numbers.div_ceil(8), Line([0.0; 8]));
+    }
+
+    /// The instruction set that it is laid out for.
+    pub fn set(&self) -> InstructionSet {
+        self.set
+    }
+
+    /// How many numbers each configuration has.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// How many configurations there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// How many tiles they fill.
+    pub fn tiles(&self) -> usize {
+        self.count.div_ceil(self.set.width())
+    }
+
+    /// A number of a configuration.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such row or configuration, as for a slice.
+    #[inline]
+    pub fn get(&self, row: usize, configuration: usize) -> f64 {
+        self.numbers()[self.place(row, configuration)]
+    }
+
+    /// Sets a number of a configuration.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such row or configuration, as for a slice.
+    #[inline]
+    pub fn set_value(&mut self, row: usize, configuration: usize, value: f64) {
+        let place = self.place(row, configuration);
+        self.numbers_mut()[place] = value;
+    }
+
+    /// Sets a row to one value in all configurations.
+    pub fn fill_row(&mut self, row: usize, value: f64) {
+        for lane in 0..self.tiles() * self.set.width() {
+            let place = self.place_of_lane(row, lane);
+            self.numbers_mut()[place] = value;
+        }
+    }
+
+    /// Repeats the last configuration in the lanes behind it.
+    pub fn pad(&mut self) {
+        let Some(last) = self.count.checked_sub(1) else { return };
+        for row in 0..self.rows {
+            let value = self.get(row, last);
+            for lane in self.count..self.tiles() * self.set.width() {
+                let place = self.place_of_lane(row, lane);
+                self.numbers_mut()[place] = value;
+            }
+        }
+    }
+
+    /// Copies some rows of a configuration out.
+    pub fn copy_rows(&self, rows: Range<usize>, configuration: usize, values: &mut [f64]) {
+        for (row, value) in rows.zip(values) {
+            *value = self.get(row, configuration);
+        }
+    }
+
+    /// The rows of a tile.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such tile, or the lanes are those of another instruction set.
+    #[inline(always)]
+    pub fn tile<R: Register>(&self, tile: usize) -> &[Lanes<R>] {
+        let (lanes, _) = self.lanes::<R>();
+        &lanes[tile * self.rows..][..self.rows]
+    }
+
+    /// The rows of a tile, to be written.
+    ///
+    /// # Panics
+    ///
+    /// As [`tile`](Self::tile).
+    #[inline(always)]
+    pub fn tile_mut<R: Register>(&mut self, tile: usize) -> &mut [Lanes<R>] {
+        assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
+        let lanes = bytemuck::cast_slice_mut::<Line, Lanes<R>>(&mut self.lines);
+        &mut lanes[tile * self.rows..][..self.rows]
+    }
+
+    #[inline(always)]
+    fn lanes<R: Register>(&self) -> (&[Lanes<R>], usize) {
+        assert!(R::WIDTH == self.set.width(), "lanes of another instruction set");
+        (bytemuck::cast_slice(&self.lines), self.rows)
+    }
+
+    fn numbers(&self) -> &[f64] {
+        bytemuck::cast_slice(&self.lines)
+    }
+
+    fn numbers_mut(&mut self) -> &mut [f64] {
+        bytemuck::cast_slice_mut(&mut self.lines)
+    }
+
+    #[inline]
+    fn place(&self, row: usize, configuration: usize) -> usize {
+        assert!(row < self.rows && configuration < self.count, "row {row} of configuration {configuration}");
+        self.place_of_lane(row, configuration)
+    }
+
+    #[inline]
+    fn place_of_lane(&self, row: usize, lane: usize) -> usize {
+        let width = self.set.width();
+        (lane / width * self.rows + row) * width + lane % width
+    }
+}
