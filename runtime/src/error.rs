@@ -22,6 +22,8 @@ pub enum Quantity {
     Jacobian,
     /// The generalized errors of the sources.
     Errors,
+    /// The displacement of the tool point, its covariance, or variances that were given for it.
+    Displacement,
 }
 
 impl fmt::Display for Quantity {
@@ -33,6 +35,7 @@ impl fmt::Display for Quantity {
             Self::Pose => "pose entry",
             Self::Jacobian => "Jacobian column",
             Self::Errors => "effect of a source",
+            Self::Displacement => "displacement entry",
         })
     }
 }

@@ -23,6 +23,7 @@ mod chain;
 pub mod checks;
 mod component;
 mod description;
+pub mod distinct;
 mod error;
 mod face;
 #[cfg(feature = "nalgebra")]

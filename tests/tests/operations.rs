@@ -25,7 +25,7 @@ fn counts_of_every_function() {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
         writeln!(table, "{}", shipped.name).unwrap();
         for (kind, program) in functions(&Model::new(&spec)) {
-            writeln!(table, "  {:<18} {}", kind.name(), program.operations()).unwrap();
+            writeln!(table, "  {:<23} {}", kind.name(), program.operations()).unwrap();
         }
     }
     expect_file!["../golden/operations.txt"].assert_eq(&table);

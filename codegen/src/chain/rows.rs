@@ -1,6 +1,6 @@
 //! Rows 4–6 of a Jacobian from a small rotation.
 
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Graph, Node, Vector};
 use crate::spec::Orientation;
 
 /// What turns a small rotation ω in `F_0` into rows 4–6.
@@ -19,7 +19,7 @@ pub(super) enum Rows {
 /// ```
 pub(super) struct EulerYzx {
     /// `cos ρ = √(r11² + r31²)`: where it is 0 there are no rows.
-    pub(super) margin: Node,
+    margin: Node,
     /// `(r11, r31) / cos ρ`.
     roll: [Node; 2],
     /// `(r11, r31) / cos² ρ`.
@@ -29,11 +29,12 @@ pub(super) struct EulerYzx {
 }
 
 impl Rows {
-    pub(super) fn new(graph: &mut Graph, orientation: Orientation, tool: &Frame) -> Self {
+    /// `first_axis` is the first column of `R_T`.
+    pub(super) fn new(graph: &mut Graph, orientation: Orientation, first_axis: Vector) -> Self {
         if orientation == Orientation::RotationVector {
             return Self::RotationVector;
         }
-        let [r11, sine, r31] = tool.axes[0];
+        let [r11, sine, r31] = first_axis;
         let (first, second) = (graph.mul(r11, r11), graph.mul(r31, r31));
         let square = graph.add(first, second);
         let margin = graph.sqrt(square);
@@ -43,6 +44,14 @@ impl Rows {
         let roll = [r11, r31].map(|entry| graph.mul(entry, inverse));
         let pitch = roll.map(|entry| graph.mul(entry, inverse));
         Self::EulerYzx(EulerYzx { margin, roll, pitch, sine })
+    }
+
+    /// `cos ρ` where the rows are Euler angles.
+    pub(super) fn margin(&self) -> Option<Node> {
+        match self {
+            Self::RotationVector => None,
+            Self::EulerYzx(euler) => Some(euler.margin),
+        }
     }
 
     pub(super) fn of(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
