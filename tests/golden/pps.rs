@@ -30,12 +30,12 @@
 /// |---|---|
 /// | `transforms` | 2 mul, 2 add, 3 sincos, 3 neg |
 /// | `pose` | 26 mul, 19 add, 3 sincos, 2 neg |
-/// | `error_jacobian` | 99 mul, 62 add, 1 div, 3 sincos, 1 sqrt, 19 neg |
-/// | `joint_jacobian` | 52 mul, 32 add, 1 div, 3 sincos, 1 sqrt, 6 neg |
+/// | `error_jacobian` | 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg |
+/// | `joint_jacobian` | 47 mul, 29 add, 1 div, 3 sincos, 1 sqrt, 6 neg |
 /// | `parameter_jacobian` | 28 mul, 20 add, 3 sincos, 1 sqrt, 2 neg |
 /// | `effects` | 13 mul, 5 add, 7 div, 2 sincos, 5 neg |
 /// | `generalized_errors` | 13 mul, 10 add, 7 div, 2 sincos, 4 neg |
-/// | `error_jacobian_distinct` | 99 mul, 62 add, 1 div, 3 sincos, 1 sqrt, 19 neg |
+/// | `error_jacobian_distinct` | 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg |
 /// | `displacement` | 85 mul, 94 add, 1 div, 3 sincos, 1 sqrt |
 /// | `covariance` | 227 mul, 219 add, 1 div, 3 sincos, 1 sqrt, 1 neg |
 /// | `predicted_displacement` | 77 mul, 103 add, 8 div, 4 sincos, 1 sqrt |
@@ -413,7 +413,7 @@ pub mod pps {
         ///
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
-        /// 99 mul, 62 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
+        /// 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -492,27 +492,24 @@ pub mod pps {
             let t37 = -t36;
             let t38 = r5_32 * t5 - t2 * t6;
             let t39 = c5 + s5 * t36;
-            let t40 = r5_11 * t7 + t1 * t8;
-            let t41 = r5_11 * t6 - t1 * t5;
-            let t42 = s5 - s5 * t40;
-            let t43 = t28 - r6_13 * couch_offset;
-            let t44 = t29 + t3 * couch_offset;
-            let t45 = t30 - r6_33 * couch_offset;
+            let t40 = t28 - r6_13 * couch_offset;
+            let t41 = t29 + t3 * couch_offset;
+            let t42 = t30 - r6_33 * couch_offset;
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;
             let lever6_z = pt_z - p6_z;
-            let t46 = r6_22 * lever6_z - r6_32 * lever6_y;
-            let t47 = r6_32 * lever6_x - r6_12 * lever6_z;
-            let t48 = r6_12 * lever6_y - r6_22 * lever6_x;
-            let t49 = -(t3 * lever6_z + r6_33 * lever6_y);
-            let t50 = r6_33 * lever6_x - r6_13 * lever6_z;
-            let t51 = r6_13 * lever6_y + t3 * lever6_x;
-            let t52 = r6_12 * t7 - r6_32 * t8;
-            let t53 = r6_32 * t5 + r6_12 * t6;
-            let t54 = r6_22 - s5 * t52;
-            let t55 = r6_13 * t7 - r6_33 * t8;
-            let t56 = r6_33 * t5 + r6_13 * t6;
-            let t57 = -(t3 + s5 * t55);
+            let t43 = r6_22 * lever6_z - r6_32 * lever6_y;
+            let t44 = r6_32 * lever6_x - r6_12 * lever6_z;
+            let t45 = r6_12 * lever6_y - r6_22 * lever6_x;
+            let t46 = -(t3 * lever6_z + r6_33 * lever6_y);
+            let t47 = r6_33 * lever6_x - r6_13 * lever6_z;
+            let t48 = r6_13 * lever6_y + t3 * lever6_x;
+            let t49 = r6_12 * t7 - r6_32 * t8;
+            let t50 = r6_32 * t5 + r6_12 * t6;
+            let t51 = r6_22 - s5 * t49;
+            let t52 = r6_13 * t7 - r6_33 * t8;
+            let t53 = r6_33 * t5 + r6_13 * t6;
+            let t54 = -(t3 + s5 * t52);
             *pose = [
                 [r5_11, s5, r5_31],
                 [r6_12, r6_22, r6_32],
@@ -548,20 +545,20 @@ pub mod pps {
             columns[26] = [s4, zero, c4, zero, zero, zero];
             columns[27] = [t31, t32, t33, t39, t38, t37];
             columns[28] = [t34, t21, t35, t24, t23, t22];
-            columns[29] = [t28, t29, t30, t42, t41, t40];
+            columns[29] = [t28, t29, t30, zero, zero, one];
             columns[30] = [r5_11, s5, r5_31, zero, zero, zero];
             columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
             columns[32] = [r6_13, r6_23, r6_33, zero, zero, zero];
-            columns[33] = [t46, t47, t48, t54, t53, t52];
-            columns[34] = [t49, t50, t51, t57, t56, t55];
-            columns[35] = [t43, t44, t45, t42, t41, t40];
+            columns[33] = [t43, t44, t45, t51, t50, t49];
+            columns[34] = [t46, t47, t48, t54, t53, t52];
+            columns[35] = [t40, t41, t42, zero, zero, one];
             cos_roll
         }
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
         ///
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
-        /// 52 mul, 32 add, 1 div, 3 sincos, 1 sqrt, 6 neg.
+        /// 47 mul, 29 add, 1 div, 3 sincos, 1 sqrt, 6 neg.
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -601,25 +598,20 @@ pub mod pps {
             let t4 = T::constant(1.0) / cos_roll;
             let t5 = r5_11 * t4;
             let t6 = t1 * t4;
-            let t7 = t4 * t5;
-            let t8 = t4 * t6;
             let lever1_x = pt_x - d1;
-            let t9 = -lever1_x;
-            let t10 = p3_z - pt_z;
-            let lever4_z = -t10;
-            let t11 = c4 * lever1_x + s4 * t10;
-            let t12 = s4 * t7 - c4 * t8;
-            let t13 = c4 * t5 + s4 * t6;
-            let t14 = -(s5 * t12);
+            let t7 = -lever1_x;
+            let t8 = p3_z - pt_z;
+            let lever4_z = -t8;
+            let t9 = c4 * lever1_x + s4 * t8;
+            let t10 = s4 * (t4 * t5) - c4 * (t4 * t6);
+            let t11 = c4 * t5 + s4 * t6;
+            let t12 = -(s5 * t10);
             let lever5_y = pt_y - p5_y;
-            let t15 = t1 * lever5_y - s5 * t10;
-            let t16 = r5_11 * t10 - t1 * lever1_x;
-            let t17 = r5_11 * lever5_y - s5 * lever1_x;
-            let t18 = r5_11 * t7 + t1 * t8;
-            let t19 = r5_11 * t6 - t1 * t5;
-            let t20 = s5 - s5 * t18;
-            let t21 = -(c4 * lever5_y);
-            let t22 = s4 * lever5_y;
+            let t13 = t1 * lever5_y - s5 * t8;
+            let t14 = r5_11 * t8 - t1 * lever1_x;
+            let t15 = r5_11 * lever5_y - s5 * lever1_x;
+            let t16 = -(c4 * lever5_y);
+            let t17 = s4 * lever5_y;
             *pose = [
                 [r5_11, s5, r5_31],
                 [r6_12, r6_22, r6_32],
@@ -629,9 +621,9 @@ pub mod pps {
             columns[0] = [one, zero, zero, zero, zero, zero];
             columns[1] = [zero, one, zero, zero, zero, zero];
             columns[2] = [zero, zero, one, zero, zero, zero];
-            columns[3] = [lever4_z, zero, t9, one, zero, zero];
-            columns[4] = [t21, t11, t22, t14, t13, t12];
-            columns[5] = [t15, t16, t17, t20, t19, t18];
+            columns[3] = [lever4_z, zero, t7, one, zero, zero];
+            columns[4] = [t16, t9, t17, t12, t11, t10];
+            columns[5] = [t13, t14, t15, zero, zero, one];
             cos_roll
         }
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
@@ -819,7 +811,7 @@ pub mod pps {
         ///
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
-        /// 99 mul, 62 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
+        /// 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -898,27 +890,24 @@ pub mod pps {
             let t37 = -t36;
             let t38 = r5_32 * t5 - t2 * t6;
             let t39 = c5 + s5 * t36;
-            let t40 = r5_11 * t7 + t1 * t8;
-            let t41 = r5_11 * t6 - t1 * t5;
-            let t42 = s5 - s5 * t40;
-            let t43 = t28 - r6_13 * couch_offset;
-            let t44 = t29 + t3 * couch_offset;
-            let t45 = t30 - r6_33 * couch_offset;
+            let t40 = t28 - r6_13 * couch_offset;
+            let t41 = t29 + t3 * couch_offset;
+            let t42 = t30 - r6_33 * couch_offset;
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;
             let lever6_z = pt_z - p6_z;
-            let t46 = r6_22 * lever6_z - r6_32 * lever6_y;
-            let t47 = r6_32 * lever6_x - r6_12 * lever6_z;
-            let t48 = r6_12 * lever6_y - r6_22 * lever6_x;
-            let t49 = -(t3 * lever6_z + r6_33 * lever6_y);
-            let t50 = r6_33 * lever6_x - r6_13 * lever6_z;
-            let t51 = r6_13 * lever6_y + t3 * lever6_x;
-            let t52 = r6_12 * t7 - r6_32 * t8;
-            let t53 = r6_32 * t5 + r6_12 * t6;
-            let t54 = r6_22 - s5 * t52;
-            let t55 = r6_13 * t7 - r6_33 * t8;
-            let t56 = r6_33 * t5 + r6_13 * t6;
-            let t57 = -(t3 + s5 * t55);
+            let t43 = r6_22 * lever6_z - r6_32 * lever6_y;
+            let t44 = r6_32 * lever6_x - r6_12 * lever6_z;
+            let t45 = r6_12 * lever6_y - r6_22 * lever6_x;
+            let t46 = -(t3 * lever6_z + r6_33 * lever6_y);
+            let t47 = r6_33 * lever6_x - r6_13 * lever6_z;
+            let t48 = r6_13 * lever6_y + t3 * lever6_x;
+            let t49 = r6_12 * t7 - r6_32 * t8;
+            let t50 = r6_32 * t5 + r6_12 * t6;
+            let t51 = r6_22 - s5 * t49;
+            let t52 = r6_13 * t7 - r6_33 * t8;
+            let t53 = r6_33 * t5 + r6_13 * t6;
+            let t54 = -(t3 + s5 * t52);
             *pose = [
                 [r5_11, s5, r5_31],
                 [r6_12, r6_22, r6_32],
@@ -1066,9 +1055,9 @@ pub mod pps {
                 t24,
                 t23,
                 t22,
-                t42,
-                t41,
-                t40,
+                zero,
+                zero,
+                one,
             ];
             distinct[5] = [
                 r5_11,
@@ -1080,24 +1069,24 @@ pub mod pps {
                 r6_13,
                 r6_23,
                 r6_33,
-                t46,
-                t47,
-                t48,
-                t49,
-                t50,
-                t51,
                 t43,
                 t44,
                 t45,
+                t46,
+                t47,
+                t48,
+                t40,
+                t41,
+                t42,
+                t51,
+                t50,
+                t49,
                 t54,
                 t53,
                 t52,
-                t57,
-                t56,
-                t55,
-                t42,
-                t41,
-                t40,
+                zero,
+                zero,
+                one,
             ];
             cos_roll
         }

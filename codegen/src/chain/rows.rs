@@ -24,8 +24,8 @@ pub(super) struct EulerYzx {
     roll: [Node; 2],
     /// `(r11, r31) / cos² ρ`.
     pitch: [Node; 2],
-    /// `r21 = sin ρ`.
-    sine: Node,
+    /// `R_T x̂ = (r11, r21, r31)`, with `r21 = sin ρ`.
+    first_axis: Vector,
 }
 
 impl Rows {
@@ -34,7 +34,7 @@ impl Rows {
         if orientation == Orientation::RotationVector {
             return Self::RotationVector;
         }
-        let [r11, sine, r31] = first_axis;
+        let [r11, _, r31] = first_axis;
         let (first, second) = (graph.mul(r11, r11), graph.mul(r31, r31));
         let square = graph.add(first, second);
         let margin = graph.sqrt(square);
@@ -43,7 +43,7 @@ impl Rows {
         let inverse = graph.div(one, margin);
         let roll = [r11, r31].map(|entry| graph.mul(entry, inverse));
         let pitch = roll.map(|entry| graph.mul(entry, inverse));
-        Self::EulerYzx(EulerYzx { margin, roll, pitch, sine })
+        Self::EulerYzx(EulerYzx { margin, roll, pitch, first_axis })
     }
 
     /// `cos ρ` where the rows are Euler angles.
@@ -55,15 +55,22 @@ impl Rows {
     }
 
     pub(super) fn of(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
-        let Self::EulerYzx(EulerYzx { roll, pitch, sine, .. }) = self else {
+        let Self::EulerYzx(EulerYzx { roll, pitch, first_axis, .. }) = self else {
             return omega;
         };
+        // About R_T x̂ it is pitch alone.
+        let (zero, minus) = (graph.zero(), graph.neg_vector(omega));
+        for (turn, pitch) in [(omega, 1.0), (minus, -1.0)] {
+            if turn == *first_axis {
+                return [zero, zero, graph.constant(pitch)];
+            }
+        }
         let [x, y, z] = omega;
         let (first, second) = (graph.mul(pitch[0], x), graph.mul(pitch[1], z));
         let pitch = graph.add(first, second);
         let (first, second) = (graph.mul(roll[0], z), graph.mul(roll[1], x));
         let roll = graph.sub(first, second);
-        let part = graph.mul(*sine, pitch);
+        let part = graph.mul(first_axis[1], pitch);
         [graph.sub(y, part), roll, pitch]
     }
 
