@@ -1,12 +1,13 @@
 //! A spec as a [`Manipulator`].
 
+use abbe::lanes::{Path, Tiles};
 use abbe::{Description, Error, Manipulator, Pose, Quantity, checks};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::FunctionKind;
 use abbe_codegen::spec::{Orientation, Spec};
 
 use crate::describe::Described;
-use crate::lanes::{Block, LANES};
+use crate::lanes::{Batch, Block};
 use crate::tape::Tape;
 
 /// How many numbers a pose has.
@@ -24,14 +25,23 @@ pub struct Interpreter<'s> {
     parameter_jacobian: Tape,
     effects: Tape,
     generalized_errors: Tape,
+    /// In the order of [`Path::ALL`].
+    batches: [Tape; Path::ALL.len()],
 }
 
 impl<'s> Interpreter<'s> {
     /// Prepares the programs of a spec.
     pub fn new(spec: &'s Spec) -> Self {
         let model = Model::new(spec);
-        let symbols = [spec.variables.len(), spec.parameters.len(), spec.inputs.len()];
-        let tape = |kind: FunctionKind| Tape::new(&kind.program(&model), symbols);
+        let counts = [spec.variables.len(), spec.parameters.len(), spec.inputs.len()];
+        let tape = |kind: FunctionKind| {
+            let errors = match kind {
+                FunctionKind::Displacement | FunctionKind::Covariance => 6 * spec.frames.len(),
+                _ => 0,
+            };
+            let [variables, parameters, inputs] = counts;
+            Tape::new(&kind.program(&model), [variables, parameters, inputs, errors])
+        };
         Self {
             described: Described::new(spec, &model),
             euler: spec.orientation == Orientation::EulerYzx,
@@ -42,6 +52,7 @@ impl<'s> Interpreter<'s> {
             parameter_jacobian: tape(FunctionKind::ParameterJacobian),
             effects: tape(FunctionKind::Effects),
             generalized_errors: tape(FunctionKind::GeneralizedErrors),
+            batches: Path::ALL.map(|path| tape(kind(path))),
         }
     }
 
@@ -67,7 +78,7 @@ impl<'s> Interpreter<'s> {
     /// Runs a tape at one configuration.
     fn run(&self, tape: &Tape, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<f64>, Error> {
         self.check(q, s, u)?;
-        let mut block = Block::<1>::new(tape);
+        let mut block = Block::<f64, 1>::new(tape);
         for (slot, value) in q.iter().chain(s).chain(u).enumerate() {
             block.set(slot, 0, *value);
         }
@@ -157,57 +168,25 @@ impl Manipulator for Interpreter<'_> {
         Ok(())
     }
 
-    fn error_models(
-        &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        poses: &mut [Pose],
-        columns: &mut [[f64; 6]],
-        effects: &mut [f64],
-    ) -> Result<(), (usize, Error)> {
-        let description = self.description();
-        let counts = [description.variables.len(), description.parameters.len(), description.inputs.len()];
-        let (column_count, effect_count) = (6 * description.frames.len(), description.effects.len());
-        let configurations = poses.len();
-        let at_none = |error| (0, error);
-        let [variables, parameters, inputs] = counts;
-        count(Quantity::Variables, variables * configurations, q.len()).map_err(at_none)?;
-        count(Quantity::Parameters, parameters * configurations, s.len()).map_err(at_none)?;
-        count(Quantity::Inputs, inputs * configurations, u.len()).map_err(at_none)?;
-        count(Quantity::Jacobian, column_count * configurations, columns.len()).map_err(at_none)?;
-        count(Quantity::Errors, effect_count * configurations, effects.len()).map_err(at_none)?;
-
-        let row = |i: usize, width: usize| i * width..(i + 1) * width;
-        let tapes = [&self.error_jacobian, &self.effects];
-        let mut blocks = tapes.map(Block::<LANES>::new);
-        for first in (0..configurations).step_by(LANES) {
-            let lanes = LANES.min(configurations - first);
-            for lane in 0..lanes {
-                let i = first + lane;
-                let (q, s, u) = (&q[row(i, variables)], &s[row(i, parameters)], &u[row(i, inputs)]);
-                self.check(q, s, u).map_err(|error| (i, error))?;
-                for (slot, value) in q.iter().chain(s).chain(u).enumerate() {
-                    blocks.iter_mut().for_each(|block| block.set(slot, lane, *value));
-                }
-            }
-            for (block, tape) in blocks.iter_mut().zip(tapes) {
-                block.run(tape);
-            }
-            let [jacobian, errors] = &blocks;
-            for lane in 0..lanes {
-                let i = first + lane;
-                let columns = &mut columns[row(i, column_count)];
-                let outputs = self.error_jacobian.outputs.iter().map(|slot| jacobian.value(*slot, lane));
-                poses[i] = self.finish_jacobian(outputs, columns).map_err(|error| (i, error))?;
-                let effects = &mut effects[row(i, effect_count)];
-                for (effect, slot) in effects.iter_mut().zip(&self.effects.outputs) {
-                    *effect = errors.value(*slot, lane);
-                }
-                checks::finite(Quantity::Errors, effects).map_err(|error| (i, error))?;
-            }
-        }
+    fn batch(&self, path: Path, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
+        path.check(&self.description(), arguments, results)?;
+        let tape = &self.batches[path as usize];
+        arguments.set().run(Batch { tape, arguments, results });
         Ok(())
+    }
+}
+
+/// The program of a batch function.
+fn kind(path: Path) -> FunctionKind {
+    match path {
+        Path::Pose => FunctionKind::Pose,
+        Path::ErrorJacobian => FunctionKind::ErrorJacobian,
+        Path::DistinctErrorJacobian => FunctionKind::ErrorJacobianDistinct,
+        Path::Displacement => FunctionKind::Displacement,
+        Path::PredictedDisplacement => FunctionKind::PredictedDisplacement,
+        Path::SourceDisplacements => FunctionKind::SourceDisplacements,
+        Path::Covariance => FunctionKind::Covariance,
+        Path::CompensatorStep => FunctionKind::CompensatorStep,
     }
 }
 

@@ -1,95 +1,135 @@
 //! Evaluates a tape over a block of lanes: each operation for all lanes before the next one, so that choosing
 //! the operation costs next to nothing.
 
+use std::array;
+
 use abbe::Scalar;
+use abbe::lanes::{Kernel, Lanes, Register, Tiles};
 use abbe_codegen::expr::Function;
 use abbe_codegen::program::Action;
 
 use crate::tape::{Instruction, Slot, Tape};
 
-/// How many configurations of a batch are evaluated together: enough to hide the choice of an operation, few
-/// enough for all slots to stay in the cache.
-pub(crate) const LANES: usize = 32;
+/// How many tiles of a batch are evaluated together: enough to hide the choice of an operation, few enough for
+/// all slots to stay in the cache.
+const TILES: usize = 8;
 
-/// The values of a block: a row of lanes for every slot.
+/// The values of a block: a row of numbers, or of lanes of them, for every slot.
 #[derive(Clone, Debug)]
-pub(crate) struct Block<const N: usize> {
-    rows: Vec<[f64; N]>,
+pub(crate) struct Block<T, const N: usize> {
+    rows: Vec<[T; N]>,
 }
 
-impl<const N: usize> Block<N> {
+impl<T: Scalar, const N: usize> Block<T, N> {
     /// Room for a tape, with its constants in place.
+    #[inline(always)]
     pub(crate) fn new(tape: &Tape) -> Self {
-        let mut rows = vec![[0.0; N]; tape.slots];
+        let mut rows = vec![[T::constant(0.0); N]; tape.slots];
         for (row, constant) in rows[tape.symbol_slots()..].iter_mut().zip(&tape.constants) {
-            *row = [*constant; N];
+            *row = [T::constant(*constant); N];
         }
         Self { rows }
     }
 
-    /// Sets the symbol of that slot in one lane.
-    pub(crate) fn set(&mut self, slot: usize, lane: usize, value: f64) {
-        self.rows[slot][lane] = value;
+    /// Sets the symbol of that slot in one place of the row.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, slot: usize, place: usize, value: T) {
+        self.rows[slot][place] = value;
     }
 
-    /// Runs the tape over all lanes; those that nobody set hold what they held.
+    /// The value of a slot in one place of the row.
+    #[inline(always)]
+    pub(crate) fn value(&self, slot: Slot, place: usize) -> T {
+        self.rows[slot][place]
+    }
+
+    /// Runs the tape over the whole row; places that nobody set hold what they held.
+    #[inline(always)]
     pub(crate) fn run(&mut self, tape: &Tape) {
         for instruction in &tape.instructions {
-            self.step(instruction);
+            match instruction.action {
+                Action::Neg(_) => self.map(instruction, |a, _, _| -a),
+                Action::Add(..) => self.map(instruction, |a, b, _| a + b),
+                Action::Sub(..) => self.map(instruction, |a, b, _| a - b),
+                Action::Mul(..) => self.map(instruction, |a, b, _| a * b),
+                Action::MulAdd(..) => self.map(instruction, Scalar::mul_add),
+                Action::MulSub(..) => self.map(instruction, Scalar::mul_sub),
+                Action::NegMulAdd(..) => self.map(instruction, Scalar::neg_mul_add),
+                Action::Div(..) => self.map(instruction, |a, b, _| a / b),
+                Action::SinCos(_) => self.sin_cos(instruction),
+                Action::Call(Function::Sqrt, _) => self.map(instruction, |a, _, _| a.sqrt()),
+                _ => self.rare(instruction),
+            }
         }
     }
 
-    /// The value of a slot in one lane.
-    pub(crate) fn value(&self, slot: Slot, lane: usize) -> f64 {
-        self.rows[slot][lane]
-    }
-
-    fn step(&mut self, instruction: &Instruction) {
-        let Instruction { action, .. } = *instruction;
-        match action {
-            Action::Neg(_) => self.map(instruction, |a, _| -a),
-            Action::Add(..) => self.map(instruction, |a, b| a + b),
-            Action::Sub(..) => self.map(instruction, |a, b| a - b),
-            Action::Mul(..) => self.map(instruction, |a, b| a * b),
-            Action::MulAdd(..) => self.map3(instruction, Scalar::mul_add),
-            Action::MulSub(..) => self.map3(instruction, Scalar::mul_sub),
-            Action::NegMulAdd(..) => self.map3(instruction, Scalar::neg_mul_add),
-            Action::Div(..) => self.map(instruction, |a, b| a / b),
-            Action::Pow(..) => self.map(instruction, Scalar::powf),
-            Action::Atan2(..) => self.map(instruction, Scalar::atan2),
-            Action::SinCos(_) => self.sin_cos(instruction),
+    /// What takes so long by itself that nothing is lost by a call.
+    #[inline(never)]
+    fn rare(&mut self, instruction: &Instruction) {
+        match instruction.action {
+            Action::Pow(..) => self.map(instruction, |a, b, _| a.powf(b)),
+            Action::Atan2(..) => self.map(instruction, |a, b, _| a.atan2(b)),
             Action::Call(function, _) => match function {
-                Function::Sin => self.map(instruction, |a, _| Scalar::sin(a)),
-                Function::Cos => self.map(instruction, |a, _| Scalar::cos(a)),
-                Function::Tan => self.map(instruction, |a, _| Scalar::tan(a)),
-                Function::Asin => self.map(instruction, |a, _| Scalar::asin(a)),
-                Function::Acos => self.map(instruction, |a, _| Scalar::acos(a)),
-                Function::Atan => self.map(instruction, |a, _| Scalar::atan(a)),
-                Function::Sqrt => self.map(instruction, |a, _| Scalar::sqrt(a)),
-                Function::Abs => self.map(instruction, |a, _| Scalar::abs(a)),
-                Function::Sign => self.map(instruction, |a, _| Scalar::sign(a)),
+                Function::Sin => self.map(instruction, |a, _, _| a.sin()),
+                Function::Cos => self.map(instruction, |a, _, _| a.cos()),
+                Function::Tan => self.map(instruction, |a, _, _| a.tan()),
+                Function::Asin => self.map(instruction, |a, _, _| a.asin()),
+                Function::Acos => self.map(instruction, |a, _, _| a.acos()),
+                Function::Atan => self.map(instruction, |a, _, _| a.atan()),
+                Function::Sqrt => self.map(instruction, |a, _, _| a.sqrt()),
+                Function::Abs => self.map(instruction, |a, _, _| a.abs()),
+                Function::Sign => self.map(instruction, |a, _, _| a.sign()),
             },
+            _ => unreachable!("`run` does the others"),
         }
     }
 
     #[inline(always)]
-    fn map(&mut self, instruction: &Instruction, f: impl Fn(f64, f64) -> f64) {
+    fn map(&mut self, instruction: &Instruction, f: impl Fn(T, T, T) -> T) {
         // The result may take the place of an operand: it is put there when it is complete.
-        let (a, b) = (&self.rows[instruction.a], &self.rows[instruction.b]);
-        let result = std::array::from_fn(|lane| f(a[lane], b[lane]));
+        let Instruction { a, b, c, .. } = *instruction;
+        let (a, b, c) = (&self.rows[a], &self.rows[b], &self.rows[c]);
+        let result = array::from_fn(|place| f(a[place], b[place], c[place]));
         self.rows[instruction.result] = result;
     }
 
     #[inline(always)]
-    fn map3(&mut self, instruction: &Instruction, f: impl Fn(f64, f64, f64) -> f64) {
-        let (a, b, c) = (&self.rows[instruction.a], &self.rows[instruction.b], &self.rows[instruction.c]);
-        let result = std::array::from_fn(|lane| f(a[lane], b[lane], c[lane]));
-        self.rows[instruction.result] = result;
-    }
-
     fn sin_cos(&mut self, instruction: &Instruction) {
         let pairs = self.rows[instruction.a].map(Scalar::sin_cos);
         self.rows[instruction.result] = pairs.map(|(sine, _)| sine);
         self.rows[instruction.second] = pairs.map(|(_, cosine)| cosine);
+    }
+}
+
+/// A tape and what it is to be run over.
+pub(crate) struct Batch<'a> {
+    pub(crate) tape: &'a Tape,
+    pub(crate) arguments: &'a Tiles,
+    pub(crate) results: &'a mut Tiles,
+}
+
+impl Kernel for Batch<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<R: Register>(self) {
+        let Self { tape, arguments, results } = self;
+        let mut block = Block::<Lanes<R>, TILES>::new(tape);
+        let tiles = arguments.tiles();
+        for first in (0..tiles).step_by(TILES) {
+            let here = TILES.min(tiles - first);
+            for place in 0..here {
+                for (slot, value) in arguments.tile::<R>(first + place).iter().enumerate() {
+                    block.set(slot, place, *value);
+                }
+            }
+            block.run(tape);
+            for place in 0..here {
+                let rows = results.tile_mut::<R>(first + place);
+                for (result, slot) in rows.iter_mut().zip(&tape.outputs) {
+                    *result = block.value(*slot, place);
+                }
+            }
+        }
     }
 }

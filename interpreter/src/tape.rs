@@ -20,19 +20,20 @@ pub(crate) struct Instruction {
 
 /// A program ready to run.
 ///
-/// Slots hold, in this order: the variables, parameters and inputs, the constants, and then working values.
+/// Slots hold, in this order: the variables, parameters, inputs and generalized errors, the constants, and then
+/// working values.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
     pub(crate) instructions: Vec<Instruction>,
     pub(crate) constants: Vec<f64>,
     pub(crate) outputs: Vec<Slot>,
     pub(crate) slots: usize,
-    symbols: [usize; 3],
+    symbols: [usize; 4],
 }
 
 impl Tape {
-    /// Packs a program of a manipulator with so many variables, parameters and inputs.
-    pub(crate) fn new(program: &Program, symbols: [usize; 3]) -> Self {
+    /// Packs a program of a manipulator with so many variables, parameters, inputs and generalized errors.
+    pub(crate) fn new(program: &Program, symbols: [usize; 4]) -> Self {
         let mut packer = Packer::new(program, symbols);
         let mut instructions = Vec::with_capacity(program.steps.len());
         for (at, step) in program.steps.iter().enumerate() {
@@ -53,14 +54,14 @@ impl Tape {
         Self { instructions, constants: packer.constants, outputs, slots: packer.slots, symbols }
     }
 
-    /// How many slots the variables, parameters and inputs take.
+    /// How many slots the symbols take.
     pub(crate) fn symbol_slots(&self) -> usize {
         self.symbols.iter().sum()
     }
 }
 
 struct Packer {
-    symbols: [usize; 3],
+    symbols: [usize; 4],
     constants: Vec<f64>,
     registers: Vec<Slot>,
     /// The last step that uses each register; outputs are used for ever.
@@ -70,7 +71,7 @@ struct Packer {
 }
 
 impl Packer {
-    fn new(program: &Program, symbols: [usize; 3]) -> Self {
+    fn new(program: &Program, symbols: [usize; 4]) -> Self {
         let mut last_use = vec![0; program.registers];
         let mut constants: Vec<f64> = Vec::new();
         for (at, step) in program.steps.iter().enumerate() {
@@ -94,18 +95,16 @@ impl Packer {
     }
 
     fn slot(&self, operand: Operand) -> Slot {
-        let [variables, parameters, inputs] = self.symbols;
+        let [variables, parameters, inputs, errors] = self.symbols;
         match operand {
             Operand::Register(register) => self.registers[register],
             Operand::Symbol(Symbol::Variable(i)) => i,
             Operand::Symbol(Symbol::Parameter(i)) => variables + i,
             Operand::Symbol(Symbol::Input(i)) => variables + parameters + i,
-            Operand::Symbol(Symbol::Error(_)) => {
-                unreachable!("generalized errors stand in no program of a spec")
-            }
+            Operand::Symbol(Symbol::Error(i)) => variables + parameters + inputs + i,
             Operand::Constant(value) => {
                 let place = self.constants.iter().position(|known| known.to_bits() == value.to_bits());
-                variables + parameters + inputs + place.expect("constants were collected")
+                variables + parameters + inputs + errors + place.expect("constants were collected")
             }
         }
     }

@@ -60,6 +60,25 @@ pub fn inputs(description: &[Input<'_>], u: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
+/// Whether the joint variables and structural parameters are finite.
+pub fn configuration(q: &[f64], s: &[f64]) -> Result<(), Error> {
+    finite(Quantity::Variables, q)?;
+    finite(Quantity::Parameters, s)
+}
+
+/// The same, and whether every input is finite and within its range.
+pub fn use_case(description: &[Input<'_>], q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
+    configuration(q, s)?;
+    finite(Quantity::Inputs, u)?;
+    inputs(description, u)
+}
+
+/// Whether a displacement or covariance exists at the margin that a raw function returned, and is finite.
+pub fn displacement(cosine: impl Margin, values: &[f64]) -> Result<(), Error> {
+    margin(cosine)?;
+    finite(Quantity::Displacement, values)
+}
+
 fn count(quantity: Quantity, expected: usize, found: usize) -> Error {
     Error::Count { quantity, expected, found }
 }

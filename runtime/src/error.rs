@@ -30,6 +30,8 @@ pub enum Quantity {
     Configurations,
     /// The lanes of a batch.
     Lanes,
+    /// The displacement of the tool point, its covariance, or variances that were given for it.
+    Displacement,
 }
 
 impl fmt::Display for Quantity {
@@ -45,6 +47,7 @@ impl fmt::Display for Quantity {
             Self::Results => "row of results",
             Self::Configurations => "configuration of a batch",
             Self::Lanes => "lane",
+            Self::Displacement => "displacement entry",
         })
     }
 }

@@ -4,7 +4,7 @@
 /// of a generated module.
 ///
 /// Generated code calls it where `FRAMES`, `ERRORS`, `VARIABLES`, `PARAMETERS`, `INPUTS`, `EFFECTS`,
-/// `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. Arrays have the right size by their types;
+/// `SOURCES`, `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. Arrays have the right size by their types;
 /// numbers that are not finite, inputs outside their range and Euler singularities are [`Error`](crate::Error)s.
 #[macro_export]
 macro_rules! checked_face {
@@ -83,6 +83,70 @@ macro_rules! checked_face {
             Ok(errors)
         }
 
+        $crate::checked_face! {
+            /// `ΔX = J_e ε` for any ε: `e_x e_y e_z e_s e_r e_p` of each frame; rows as those of a Jacobian.
+            ///
+            /// An error where Euler rows are singular, or if a number is not finite.
+            @given errors, displacement: [f64; 6]
+        }
+
+        $crate::checked_face! {
+            /// `J_e diag(σ²) J_eᵀ`, the covariance of ΔX, for independent errors of these variances, in the order of ε.
+            ///
+            /// Exact to rounding errors of the largest variance of its three axes: one that ought to be 0 can come out
+            /// that much below it. An error where Euler rows are singular, or if a number is not finite.
+            @given variances, covariance: [[f64; 6]; 6]
+        }
+
+        $crate::checked_face! {
+            /// `ΔX = J_e ε` of the repeatable sources; rows as those of a Jacobian.
+            ///
+            /// An error where Euler rows are singular, if an input is outside its range or a number is not finite.
+            @sources predicted_displacement: [f64; 6]
+        }
+
+        $crate::checked_face! {
+            /// ΔX of each source by itself, of a random one for its magnitude; rows as those of a Jacobian.
+            ///
+            /// An error where Euler rows are singular, if an input is outside its range or a number is not finite.
+            @sources source_displacements: [[f64; 6]; SOURCES]
+        }
+
+        /// The pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: equation (6).
+        ///
+        /// An error if an input is outside its range or a number is not finite.
+        pub fn real_pose(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+        ) -> Result<$crate::Pose, $crate::Error> {
+            let (s, u) = (&s.to_array(), &u.to_array());
+            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            let mut pose = [[0.0; 3]; 4];
+            raw::real_pose(q, s, u, &mut pose);
+            $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
+            Ok($crate::Pose(pose))
+        }
+
+        /// The real pose, and the nominal `J_q` with rotation-vector rows whatever those of the other functions are.
+        ///
+        /// A step towards a pose `X*` is `δq = J_q⁺ (X* ⊖ X_real)`, with the rows of
+        /// [`deviation`](::abbe::deviation) from the real pose to `X*`. An error if an input is outside its range or
+        /// a number is not finite.
+        pub fn compensator_step(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+        ) -> Result<($crate::Pose, [[f64; 6]; VARIABLES]), $crate::Error> {
+            let (s, u) = (&s.to_array(), &u.to_array());
+            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            let (mut pose, mut columns) = ([[0.0; 3]; 4], [[0.0; 6]; VARIABLES]);
+            raw::compensator_step(q, s, u, &mut pose, &mut columns);
+            $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
+            $crate::checks::finite($crate::Quantity::Jacobian, columns.as_flattened())?;
+            Ok(($crate::Pose(pose), columns))
+        }
+
         impl $crate::Manipulator for $name {
             fn description(&self) -> $crate::Description<'_> {
                 DESCRIPTION
@@ -103,6 +167,8 @@ macro_rules! checked_face {
                 *transforms = columns.map($crate::Pose);
                 Ok(())
             }
+
+            $crate::batch_face!();
 
             fn pose(&self, q: &[f64], s: &[f64]) -> Result<$crate::Pose, $crate::Error> {
                 let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
@@ -167,4 +233,39 @@ macro_rules! checked_face {
             Ok($crate::Pose(pose))
         }
     };
+    ($(#[$documentation:meta])* @given $given:ident, $function:ident: [$($result:tt)*]) => {
+        $(#[$documentation])*
+        pub fn $function(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            $given: &[[f64; 6]; FRAMES],
+        ) -> Result<[$($result)*], $crate::Error> {
+            let s = &s.to_array();
+            $crate::checks::configuration(q, s)?;
+            $crate::checks::finite($crate::Quantity::Errors, $given.as_flattened())?;
+            let mut result = $crate::checked_face!(@zero $($result)*);
+            let margin = raw::$function(q, s, $given, &mut result);
+            $crate::checks::displacement(margin, $crate::checked_face!(@flat result: $($result)*))?;
+            Ok(result)
+        }
+    };
+    ($(#[$documentation:meta])* @sources $function:ident: [$($result:tt)*]) => {
+        $(#[$documentation])*
+        pub fn $function(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+        ) -> Result<[$($result)*], $crate::Error> {
+            let (s, u) = (&s.to_array(), &u.to_array());
+            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            let mut result = $crate::checked_face!(@zero $($result)*);
+            let margin = raw::$function(q, s, u, &mut result);
+            $crate::checks::displacement(margin, $crate::checked_face!(@flat result: $($result)*))?;
+            Ok(result)
+        }
+    };
+    (@zero f64; 6) => { [0.0; 6] };
+    (@zero [f64; 6]; $columns:expr) => { [[0.0; 6]; $columns] };
+    (@flat $result:ident: f64; 6) => { &$result };
+    (@flat $result:ident: [f64; 6]; $columns:expr) => { $result.as_flattened() };
 }

@@ -23,6 +23,7 @@ mod chain;
 pub mod checks;
 mod component;
 mod description;
+pub mod distinct;
 mod error;
 mod face;
 #[cfg(feature = "nalgebra")]
@@ -36,6 +37,12 @@ mod sin_cos;
 pub mod analysis;
 #[cfg(feature = "lanes")]
 pub mod lanes;
+#[cfg(not(feature = "lanes"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! batch_face {
+    () => {};
+}
 #[cfg(feature = "analysis")]
 pub mod laws;
 

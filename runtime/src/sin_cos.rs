@@ -14,7 +14,6 @@ const FRAC_2_PI: f64 = core::f64::consts::FRAC_2_PI;
 const PARTS: [f64; 3] = [1.570_796_326_792_333_3, 2.563_344_151_583_955_8e-12, 1.056_299_906_698_742_8e-23];
 /// `1.5 · 2⁵²`: adding it rounds to the nearest integer, which then stands in the low bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-const SIGN: u64 = 1 << 63;
 
 /// `S`, lowest power first.
 const SINE: [f64; 6] = [
@@ -38,14 +37,35 @@ const COSINE: [f64; 7] = [
 
 /// What can be computed with as numbers and as bits.
 pub(crate) trait Real: Scalar {
-    /// `f` of the bits of three values, lane by lane.
-    fn bits(a: Self, b: Self, c: Self, f: impl Fn(u64, u64, u64) -> u64) -> Self;
+    /// Exclusive or of the bits.
+    fn xor(self, other: Self) -> Self;
+    /// And of the bits.
+    fn and(self, other: Self) -> Self;
+    /// All bits where the lowest bit is set, none elsewhere.
+    fn odd(self) -> Self;
+    /// The bits moved up by so many places.
+    fn shifted<const PLACES: u32>(self) -> Self;
 }
 
 impl Real for f64 {
     #[inline(always)]
-    fn bits(a: f64, b: f64, c: f64, f: impl Fn(u64, u64, u64) -> u64) -> f64 {
-        f64::from_bits(f(a.to_bits(), b.to_bits(), c.to_bits()))
+    fn xor(self, other: f64) -> f64 {
+        f64::from_bits(self.to_bits() ^ other.to_bits())
+    }
+
+    #[inline(always)]
+    fn and(self, other: f64) -> f64 {
+        f64::from_bits(self.to_bits() & other.to_bits())
+    }
+
+    #[inline(always)]
+    fn odd(self) -> f64 {
+        f64::from_bits(0_u64.wrapping_sub(self.to_bits() & 1))
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(self) -> f64 {
+        f64::from_bits(self.to_bits() << PLACES)
     }
 }
 
@@ -57,7 +77,8 @@ pub(crate) fn near<T: Real>(x: T) -> (T, T) {
     let (z, r) = (r * r, turn(r, n));
     let (sine, cosine) = polynomials(r, z);
     // −0 + 0 is 0.
-    let sine = T::bits(sine, r, r, |sine, r, _| sine | (r & SIGN));
+    let (sign, zero) = (T::constant(-0.0), sine.and(r).and(T::constant(-0.0)));
+    let sine = sine.xor(r.and(sign)).xor(zero);
     swap(sine, cosine, n)
 }
 
@@ -102,7 +123,7 @@ fn reduce<T: Real>(x: T) -> (T, T) {
 /// `−r` in odd quadrants: there the cosine is `−sin r`, and `cos r` does not mind.
 #[inline(always)]
 fn turn<T: Real>(r: T, n: T) -> T {
-    T::bits(r, n, n, |r, n, _| r ^ (n << 63))
+    r.xor(n.shifted::<63>())
 }
 
 /// `sin r` and `cos r` for `|r| ≤ π/4`, `z = r²`, step by step together: in scalar code they are one SSE2 vector.
@@ -120,9 +141,7 @@ fn polynomials<T: Real>(r: T, z: T) -> (T, T) {
 /// In odd quadrants sine and cosine change places; in the second and third both change sign ([`turn`] did the rest).
 #[inline(always)]
 fn swap<T: Real>(sine: T, cosine: T, n: T) -> (T, T) {
-    let change = |a: u64, b: u64, n: u64| ((a ^ b) & 0_u64.wrapping_sub(n & 1)) ^ ((n & 2) << 62);
-    (
-        T::bits(sine, cosine, n, |sine, cosine, n| sine ^ change(sine, cosine, n)),
-        T::bits(cosine, sine, n, |cosine, sine, n| cosine ^ change(sine, cosine, n)),
-    )
+    let sign = n.shifted::<62>().and(T::constant(-0.0));
+    let change = sine.xor(cosine).and(n.odd()).xor(sign);
+    (sine.xor(change), cosine.xor(change))
 }

@@ -32,6 +32,13 @@
 /// | `parameter_jacobian` | 67 mul, 33 add, 6 sincos, 5 neg |
 /// | `effects` | 0 mul, 0 add |
 /// | `generalized_errors` | 0 mul, 0 add |
+/// | `error_jacobian_distinct` | 94 mul, 45 add, 6 sincos, 21 neg |
+/// | `displacement` | 70 mul, 73 add, 6 sincos |
+/// | `covariance` | 156 mul, 162 add, 6 sincos, 1 neg |
+/// | `predicted_displacement` | 0 mul, 0 add |
+/// | `source_displacements` | 69 mul, 25 add, 5 sincos, 9 neg |
+/// | `real_pose` | 67 mul, 33 add, 6 sincos, 5 neg |
+/// | `compensator_step` | 83 mul, 50 add, 6 sincos, 13 neg |
 pub mod puma560 {
     use ::abbe::{
         Class, Component, Description, Distribution, Effect, Frame, LengthUnit,
@@ -49,6 +56,10 @@ pub mod puma560 {
     pub const INPUTS: usize = 0;
     /// How many errors the sources cause.
     pub const EFFECTS: usize = 8;
+    /// How many sources there are.
+    pub const SOURCES: usize = 6;
+    /// How many numbers of a frame's six columns of `J_e` are neither zero nor repeated.
+    pub const DISTINCT: usize = 18;
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "puma560",
@@ -185,7 +196,9 @@ pub mod puma560 {
     /// The same as functions of plain arrays, generic over the scalar and without checks: what is not
     /// finite stays so.
     pub mod raw {
-        use super::{EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, VARIABLES};
+        use super::{
+            DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES,
+        };
         use ::abbe::Scalar;
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
@@ -652,6 +665,697 @@ pub mod puma560 {
             errors[3] = [zero; 6];
             errors[4] = [zero; 6];
             errors[5] = [zero; 6];
+        }
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the
+        /// moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
+        ///
+        /// 94 mul, 45 add, 6 sincos, 21 neg.
+        pub fn error_jacobian_distinct<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            distinct: &mut [[T; DISTINCT]; FRAMES],
+        ) {
+            let [q1, q2, q3, q4, q5, q6] = *q;
+            let zero = T::constant(0.0);
+            let one = T::constant(1.0);
+            let (s1, c1) = q1.sin_cos();
+            let r1_23 = -c1;
+            let (s2, c2) = q2.sin_cos();
+            let t1 = c2 * T::constant(0.4318);
+            let p2_z = s2 * T::constant(0.4318);
+            let p2_x = c1 * t1;
+            let p2_y = s1 * t1;
+            let r2_11 = c1 * c2;
+            let r2_21 = s1 * c2;
+            let t2 = c1 * s2;
+            let r2_12 = -t2;
+            let t3 = s1 * s2;
+            let r2_22 = -t3;
+            let (s3, c3) = q3.sin_cos();
+            let t4 = c3 * T::constant(0.0203);
+            let t5 = s3 * T::constant(0.0203);
+            let r3_11 = r2_11 * c3 - t2 * s3;
+            let r3_21 = r2_21 * c3 - t3 * s3;
+            let r3_31 = s2 * c3 + c2 * s3;
+            let r3_12 = -s1;
+            let t6 = r2_11 * s3 + t2 * c3;
+            let r3_13 = -t6;
+            let t7 = r2_21 * s3 + t3 * c3;
+            let r3_23 = -t7;
+            let r3_33 = c2 * c3 - s2 * s3;
+            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
+            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
+            let p3_z = p2_z + (s2 * t4 + c2 * t5);
+            let (s4, c4) = q4.sin_cos();
+            let r4_31 = r3_31 * c4;
+            let r4_11 = r3_11 * c4 - s1 * s4;
+            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_33 = r3_31 * s4;
+            let r4_13 = r3_11 * s4 + s1 * c4;
+            let r4_23 = r3_21 * s4 - c1 * c4;
+            let p4_x = p3_x - T::constant(0.4318) * t6;
+            let p4_y = p3_y - T::constant(0.4318) * t7;
+            let p4_z = p3_z + T::constant(0.4318) * r3_33;
+            let (s5, c5) = q5.sin_cos();
+            let r5_11 = r4_11 * c5 - t6 * s5;
+            let r5_21 = r4_21 * c5 - t7 * s5;
+            let r5_31 = r4_31 * c5 + r3_33 * s5;
+            let r5_12 = -r4_13;
+            let r5_22 = -r4_23;
+            let r5_32 = -r4_33;
+            let r5_13 = -(r4_11 * s5 + t6 * c5);
+            let r5_23 = -(r4_21 * s5 + t7 * c5);
+            let r5_33 = r3_33 * c5 - r4_31 * s5;
+            let (s6, c6) = q6.sin_cos();
+            let r6_11 = r5_11 * c6 - r4_13 * s6;
+            let r6_21 = r5_21 * c6 - r4_23 * s6;
+            let r6_31 = r5_31 * c6 - r4_33 * s6;
+            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
+            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
+            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
+            let t8 = s1 * p4_z;
+            let t9 = -(c1 * p4_z);
+            let t10 = c1 * p4_y - s1 * p4_x;
+            let t11 = -p4_y;
+            let t12 = -t8;
+            let t13 = s1 * p4_y + c1 * p4_x;
+            let lever2_x = p4_x - p2_x;
+            let lever2_y = p4_y - p2_y;
+            let lever2_z = p4_z - p2_z;
+            let t14 = r2_21 * lever2_z - s2 * lever2_y;
+            let t15 = s2 * lever2_x - r2_11 * lever2_z;
+            let t16 = r2_11 * lever2_y - r2_21 * lever2_x;
+            let t17 = -(t3 * lever2_z + c2 * lever2_y);
+            let t18 = c2 * lever2_x + t2 * lever2_z;
+            let t19 = t3 * lever2_x - t2 * lever2_y;
+            let t20 = -(c1 * lever2_z);
+            let t21 = -(s1 * lever2_z);
+            let t22 = s1 * lever2_y + c1 * lever2_x;
+            let t23 = s1 * T::constant(0.4318);
+            let t24 = -(c1 * T::constant(0.4318));
+            let t25 = T::constant(0.4318) * r3_11;
+            let t26 = T::constant(0.4318) * r3_21;
+            let t27 = T::constant(0.4318) * r3_31;
+            *pose = [
+                [r6_11, r6_21, r6_31],
+                [r6_12, r6_22, r6_32],
+                [r5_13, r5_23, r5_33],
+                [p4_x, p4_y, p4_z],
+            ];
+            distinct[0] = [
+                c1,
+                s1,
+                zero,
+                zero,
+                zero,
+                one,
+                s1,
+                r1_23,
+                zero,
+                t11,
+                p4_x,
+                zero,
+                t9,
+                t12,
+                t13,
+                t8,
+                t9,
+                t10,
+            ];
+            distinct[1] = [
+                r2_11,
+                r2_21,
+                s2,
+                r2_12,
+                r2_22,
+                c2,
+                s1,
+                r1_23,
+                zero,
+                t17,
+                t18,
+                t19,
+                t20,
+                t21,
+                t22,
+                t14,
+                t15,
+                t16,
+            ];
+            distinct[2] = [
+                r3_11,
+                r3_21,
+                r3_31,
+                r3_12,
+                c1,
+                zero,
+                r3_13,
+                r3_23,
+                r3_33,
+                t25,
+                t26,
+                t27,
+                zero,
+                zero,
+                zero,
+                t23,
+                t24,
+                zero,
+            ];
+            distinct[3] = [
+                r4_11,
+                r4_21,
+                r4_31,
+                r3_13,
+                r3_23,
+                r3_33,
+                r4_13,
+                r4_23,
+                r4_33,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+            ];
+            distinct[4] = [
+                r5_11,
+                r5_21,
+                r5_31,
+                r5_12,
+                r5_22,
+                r5_32,
+                r5_13,
+                r5_23,
+                r5_33,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+            ];
+            distinct[5] = [
+                r6_11,
+                r6_21,
+                r6_31,
+                r6_12,
+                r6_22,
+                r6_32,
+                r5_13,
+                r5_23,
+                r5_33,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+            ];
+        }
+        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
+        ///
+        /// 70 mul, 73 add, 6 sincos.
+        pub fn displacement<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            errors: &[[T; 6]; FRAMES],
+            displacement: &mut [T; 6],
+        ) {
+            let [q1, q2, q3, q4, q5, q6] = *q;
+            let [[e1_x, e1_y, e1_z, e1_s, e1_r, e1_p], [e2_x, e2_y, e2_z, e2_s, e2_r,
+            e2_p], [e3_x, e3_y, e3_z, e3_s, e3_r, e3_p], [e4_x, e4_y, e4_z, e4_s, e4_r,
+            e4_p], [e5_x, e5_y, e5_z, e5_s, e5_r, e5_p], [e6_x, e6_y, e6_z, e6_s, e6_r,
+            e6_p]] = *errors;
+            let (s1, c1) = q1.sin_cos();
+            let (s2, c2) = q2.sin_cos();
+            let (s3, c3) = q3.sin_cos();
+            let (s4, c4) = q4.sin_cos();
+            let (s5, c5) = q5.sin_cos();
+            let (s6, c6) = q6.sin_cos();
+            let t1 = e5_x + (c6 * e6_x - s6 * e6_y);
+            let t2 = e5_z + e6_z;
+            let t3 = e5_p + (c6 * e6_p - s6 * e6_s);
+            let t4 = e5_r + e6_r;
+            let t5 = e4_x + (c5 * t1 - s5 * t2);
+            let t6 = e4_z - (e5_y + (s6 * e6_x + c6 * e6_y));
+            let t7 = e4_p + (c5 * t3 - s5 * t4);
+            let t8 = e4_r - (e5_s + (s6 * e6_p + c6 * e6_s));
+            let t9 = e3_z + (e4_y + (c5 * t2 + s5 * t1));
+            let t10 = T::constant(0.4318) * e3_s + (e3_x + (s4 * t6 + c4 * t5));
+            let t11 = e3_y + (s4 * t5 - c4 * t6) - T::constant(0.4318) * e3_p;
+            let t12 = e3_p + (s4 * t8 + c4 * t7);
+            let t13 = e3_r + (e4_s + (c5 * t4 + s5 * t3));
+            let t14 = c3 * T::constant(0.0203) - T::constant(0.4318) * s3;
+            let t15 = s3 * T::constant(0.0203) + T::constant(0.4318) * c3;
+            let t16 = T::constant(0.15005) * e2_s - e2_r * t15
+                + (e2_x + (c3 * t10 - s3 * t9));
+            let t17 = e2_r * t14 - T::constant(0.15005) * e2_p
+                + (e2_y + (c3 * t9 + s3 * t10));
+            let t18 = e2_p + (c3 * t12 - s3 * t13);
+            let t19 = e2_s + (c3 * t13 + s3 * t12);
+            let t20 = T::constant(0.4318) + t14;
+            let t21 = c2 * t20 - s2 * t15;
+            let t22 = s2 * t20 + c2 * t15;
+            let t23 = e1_z + (e2_p * t15 - e2_s * t14 + (e2_z - t11));
+            let t24 = T::constant(0.15005) * e1_s - e1_r * t22
+                + (e1_x + (c2 * t16 - s2 * t17));
+            let t25 = e1_r * t21 - T::constant(0.15005) * e1_p
+                + (e1_y + (s2 * t16 + c2 * t17));
+            let t26 = e1_p * t22 - e1_s * t21 + t23;
+            let t27 = e1_p + (c2 * t18 - s2 * t19);
+            let t28 = e1_s + (s2 * t18 + c2 * t19);
+            let t29 = e1_r + (e2_r - (e3_s + (s4 * t7 - c4 * t8)));
+            let t30 = s1 * t26 + c1 * t24;
+            let t31 = s1 * t24 - c1 * t26;
+            let t32 = s1 * t29 + c1 * t27;
+            let t33 = s1 * t27 - c1 * t29;
+            *displacement = [t30, t31, t25, t32, t33, t28];
+        }
+        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.
+        ///
+        /// 156 mul, 162 add, 6 sincos, 1 neg.
+        pub fn covariance<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            variances: &[[T; 6]; FRAMES],
+            covariance: &mut [[T; 6]; 6],
+        ) {
+            let [q1, q2, q3, q4, q5, q6] = *q;
+            let [[v1_x, v1_y, v1_z, v1_s, v1_r, v1_p], [v2_x, v2_y, v2_z, v2_s, v2_r,
+            v2_p], [v3_x, v3_y, v3_z, v3_s, v3_r, v3_p], [v4_x, v4_y, v4_z, v4_s, v4_r,
+            v4_p], [v5_x, v5_y, v5_z, v5_s, v5_r, v5_p], [v6_x, v6_y, v6_z, v6_s, v6_r,
+            v6_p]] = *variances;
+            let (s1, c1) = q1.sin_cos();
+            let (s2, c2) = q2.sin_cos();
+            let (s3, c3) = q3.sin_cos();
+            let (s4, c4) = q4.sin_cos();
+            let (s5, c5) = q5.sin_cos();
+            let (s6, c6) = q6.sin_cos();
+            let t1 = s1 * s1;
+            let t2 = c2 * c2;
+            let t3 = s3 * s3;
+            let t4 = s4 * s4;
+            let t5 = s5 * s5;
+            let t6 = c6 * c6;
+            let t7 = v5_z + v6_z;
+            let t8 = v5_r + v6_r;
+            let t9 = T::constant(0.4318) * v3_s;
+            let t10 = T::constant(0.4318) * v3_p;
+            let t11 = c3 * T::constant(0.0203) - T::constant(0.4318) * s3;
+            let t12 = s3 * T::constant(0.0203) + T::constant(0.4318) * c3;
+            let t13 = T::constant(0.15005) * v2_s;
+            let t14 = v2_r * t12;
+            let t15 = v2_r * t11;
+            let t16 = T::constant(0.15005) * v2_p;
+            let t17 = v2_p * t12;
+            let t18 = v2_s * t11;
+            let t19 = T::constant(0.4318) + t11;
+            let t20 = c2 * t19 - s2 * t12;
+            let t21 = s2 * t19 + c2 * t12;
+            let t22 = T::constant(0.15005) * v1_s;
+            let t23 = v1_r * t21;
+            let t24 = v1_r * t20;
+            let t25 = T::constant(0.15005) * v1_p;
+            let t26 = v1_p * t21;
+            let t27 = v1_s * t20;
+            let t28 = c6 * s6;
+            let t29 = v6_x - v6_y;
+            let t30 = t6 * t29;
+            let t31 = t28 * t29;
+            let t32 = v6_p - v6_s;
+            let t33 = t6 * t32;
+            let t34 = t28 * t32;
+            let t35 = v5_x + (v6_y + t30);
+            let t36 = v5_p + (v6_s + t33);
+            let t37 = c5 * s5;
+            let t38 = s5 * t31;
+            let t39 = c5 * t31;
+            let t40 = t7 - t35;
+            let t41 = t5 * t40;
+            let t42 = t37 * t40;
+            let t43 = s5 * t34;
+            let t44 = c5 * t34;
+            let t45 = t8 - t36;
+            let t46 = t5 * t45;
+            let t47 = t37 * t45;
+            let t48 = v4_x + (t35 + t41);
+            let t49 = v4_p + (t36 + t46);
+            let t50 = v4_z + (v5_y + (v6_x - t30));
+            let t51 = v4_r + (v5_s + (v6_p - t33));
+            let t52 = c4 * s4;
+            let t53 = t4 + t4 - T::constant(1.0);
+            let t54 = t52 + t52;
+            let t55 = s4 * t38 + c4 * t42;
+            let t56 = c4 * t38 - s4 * t42;
+            let t57 = t50 - t48;
+            let t58 = t4 * t57 - t39 * t54;
+            let t59 = t52 * t57 + t39 * t53;
+            let t60 = s4 * t43 + c4 * t47;
+            let t61 = c4 * t43 - s4 * t47;
+            let t62 = t51 - t49;
+            let t63 = t4 * t62 - t44 * t54;
+            let t64 = t52 * t62 + t44 * t53;
+            let t65 = v3_x + (t48 + t58 + T::constant(0.4318) * t9);
+            let t66 = v3_p + (t49 + t63);
+            let t67 = v3_z + (v4_y + (t7 - t41));
+            let t68 = v3_r + (v4_s + (t8 - t46));
+            let t69 = c3 * s3;
+            let t70 = t3 + t3 - T::constant(1.0);
+            let t71 = t69 + t69;
+            let t72 = t67 - t65;
+            let t73 = t3 * t72 + t55 * t71;
+            let t74 = s3 * t61 + c3 * t64;
+            let t75 = s3 * t64 - c3 * t61;
+            let t76 = t68 - t66;
+            let t77 = t3 * t76 + t60 * t71;
+            let t78 = t60 * t70 - t69 * t76;
+            let t79 = t55 * t70 - t69 * t72 - t11 * t14;
+            let t80 = s3 * t56 + c3 * t59 - t11 * t13;
+            let t81 = s3 * t59 - c3 * t56 - t12 * t16;
+            let t82 = v3_y + (t50 - t58 + T::constant(0.4318) * t10)
+                + (t12 * t17 + t11 * t18);
+            let t83 = v2_x + (t65 + t73 + (T::constant(0.15005) * t13 + t12 * t14));
+            let t84 = t14 + c3 * t9;
+            let t85 = v2_p + (t66 + t77);
+            let t86 = v2_y + (t67 - t73 + (T::constant(0.15005) * t16 + t11 * t15));
+            let t87 = t15 - s3 * t9;
+            let t88 = v2_s + (t68 - t77);
+            let t89 = t17 + c3 * t10;
+            let t90 = s3 * t10 - t18;
+            let t91 = c2 * s2;
+            let t92 = t2 + t2 - T::constant(1.0);
+            let t93 = t91 + t91;
+            let t94 = t83 - t86;
+            let t95 = t2 * t94 - t79 * t93;
+            let t96 = c2 * t74 - s2 * t75;
+            let t97 = s2 * t74 + c2 * t75;
+            let t98 = t85 - t88;
+            let t99 = t2 * t98 - t78 * t93;
+            let t100 = t91 * t98 + t78 * t92;
+            let t101 = t13 - t16;
+            let t102 = t91 * t101;
+            let t103 = t2 * t101;
+            let t104 = t91 * t94 + t79 * t92 - t20 * t23;
+            let t105 = c2 * t80 - s2 * t81 - t20 * t22;
+            let t106 = s2 * t80 + c2 * t81 - t21 * t25;
+            let t107 = v1_x + (t86 + t95 + (T::constant(0.15005) * t22 + t21 * t23));
+            let t108 = t22 + (t16 + t103);
+            let t109 = t23 + (c2 * t84 + s2 * t87);
+            let t110 = v1_p + (t88 + t99);
+            let t111 = v1_y + (t83 - t95 + (T::constant(0.15005) * t25 + t20 * t24));
+            let t112 = t103 - t13 - t25;
+            let t113 = t24 + (c2 * t87 - s2 * t84);
+            let t114 = v1_s + (t85 - t99);
+            let t115 = v1_z + (v2_z + t82 + (t21 * t26 + t20 * t27));
+            let t116 = t26 + (c2 * t89 - s2 * t90);
+            let t117 = s2 * t89 + c2 * t90 - t27;
+            let t118 = v1_r + (v2_r + (v3_s + (t51 - t63)));
+            let t119 = c1 * s1;
+            let t120 = t1 + t1 - T::constant(1.0);
+            let t121 = t119 + t119;
+            let t122 = s1 * t106 + c1 * t104;
+            let t123 = s1 * t104 - c1 * t106;
+            let t124 = t115 - t107;
+            let t125 = t1 * t124 + t105 * t121;
+            let t126 = t107 + t125;
+            let t127 = t115 - t125;
+            let t128 = t105 * t120 - t119 * t124;
+            let t129 = s1 * t97 + c1 * t100;
+            let t130 = s1 * t100 - c1 * t97;
+            let t131 = t118 - t110;
+            let t132 = t1 * t131 + t96 * t121;
+            let t133 = t110 + t132;
+            let t134 = t118 - t132;
+            let t135 = t96 * t120 - t119 * t131;
+            let t136 = s1 * t113 + c1 * t112;
+            let t137 = s1 * t112 - c1 * t113;
+            let t138 = s1 * t117 + c1 * t108;
+            let t139 = s1 * t108 - c1 * t117;
+            let t140 = t116 - t109;
+            let t141 = t1 * t102 + t119 * t140;
+            let t142 = t1 * t140 - t102 * t119;
+            let t143 = t141 - t102;
+            let t144 = -t141;
+            let t145 = t109 + t142;
+            let t146 = t142 - t116;
+            covariance[0] = [t126, t128, t122, t143, t145, t138];
+            covariance[1] = [t128, t127, t123, t146, t144, t139];
+            covariance[2] = [t122, t123, t111, t136, t137, t102];
+            covariance[3] = [t143, t146, t136, t133, t135, t129];
+            covariance[4] = [t145, t144, t137, t135, t134, t130];
+            covariance[5] = [t138, t139, t102, t129, t130, t114];
+        }
+        /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
+        ///
+        /// 0 mul, 0 add.
+        pub fn predicted_displacement<T: Scalar>(
+            _q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            displacement: &mut [T; 6],
+        ) {
+            let zero = T::constant(0.0);
+            *displacement = [zero; 6];
+        }
+        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.
+        ///
+        /// 69 mul, 25 add, 5 sincos, 9 neg.
+        pub fn source_displacements<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            displacements: &mut [[T; 6]; SOURCES],
+        ) {
+            let [q1, q2, q3, q4, q5, _] = *q;
+            let zero = T::constant(0.0);
+            let (s1, c1) = q1.sin_cos();
+            let (s2, c2) = q2.sin_cos();
+            let (s3, c3) = q3.sin_cos();
+            let (s4, c4) = q4.sin_cos();
+            let (s5, c5) = q5.sin_cos();
+            let t1 = c3 * T::constant(0.0203) - T::constant(0.4318) * s3;
+            let t2 = s3 * T::constant(0.0203) + T::constant(0.4318) * c3;
+            let t3 = T::constant(5.017628908595749e-5)
+                * (c2 * (T::constant(0.4318) + t1) - s2 * t2);
+            let t4 = c1 * T::constant(7.528952177347921e-6) - s1 * t3;
+            let t5 = c1 * t3 + s1 * T::constant(7.528952177347921e-6);
+            let t6 = T::constant(2.9138734439454556e-5) * t2;
+            let t7 = T::constant(1.2582105530956479e-5)
+                + T::constant(2.9138734439454556e-5) * t1;
+            let t8 = c2 * t6 + s2 * t7;
+            let t9 = c2 * t7 - s2 * t6;
+            let t10 = -(s1 * t8);
+            let t11 = -(c1 * t8);
+            let t12 = s1 * T::constant(2.9138734439454556e-5);
+            let t13 = -(c1 * T::constant(2.9138734439454556e-5));
+            let t14 = s3 * T::constant(1.187464615284851e-6)
+                + c3 * T::constant(2.5258483787192057e-5);
+            let t15 = c3 * T::constant(1.187464615284851e-6)
+                - s3 * T::constant(2.5258483787192057e-5);
+            let t16 = c2 * t14 + s2 * t15;
+            let t17 = c2 * t15 - s2 * t14;
+            let t18 = -(s1 * t16);
+            let t19 = -(c1 * t16);
+            let t20 = s1 * T::constant(5.849579385639661e-5);
+            let t21 = -(c1 * T::constant(5.849579385639661e-5));
+            let t22 = s3 * T::constant(4.1316956794243195e-5);
+            let t23 = c3 * T::constant(4.1316956794243195e-5);
+            let t24 = c2 * t22 + s2 * t23;
+            let t25 = c2 * t23 - s2 * t22;
+            let t26 = -(s1 * t24);
+            let t27 = -(c1 * t24);
+            let t28 = s4 * T::constant(4.367994457391645e-5);
+            let t29 = c4 * T::constant(4.367994457391645e-5);
+            let t30 = s3 * t28;
+            let t31 = c3 * t28;
+            let t32 = c2 * t31 - s2 * t30;
+            let t33 = s2 * t31 + c2 * t30;
+            let t34 = s1 * t29 + c1 * t32;
+            let t35 = s1 * t32 - c1 * t29;
+            let t36 = s5 * T::constant(4.096696468181667e-5);
+            let t37 = c5 * T::constant(4.096696468181667e-5);
+            let t38 = s4 * t36;
+            let t39 = c4 * t36;
+            let t40 = s3 * t37 + c3 * t39;
+            let t41 = c3 * t37 - s3 * t39;
+            let t42 = c2 * t40 + s2 * t41;
+            let t43 = c2 * t41 - s2 * t40;
+            let t44 = s1 * t38 - c1 * t42;
+            let t45 = -(c1 * t38 + s1 * t42);
+            displacements[0] = [
+                t4,
+                t5,
+                zero,
+                zero,
+                zero,
+                T::constant(5.017628908595749e-5),
+            ];
+            displacements[1] = [t11, t10, t9, t12, t13, zero];
+            displacements[2] = [t19, t18, t17, t20, t21, zero];
+            displacements[3] = [zero, zero, zero, t27, t26, t25];
+            displacements[4] = [zero, zero, zero, t34, t35, t33];
+            displacements[5] = [zero, zero, zero, t44, t45, t43];
+        }
+        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
+        ///
+        /// 67 mul, 33 add, 6 sincos, 5 neg.
+        pub fn real_pose<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            pose: &mut [[T; 3]; 4],
+        ) {
+            let [q1, q2, q3, q4, q5, q6] = *q;
+            let (s1, c1) = q1.sin_cos();
+            let (s2, c2) = q2.sin_cos();
+            let t1 = c2 * T::constant(0.4318);
+            let p2_z = s2 * T::constant(0.4318);
+            let p2_x = c1 * t1;
+            let p2_y = s1 * t1;
+            let r2_11 = c1 * c2;
+            let r2_21 = s1 * c2;
+            let t2 = c1 * s2;
+            let t3 = s1 * s2;
+            let (s3, c3) = q3.sin_cos();
+            let t4 = c3 * T::constant(0.0203);
+            let t5 = s3 * T::constant(0.0203);
+            let r3_11 = r2_11 * c3 - t2 * s3;
+            let r3_21 = r2_21 * c3 - t3 * s3;
+            let r3_31 = s2 * c3 + c2 * s3;
+            let t6 = r2_11 * s3 + t2 * c3;
+            let t7 = r2_21 * s3 + t3 * c3;
+            let r3_33 = c2 * c3 - s2 * s3;
+            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
+            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
+            let p3_z = p2_z + (s2 * t4 + c2 * t5);
+            let (s4, c4) = q4.sin_cos();
+            let r4_31 = r3_31 * c4;
+            let r4_11 = r3_11 * c4 - s1 * s4;
+            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_33 = r3_31 * s4;
+            let r4_13 = r3_11 * s4 + s1 * c4;
+            let r4_23 = r3_21 * s4 - c1 * c4;
+            let p4_x = p3_x - T::constant(0.4318) * t6;
+            let p4_y = p3_y - T::constant(0.4318) * t7;
+            let p4_z = p3_z + T::constant(0.4318) * r3_33;
+            let (s5, c5) = q5.sin_cos();
+            let r5_11 = r4_11 * c5 - t6 * s5;
+            let r5_21 = r4_21 * c5 - t7 * s5;
+            let r5_31 = r4_31 * c5 + r3_33 * s5;
+            let r5_13 = -(r4_11 * s5 + t6 * c5);
+            let r5_23 = -(r4_21 * s5 + t7 * c5);
+            let r5_33 = r3_33 * c5 - r4_31 * s5;
+            let (s6, c6) = q6.sin_cos();
+            let r6_11 = r5_11 * c6 - r4_13 * s6;
+            let r6_21 = r5_21 * c6 - r4_23 * s6;
+            let r6_31 = r5_31 * c6 - r4_33 * s6;
+            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
+            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
+            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
+            *pose = [
+                [r6_11, r6_21, r6_31],
+                [r6_12, r6_22, r6_32],
+                [r5_13, r5_23, r5_33],
+                [p4_x, p4_y, p4_z],
+            ];
+        }
+        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
+        ///
+        /// 83 mul, 50 add, 6 sincos, 13 neg.
+        pub fn compensator_step<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            pose: &mut [[T; 3]; 4],
+            columns: &mut [[T; 6]; VARIABLES],
+        ) {
+            let [q1, q2, q3, q4, q5, q6] = *q;
+            let zero = T::constant(0.0);
+            let one = T::constant(1.0);
+            let (s1, c1) = q1.sin_cos();
+            let r1_23 = -c1;
+            let (s2, c2) = q2.sin_cos();
+            let t1 = c2 * T::constant(0.4318);
+            let p2_z = s2 * T::constant(0.4318);
+            let p2_x = c1 * t1;
+            let p2_y = s1 * t1;
+            let r2_11 = c1 * c2;
+            let r2_21 = s1 * c2;
+            let t2 = c1 * s2;
+            let t3 = s1 * s2;
+            let (s3, c3) = q3.sin_cos();
+            let t4 = c3 * T::constant(0.0203);
+            let t5 = s3 * T::constant(0.0203);
+            let r3_11 = r2_11 * c3 - t2 * s3;
+            let r3_21 = r2_21 * c3 - t3 * s3;
+            let r3_31 = s2 * c3 + c2 * s3;
+            let t6 = r2_11 * s3 + t2 * c3;
+            let r3_13 = -t6;
+            let t7 = r2_21 * s3 + t3 * c3;
+            let r3_23 = -t7;
+            let r3_33 = c2 * c3 - s2 * s3;
+            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
+            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
+            let p3_z = p2_z + (s2 * t4 + c2 * t5);
+            let (s4, c4) = q4.sin_cos();
+            let r4_31 = r3_31 * c4;
+            let r4_11 = r3_11 * c4 - s1 * s4;
+            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_33 = r3_31 * s4;
+            let r4_13 = r3_11 * s4 + s1 * c4;
+            let r4_23 = r3_21 * s4 - c1 * c4;
+            let p4_x = p3_x - T::constant(0.4318) * t6;
+            let p4_y = p3_y - T::constant(0.4318) * t7;
+            let p4_z = p3_z + T::constant(0.4318) * r3_33;
+            let (s5, c5) = q5.sin_cos();
+            let r5_11 = r4_11 * c5 - t6 * s5;
+            let r5_21 = r4_21 * c5 - t7 * s5;
+            let r5_31 = r4_31 * c5 + r3_33 * s5;
+            let r5_13 = -(r4_11 * s5 + t6 * c5);
+            let r5_23 = -(r4_21 * s5 + t7 * c5);
+            let r5_33 = r3_33 * c5 - r4_31 * s5;
+            let (s6, c6) = q6.sin_cos();
+            let r6_11 = r5_11 * c6 - r4_13 * s6;
+            let r6_21 = r5_21 * c6 - r4_23 * s6;
+            let r6_31 = r5_31 * c6 - r4_33 * s6;
+            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
+            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
+            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
+            let t8 = -p4_y;
+            let lever2_x = p4_x - p2_x;
+            let lever2_y = p4_y - p2_y;
+            let lever2_z = p4_z - p2_z;
+            let t9 = -(c1 * lever2_z + c1 * p2_z);
+            let t10 = -(s1 * lever2_z + s1 * p2_z);
+            let t11 = t1 + (s1 * lever2_y + c1 * lever2_x);
+            let t12 = p4_z - p3_z;
+            let t13 = -(r2_11 * t5 + t2 * t4 + c1 * t12);
+            let t14 = -(r2_21 * t5 + t3 * t4 + s1 * t12);
+            let t15 = c2 * t4 - s2 * t5 + (s1 * (p4_y - p3_y) + c1 * (p4_x - p3_x));
+            *pose = [
+                [r6_11, r6_21, r6_31],
+                [r6_12, r6_22, r6_32],
+                [r5_13, r5_23, r5_33],
+                [p4_x, p4_y, p4_z],
+            ];
+            columns[0] = [t8, p4_x, zero, zero, zero, one];
+            columns[1] = [t9, t10, t11, s1, r1_23, zero];
+            columns[2] = [t13, t14, t15, s1, r1_23, zero];
+            columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
+            columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
         }
     }
 }

@@ -20,6 +20,13 @@
 /// | `parameter_jacobian` | 0 mul, 0 add |
 /// | `effects` | 0 mul, 0 add |
 /// | `generalized_errors` | 0 mul, 0 add |
+/// | `error_jacobian_distinct` | 0 mul, 0 add |
+/// | `displacement` | 0 mul, 0 add |
+/// | `covariance` | 0 mul, 0 add |
+/// | `predicted_displacement` | 0 mul, 0 add |
+/// | `source_displacements` | 0 mul, 0 add |
+/// | `real_pose` | 0 mul, 0 add |
+/// | `compensator_step` | 0 mul, 0 add |
 pub mod slide {
     use ::abbe::{Description, Frame, LengthUnit, Orientation, Variable, VariableKind};
     /// How many frames there are: n.
@@ -34,6 +41,10 @@ pub mod slide {
     pub const INPUTS: usize = 0;
     /// How many errors the sources cause.
     pub const EFFECTS: usize = 0;
+    /// How many sources there are.
+    pub const SOURCES: usize = 0;
+    /// How many numbers of a frame's six columns of `J_e` are neither zero nor repeated.
+    pub const DISTINCT: usize = 18;
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "slide",
@@ -92,7 +103,9 @@ pub mod slide {
     /// The same as functions of plain arrays, generic over the scalar and without checks: what is not
     /// finite stays so.
     pub mod raw {
-        use super::{EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, VARIABLES};
+        use super::{
+            DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES,
+        };
         use ::abbe::Scalar;
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
@@ -229,6 +242,137 @@ pub mod slide {
         ) {
             let zero = T::constant(0.0);
             errors[0] = [zero; 6];
+        }
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the
+        /// moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
+        ///
+        /// 0 mul, 0 add.
+        pub fn error_jacobian_distinct<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            distinct: &mut [[T; DISTINCT]; FRAMES],
+        ) {
+            let [d1] = *q;
+            let zero = T::constant(0.0);
+            let one = T::constant(1.0);
+            *pose = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [d1, zero, zero],
+            ];
+            distinct[0] = [
+                one,
+                zero,
+                zero,
+                zero,
+                one,
+                zero,
+                zero,
+                zero,
+                one,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+                zero,
+            ];
+        }
+        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
+        ///
+        /// 0 mul, 0 add.
+        pub fn displacement<T: Scalar>(
+            _q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            errors: &[[T; 6]; FRAMES],
+            displacement: &mut [T; 6],
+        ) {
+            let [[e1_x, e1_y, e1_z, e1_s, e1_r, e1_p]] = *errors;
+            *displacement = [e1_x, e1_y, e1_z, e1_p, e1_s, e1_r];
+        }
+        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.
+        ///
+        /// 0 mul, 0 add.
+        pub fn covariance<T: Scalar>(
+            _q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            variances: &[[T; 6]; FRAMES],
+            covariance: &mut [[T; 6]; 6],
+        ) {
+            let [[v1_x, v1_y, v1_z, v1_s, v1_r, v1_p]] = *variances;
+            let zero = T::constant(0.0);
+            covariance[0] = [v1_x, zero, zero, zero, zero, zero];
+            covariance[1] = [zero, v1_y, zero, zero, zero, zero];
+            covariance[2] = [zero, zero, v1_z, zero, zero, zero];
+            covariance[3] = [zero, zero, zero, v1_p, zero, zero];
+            covariance[4] = [zero, zero, zero, zero, v1_s, zero];
+            covariance[5] = [zero, zero, zero, zero, zero, v1_r];
+        }
+        /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
+        ///
+        /// 0 mul, 0 add.
+        pub fn predicted_displacement<T: Scalar>(
+            _q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            displacement: &mut [T; 6],
+        ) {
+            let zero = T::constant(0.0);
+            *displacement = [zero; 6];
+        }
+        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.
+        ///
+        /// 0 mul, 0 add.
+        pub fn source_displacements<T: Scalar>(
+            _q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            _displacements: &mut [[T; 6]; SOURCES],
+        ) {}
+        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
+        ///
+        /// 0 mul, 0 add.
+        pub fn real_pose<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            pose: &mut [[T; 3]; 4],
+        ) {
+            let [d1] = *q;
+            let zero = T::constant(0.0);
+            let one = T::constant(1.0);
+            *pose = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [d1, zero, zero],
+            ];
+        }
+        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
+        ///
+        /// 0 mul, 0 add.
+        pub fn compensator_step<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            pose: &mut [[T; 3]; 4],
+            columns: &mut [[T; 6]; VARIABLES],
+        ) {
+            let [d1] = *q;
+            let zero = T::constant(0.0);
+            let one = T::constant(1.0);
+            *pose = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [d1, zero, zero],
+            ];
+            columns[0] = [one, zero, zero, zero, zero, zero];
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Specs of any length.
+//! Specs that are not shipped: chains of any length, and what shipped ones have not.
 
 use std::fmt::Write;
 
@@ -20,4 +20,42 @@ pub fn general_chain(frames: usize) -> String {
         );
     }
     text
+}
+
+/// A spec with variables in several frames, twice in one, inside a matrix, a screw, an axis in any direction, and a
+/// variable in the tool.
+pub fn coupled_joints() -> &'static str {
+    r#"
+        [manipulator]
+        name = "coupled"
+        length = "m"
+        [parameters]
+        pitch = "0.01 m"
+        [[frame]]
+        name = "screw"
+        variable = { name = "q1", kind = "revolute" }
+        transform = "Rz(q1) Tz(pitch*q1/(2*pi)) Rz(0.3) Rx(0.2)"
+        [[frame]]
+        name = "parallelogram"
+        variable = { name = "q2", kind = "revolute" }
+        matrix = [["cos(q2 - q1)", "-sin(q2 - q1)", 0, "0.5 m * cos(q2)"],
+                  ["sin(q2 - q1)", "cos(q2 - q1)", 0, "0.5 m * sin(q2)"],
+                  [0, 0, 1, "pitch * q1"],
+                  [0, 0, 0, 1]]
+        [[frame]]
+        name = "fixed"
+        transform = "Tx(0.1) Ry(0.4) Rz(0.2) Rx(0.1) Ty(0.2)"
+        [[frame]]
+        name = "skew"
+        variable = { name = "q3", kind = "revolute" }
+        origin = { xyz = [0.1, 0.2, 0.3], rpy = [0.1, 0.2, 0.3] }
+        axis = [0.6, 0, 0.8]
+        [[frame]]
+        name = "slide"
+        variable = { name = "d4", kind = "prismatic" }
+        origin = { rpy = [0, 0, "q3/2"] }
+        axis = [0, 0.6, -0.8]
+        [tool]
+        transform = "Tz(0.2 m + d4/3) Rx(q1/5)"
+    "#
 }

@@ -6,6 +6,7 @@ use abbe_codegen::expr::{Motion, Symbol};
 use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_codegen::spec::{Component, Orientation, Spec};
 use abbe_manipulators::SHIPPED;
+use abbe_tests::chains::coupled_joints;
 
 /// `A_1 E_1 … A_n E_n T` with exact rotations: all 6n errors are symbols.
 fn multiplied(graph: &mut Graph, spec: &Spec) -> Frame {
@@ -110,40 +111,7 @@ fn structured_equals_differentiated_for_every_shipped_manipulator() {
 /// in any direction, a variable in the tool.
 #[test]
 fn structured_equals_differentiated_for_coupled_joints() {
-    let spec = r#"
-        [manipulator]
-        name = "coupled"
-        length = "m"
-        [parameters]
-        pitch = "0.01 m"
-        [[frame]]
-        name = "screw"
-        variable = { name = "q1", kind = "revolute" }
-        transform = "Rz(q1) Tz(pitch*q1/(2*pi)) Rz(0.3) Rx(0.2)"
-        [[frame]]
-        name = "parallelogram"
-        variable = { name = "q2", kind = "revolute" }
-        matrix = [["cos(q2 - q1)", "-sin(q2 - q1)", 0, "0.5 m * cos(q2)"],
-                  ["sin(q2 - q1)", "cos(q2 - q1)", 0, "0.5 m * sin(q2)"],
-                  [0, 0, 1, "pitch * q1"],
-                  [0, 0, 0, 1]]
-        [[frame]]
-        name = "fixed"
-        transform = "Tx(0.1) Ry(0.4) Rz(0.2) Rx(0.1) Ty(0.2)"
-        [[frame]]
-        name = "skew"
-        variable = { name = "q3", kind = "revolute" }
-        origin = { xyz = [0.1, 0.2, 0.3], rpy = [0.1, 0.2, 0.3] }
-        axis = [0.6, 0, 0.8]
-        [[frame]]
-        name = "slide"
-        variable = { name = "d4", kind = "prismatic" }
-        origin = { rpy = [0, 0, "q3/2"] }
-        axis = [0, 0.6, -0.8]
-        [tool]
-        transform = "Tz(0.2 m + d4/3) Rx(q1/5)"
-    "#;
-    let mut spec = Spec::parse("coupled.toml", spec).unwrap();
+    let mut spec = Spec::parse("coupled.toml", coupled_joints()).unwrap();
     for orientation in [Orientation::RotationVector, Orientation::EulerYzx] {
         spec.orientation = orientation;
         compare(&spec);

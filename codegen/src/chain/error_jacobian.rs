@@ -3,8 +3,15 @@
 use super::moments::Moments;
 use super::rows::Rows;
 use crate::expr::Motion;
-use crate::graph::{Frame, Graph, Node};
+use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::Component;
+
+/// What the six columns of a frame are made of: its axes, and of the rotations `e_s e_r e_p` the moments and rows 4–6.
+pub(super) struct Columns {
+    axes: [Vector; 3],
+    moments: [Vector; 3],
+    rows: [Vector; 3],
+}
 
 /// The six columns of every frame: with `T_i = (R_i, p_i)` and the tool point `p_T` these are
 ///
@@ -17,17 +24,43 @@ pub(super) fn columns(
     frames: &[Frame],
     mut moments: Moments<'_>,
     rows: &Rows,
-) -> Vec<[Node; 6]> {
-    let mut columns = Vec::with_capacity(6 * frames.len());
-    for (i, frame) in frames.iter().enumerate() {
+) -> Vec<Columns> {
+    let rotations =
+        [Component::Spin, Component::Roll, Component::Pitch].map(|component| component.motion().1);
+    let of_frame = |(i, frame): (usize, &Frame)| {
         let moments = moments.of(graph, i);
-        let zero = [graph.zero(); 3];
-        for component in Component::ALL {
-            columns.push(match component.motion() {
-                (Motion::Translation, axis) => rows.column(graph, frame.axes[axis], zero),
-                (Motion::Rotation, axis) => rows.column(graph, moments[axis], frame.axes[axis]),
-            });
+        Columns {
+            axes: frame.axes,
+            moments: rotations.map(|axis| moments[axis]),
+            rows: rotations.map(|axis| rows.of(graph, frame.axes[axis])),
         }
+    };
+    frames.iter().enumerate().map(of_frame).collect()
+}
+
+impl Columns {
+    /// The six columns, every entry of them.
+    pub(super) fn dense(&self, graph: &mut Graph) -> [[Node; 6]; 6] {
+        let zero = [graph.zero(); 3];
+        Component::ALL.map(|component| {
+            let ([a, b, c], [d, e, f]) = match component.motion() {
+                (Motion::Translation, axis) => (self.axes[axis], zero),
+                (Motion::Rotation, _) => {
+                    let index = component as usize - Component::Spin as usize;
+                    (self.moments[index], self.rows[index])
+                }
+            };
+            [a, b, c, d, e, f]
+        })
     }
-    columns
+
+    /// What is neither zero nor repeated: the axes, the moments of `e_s e_r e_p`, and where rows 4–6 are not the axes
+    /// again, these too.
+    pub(super) fn distinct(&self, rows: &Rows) -> Vec<Node> {
+        let rows = match rows {
+            Rows::RotationVector => &[][..],
+            Rows::EulerYzx(_) => &self.rows,
+        };
+        self.axes.iter().chain(&self.moments).chain(rows).flatten().copied().collect()
+    }
 }

@@ -1,13 +1,20 @@
 //! From a spec to the nodes of everything that is generated: poses, Jacobians, generalized errors.
 //!
 //! `walk` goes along the chain factor by factor and keeps every frame's pose in `F_0`; `error_jacobian` (with
-//! `moments`) and
-//! `symbol_jacobian` read their columns off these poses by the structured product rule; `rows` turns a small
-//! rotation into rows 4–6; `sources` gives ε. [`Model`] holds the results.
+//! `moments`) and `symbol_jacobian` read their columns off these poses by the structured product rule; `rows` turns a
+//! small rotation into rows 4–6; `sources` gives ε. The other way, `accumulate` goes from the tip to the base over the
+//! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`. `real` is the exact
+//! chain with errors. [`Model`] holds the results.
 
+mod accumulate;
+mod by_source;
+mod covariance;
+mod displacement;
 mod error_jacobian;
+mod local;
 mod model;
 mod moments;
+mod real;
 mod rows;
 mod sources;
 mod symbol_jacobian;

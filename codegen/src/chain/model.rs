@@ -1,16 +1,21 @@
 //! Everything that is generated for a manipulator, as nodes of one graph.
 
+use super::accumulate::Links;
+use super::by_source;
+use super::covariance::Covariance;
+use super::displacement::Displacement;
 use super::error_jacobian;
 use super::moments::Moments;
+use super::real::real_pose;
 use super::rows::Rows;
 use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
 use crate::expr::Symbol;
-use crate::graph::{Frame, Graph, Node};
+use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::{Source, Spec};
 
-/// A Jacobian: its columns, rows as the spec's orientation says.
+/// A Jacobian, or anything else with its rows: columns, rows as the spec's orientation says.
 #[derive(Clone, Debug)]
 pub struct Jacobian {
     /// The columns.
@@ -32,6 +37,8 @@ pub struct Model {
     pub tool: Frame,
     /// `J_e`: six columns per frame.
     pub error_jacobian: Jacobian,
+    /// What of `J_e` is neither zero nor repeated: as many nodes for each frame.
+    pub distinct: Vec<Vec<Node>>,
     /// `J_q`: one column per variable.
     pub joint_jacobian: Jacobian,
     /// `∂X_T/∂s`: one column per parameter.
@@ -40,6 +47,18 @@ pub struct Model {
     pub effects: Vec<EffectNode>,
     /// ε: the sum of the enabled repeatable sources, six per frame.
     pub generalized_errors: Vec<[Node; 6]>,
+    /// `ΔX = J_e ε` for any ε: one column.
+    pub displacement: Jacobian,
+    /// `J_e diag(σ²) J_eᵀ` for any variances σ²: six columns.
+    pub covariance: Jacobian,
+    /// `J_e ε` of the enabled repeatable sources, one column: along the chain, and from the columns of `J_e`.
+    pub predicted_displacement: [Jacobian; 2],
+    /// `J_e ε` of each enabled source by itself, one column per source: the same two ways.
+    pub source_displacements: [Jacobian; 2],
+    /// The pose of the tool point with the errors of the enabled repeatable sources, exactly.
+    pub real_pose: Frame,
+    /// `J_q` with rotation-vector rows whatever the spec's are.
+    pub joint_twists: Vec<[Node; 6]>,
 }
 
 impl Model {
@@ -60,35 +79,72 @@ impl Model {
         let tool = walk(g, at, &spec.tool, &mut steps);
         name(g, &tool, "t");
 
-        let rows = Rows::new(g, spec.orientation, &tool);
-        let margin = match &rows {
-            Rows::RotationVector => None,
-            Rows::EulerYzx(euler) => Some(euler.margin),
-        };
+        let rows = Rows::new(g, spec.orientation, tool.axes[0]);
+        let margin = rows.margin();
         let moments = Moments::new(g, &frames, &tool, &steps, &ends);
-        let columns = error_jacobian::columns(g, &frames, moments, &rows);
+        let by_frame = error_jacobian::columns(g, &frames, moments, &rows);
+        let columns = by_frame.iter().flat_map(|columns| columns.dense(g)).collect();
+        let distinct = by_frame.iter().map(|columns| columns.distinct(&rows)).collect();
         let error_jacobian = Jacobian { columns, margin };
-        let mut by_symbols = |symbols: Vec<Symbol>| {
-            let column = |symbol| symbol_jacobian::column(g, &steps, symbol, tool.position, &rows);
-            Jacobian { columns: symbols.into_iter().map(column).collect(), margin }
-        };
-        let joint_jacobian = by_symbols((0..spec.variables.len()).map(Symbol::Variable).collect());
-        let parameter_jacobian = by_symbols((0..spec.parameters.len()).map(Symbol::Parameter).collect());
+        let variables = (0..spec.variables.len()).map(Symbol::Variable);
+        let twists: Vec<[Vector; 2]> =
+            variables.map(|symbol| symbol_jacobian::twist(g, &steps, symbol, tool.position)).collect();
+        let columns = twists.iter().map(|[velocity, turn]| rows.column(g, *velocity, *turn)).collect();
+        let joint_jacobian = Jacobian { columns, margin };
+        let joint_twists = twists.iter().map(|[[x, y, z], [a, b, c]]| [*x, *y, *z, *a, *b, *c]).collect();
+        let parameters = (0..spec.parameters.len()).map(Symbol::Parameter);
+        let by_parameter = parameters.map(|symbol| {
+            let [velocity, turn] = symbol_jacobian::twist(g, &steps, symbol, tool.position);
+            rows.column(g, velocity, turn)
+        });
+        let parameter_jacobian = Jacobian { columns: by_parameter.collect(), margin };
 
         let factors = spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]);
         let transforms = factors.map(|factors| transform(g, factors)).collect();
         let effects = sources::effects(g, spec, &frames);
         let generalized_errors = sources::generalized_errors(g, spec, &effects);
+
+        let zero = g.zero();
+        let links = Links::new(g, spec);
+        let first_axis = links.first_axis(g);
+        let along = Rows::new(g, spec.orientation, first_axis);
+        let symbols: Vec<[Node; 6]> = (0..spec.frames.len())
+            .map(|i| std::array::from_fn(|k| g.symbol(Symbol::Error(6 * i + k))))
+            .collect();
+        let none = Displacement::none(g);
+        let displaced = links.accumulate(g, &symbols, none).rows(g, &along);
+        let displacement = Jacobian { columns: vec![displaced], margin: along.margin() };
+        let none = Covariance::none(g);
+        let columns = links.accumulate(g, &symbols, none).rows(g, &along);
+        let covariance = Jacobian { columns, margin: along.margin() };
+        let mut two_ways = |errors: &[Vec<[Node; 6]>]| {
+            let accumulated =
+                errors.iter().map(|errors| by_source::along(g, &links, &along, errors)).collect();
+            let product = |errors: &Vec<_>| by_source::product(g, &error_jacobian.columns, errors);
+            let products = errors.iter().map(product).collect();
+            [(accumulated, along.margin()), (products, margin)]
+                .map(|(columns, margin)| Jacobian { columns, margin })
+        };
+        let predicted_displacement = two_ways(std::slice::from_ref(&generalized_errors));
+        let source_displacements = two_ways(&by_source::errors_by_source(zero, spec, &effects));
+        let real_pose = real_pose(g, spec, &generalized_errors);
         Self {
             graph,
             transforms,
             frames,
             tool,
             error_jacobian,
+            distinct,
             joint_jacobian,
             parameter_jacobian,
             effects,
             generalized_errors,
+            displacement,
+            covariance,
+            predicted_displacement,
+            source_displacements,
+            real_pose,
+            joint_twists,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Rows 4–6 of a Jacobian from a small rotation.
 
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Graph, Node, Vector};
 use crate::spec::Orientation;
 
 /// What turns a small rotation ω in `F_0` into rows 4–6.
@@ -19,21 +19,22 @@ pub(super) enum Rows {
 /// ```
 pub(super) struct EulerYzx {
     /// `cos ρ = √(r11² + r31²)`: where it is 0 there are no rows.
-    pub(super) margin: Node,
+    margin: Node,
     /// `(r11, r31) / cos ρ`.
     roll: [Node; 2],
     /// `(r11, r31) / cos² ρ`.
     pitch: [Node; 2],
-    /// `r21 = sin ρ`.
-    sine: Node,
+    /// `R_T x̂ = (r11, r21, r31)`, with `r21 = sin ρ`.
+    first_axis: Vector,
 }
 
 impl Rows {
-    pub(super) fn new(graph: &mut Graph, orientation: Orientation, tool: &Frame) -> Self {
+    /// `first_axis` is the first column of `R_T`.
+    pub(super) fn new(graph: &mut Graph, orientation: Orientation, first_axis: Vector) -> Self {
         if orientation == Orientation::RotationVector {
             return Self::RotationVector;
         }
-        let [r11, sine, r31] = tool.axes[0];
+        let [r11, _, r31] = first_axis;
         let (first, second) = (graph.mul(r11, r11), graph.mul(r31, r31));
         let square = graph.add(first, second);
         let margin = graph.sqrt(square);
@@ -42,19 +43,34 @@ impl Rows {
         let inverse = graph.div(one, margin);
         let roll = [r11, r31].map(|entry| graph.mul(entry, inverse));
         let pitch = roll.map(|entry| graph.mul(entry, inverse));
-        Self::EulerYzx(EulerYzx { margin, roll, pitch, sine })
+        Self::EulerYzx(EulerYzx { margin, roll, pitch, first_axis })
+    }
+
+    /// `cos ρ` where the rows are Euler angles.
+    pub(super) fn margin(&self) -> Option<Node> {
+        match self {
+            Self::RotationVector => None,
+            Self::EulerYzx(euler) => Some(euler.margin),
+        }
     }
 
     pub(super) fn of(&self, graph: &mut Graph, omega: Vector) -> [Node; 3] {
-        let Self::EulerYzx(EulerYzx { roll, pitch, sine, .. }) = self else {
+        let Self::EulerYzx(EulerYzx { roll, pitch, first_axis, .. }) = self else {
             return omega;
         };
+        // About R_T x̂ it is pitch alone.
+        let (zero, minus) = (graph.zero(), graph.neg_vector(omega));
+        for (turn, pitch) in [(omega, 1.0), (minus, -1.0)] {
+            if turn == *first_axis {
+                return [zero, zero, graph.constant(pitch)];
+            }
+        }
         let [x, y, z] = omega;
         let (first, second) = (graph.mul(pitch[0], x), graph.mul(pitch[1], z));
         let pitch = graph.add(first, second);
         let (first, second) = (graph.mul(roll[0], z), graph.mul(roll[1], x));
         let roll = graph.sub(first, second);
-        let part = graph.mul(*sine, pitch);
+        let part = graph.mul(first_axis[1], pitch);
         [graph.sub(y, part), roll, pitch]
     }
 

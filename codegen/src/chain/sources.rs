@@ -184,7 +184,7 @@ fn loads(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> Vec<Force> {
 }
 
 /// Translation and rotation, x y z, of six values in the order of ε.
-fn vectors(six: [Node; 6]) -> (Vector, Vector) {
+pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
     let (mut shift, mut turn) = ([six[0]; 3], [six[0]; 3]);
     for (component, node) in Component::ALL.into_iter().zip(six) {
         match component.motion() {

@@ -1,24 +1,17 @@
 //! `∂X_T/∂x` for a joint variable or structural parameter x that may stand anywhere in the chain.
 
-use super::rows::Rows;
 use super::walk::Step;
 use crate::expr::Symbol;
 use crate::graph::{Graph, Node, Vector};
 
-/// The column of a symbol: the sum over all factors that depend on it, each by its own small motion
+/// The velocity of the tool point and the rotation that a symbol causes: the sum over all factors that depend on it, each by its own small motion
 ///
 /// ```text
 /// translation by f along e            (e ; 0) ∂f/∂x
 /// rotation by f about a through p     (a × (p_T − p) ; a) ∂f/∂x
 /// matrix (R, t) after T = (R₀, p₀)    ω = R₀ vee(∂R/∂x Rᵀ),  (R₀ ∂t/∂x + ω × (p_T − p₀ − R₀ t) ; ω)
 /// ```
-pub(super) fn column(
-    graph: &mut Graph,
-    steps: &[Step],
-    symbol: Symbol,
-    tool: Vector,
-    rows: &Rows,
-) -> [Node; 6] {
+pub(super) fn twist(graph: &mut Graph, steps: &[Step], symbol: Symbol, tool: Vector) -> [Vector; 2] {
     let mut velocity = [graph.zero(); 3];
     let mut rotation = [graph.zero(); 3];
     for step in steps {
@@ -47,7 +40,7 @@ pub(super) fn column(
             }
         }
     }
-    rows.column(graph, velocity, rotation)
+    [velocity, rotation]
 }
 
 /// `v + ω × (p_T − p)`.

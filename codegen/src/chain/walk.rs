@@ -84,7 +84,7 @@ fn apply(graph: &mut Graph, frame: Frame, factor: &Factor) -> (Frame, Step) {
 }
 
 /// The columns of `R = cos θ I + sin θ [a] + (1 − cos θ) a aᵀ`.
-fn about(graph: &mut Graph, axis: [f64; 3], angle: Node) -> [Vector; 3] {
+pub(super) fn about(graph: &mut Graph, axis: [f64; 3], angle: Node) -> [Vector; 3] {
     let (sine, cosine, one) = (graph.sin(angle), graph.cos(angle), graph.constant(1.0));
     let versine = graph.sub(one, cosine);
     std::array::from_fn(|j| {

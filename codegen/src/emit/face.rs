@@ -39,6 +39,10 @@ pub(super) fn type_name(name: &str) -> String {
 
 /// The counts, and [`DESCRIPTION`] with every name, unit and limit.
 pub(super) fn description(spec: &Spec, effects: &[EffectNode]) -> TokenStream {
+    let distinct = match spec.orientation {
+        Orientation::RotationVector => 6,
+        Orientation::EulerYzx => 9,
+    };
     let counts = [
         ("FRAMES", spec.frames.len(), "How many frames there are: n."),
         ("ERRORS", 6 * spec.frames.len(), "How many generalized errors there are: 6n, the length of ε."),
@@ -46,6 +50,12 @@ pub(super) fn description(spec: &Spec, effects: &[EffectNode]) -> TokenStream {
         ("PARAMETERS", spec.parameters.len(), "How many structural parameters there are: the length of `s`."),
         ("INPUTS", spec.inputs.len(), "How many inputs there are: the length of `u`."),
         ("EFFECTS", effects.len(), "How many errors the sources cause."),
+        ("SOURCES", spec.enabled_sources().count(), "How many sources there are."),
+        (
+            "DISTINCT",
+            distinct,
+            "How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.",
+        ),
     ];
     let counts = counts.map(|(name, count, doc)| {
         let (name, doc) = (format_ident!("{name}"), format!(" {doc}"));

@@ -43,7 +43,7 @@ pub fn rust_tokens(spec: &Spec) -> TokenStream {
             /// The same as functions of plain arrays, generic over the scalar and without checks: what is not
             /// finite stays so.
             pub mod raw {
-                use super::{EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, VARIABLES};
+                use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
                 use ::abbe::Scalar;
 
                 #(#raw)*

@@ -7,10 +7,10 @@ use quote::format_ident;
 
 use crate::expr::Symbol;
 use crate::program::{Action, Operand, Program};
-use crate::spec::Spec;
+use crate::spec::{Component, Spec};
 
 /// Names that arguments and constants have, or that are no names in a pattern.
-const TAKEN: [&str; 20] = [
+const TAKEN: [&str; 27] = [
     "q",
     "s",
     "u",
@@ -21,12 +21,19 @@ const TAKEN: [&str; 20] = [
     "columns",
     "effects",
     "errors",
+    "variances",
+    "distinct",
+    "displacement",
+    "displacements",
+    "covariance",
     "FRAMES",
     "ERRORS",
     "VARIABLES",
     "PARAMETERS",
     "INPUTS",
     "EFFECTS",
+    "DISTINCT",
+    "SOURCES",
     "None",
     "Some",
     "Ok",
@@ -41,26 +48,42 @@ pub(super) struct Names<'s> {
     variables: Vec<Ident>,
     parameters: Vec<Ident>,
     inputs: Vec<Ident>,
+    /// Six per frame.
+    errors: Vec<Ident>,
 }
 
 impl<'s> Names<'s> {
     pub(super) fn new(spec: &'s Spec) -> Self {
         let used = TAKEN.iter().map(|name| (*name).to_owned()).collect();
-        let mut names =
-            Self { spec, used, counter: 0, variables: vec![], parameters: vec![], inputs: vec![] };
+        let (variables, parameters, inputs, errors) = (vec![], vec![], vec![], vec![]);
+        let mut names = Self { spec, used, counter: 0, variables, parameters, inputs, errors };
         names.variables = spec.variables.iter().map(|variable| names.free(&variable.name)).collect();
         names.parameters = spec.parameters.iter().map(|parameter| names.free(&parameter.name)).collect();
         names.inputs = spec.inputs.iter().map(|input| names.free(&input.name)).collect();
         names
     }
 
-    /// A variable, parameter or input.
+    /// Names what is given for each generalized error by its first letter: of `variances`, `v2_s` is that of `e_s` of
+    /// frame 2.
+    pub(super) fn name_errors(&mut self, given: &str) {
+        let letter = &given[..1];
+        for frame in 1..=self.spec.frames.len() {
+            for component in Component::ALL {
+                let suffix = component.name().trim_start_matches("e_");
+                let name = self.free(&format!("{letter}{frame}_{suffix}"));
+                self.errors.push(name);
+            }
+        }
+    }
+
+    /// A variable, parameter, input or generalized error.
     pub(super) fn symbol(&self, symbol: Symbol) -> &Ident {
         match symbol {
             Symbol::Variable(i) => &self.variables[i],
             Symbol::Parameter(i) => &self.parameters[i],
             Symbol::Input(i) => &self.inputs[i],
-            Symbol::Error(_) => unreachable!("generalized errors stand in no generated program"),
+            // Named before the body is written, in the functions that have them.
+            Symbol::Error(i) => &self.errors[i],
         }
     }
 

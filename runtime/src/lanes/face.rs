@@ -16,7 +16,7 @@ macro_rules! batch_face {
                 path, arguments, results, (q, s, u, errors, out);
                 Pose => raw::pose(q, s, columns(out)?),
                 ErrorJacobian => raw::error_jacobian(q, s, columns(out)?, columns(out)?),
-                DistinctErrorJacobian => raw::error_jacobian_distinct(q, s, columns(out)?, columns(out)?),
+                DistinctErrorJacobian => raw::error_jacobian_distinct(q, s, columns(out)?, vectors(out)?),
                 Displacement => raw::displacement(q, s, errors.as_chunks().0.try_into().ok()?, fill(out)?),
                 PredictedDisplacement => raw::predicted_displacement(q, s, u, fill(out)?),
                 SourceDisplacements => raw::source_displacements(q, s, u, columns(out)?),
@@ -36,7 +36,7 @@ macro_rules! batch_face {
                     #[inline(always)]
                     #[allow(unused_variables, unused_imports)]
                     fn evaluate<T: $crate::Scalar>(arguments: &[T], mut results: &mut [T]) -> Option<()> {
-                        use $crate::lanes::{Margin, fill, fill_columns as columns};
+                        use $crate::lanes::{Margin, fill, fill_columns as columns, fill_vectors as vectors};
                         let ($q, rest) = arguments.split_first_chunk::<VARIABLES>()?;
                         let ($s, rest) = rest.split_first_chunk::<PARAMETERS>()?;
                         let ($u, $errors) = rest.split_first_chunk::<INPUTS>()?;

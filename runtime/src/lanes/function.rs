@@ -51,6 +51,16 @@ pub fn fill_columns<'t, T, const N: usize, const M: usize>(
     values.as_chunks_mut().0.try_into().ok()
 }
 
+/// The next N groups of M vectors, to be filled.
+#[inline(always)]
+pub fn fill_vectors<'t, T, const M: usize, const N: usize>(
+    rest: &mut &'t mut [T],
+) -> Option<&'t mut [[[T; 3]; M]; N]> {
+    let (values, others) = core::mem::take(rest).split_at_mut_checked(3 * M * N)?;
+    *rest = others;
+    values.as_chunks_mut::<3>().0.as_chunks_mut::<M>().0.try_into().ok()
+}
+
 /// What a raw function returns: `cos ρ` where rows are Euler angles, nothing otherwise.
 pub trait Margin<T> {
     /// Writes it behind the other results.

@@ -86,9 +86,9 @@ impl InstructionSet {
         match self.0 {
             Level::Baseline => kernel.run::<[f64; 2]>(),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(v3) => v3.vectorize(With::<K, core::arch::x86_64::__m256d>::new(kernel)),
+            Level::Avx2(v3) => v3.vectorize(With::<K, super::x86::Avx2>::new(kernel)),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(v4) => v4.vectorize(With::<K, core::arch::x86_64::__m512d>::new(kernel)),
+            Level::Avx512(v4) => v4.vectorize(With::<K, super::x86::Avx512>::new(kernel)),
         }
     }
 }

@@ -16,12 +16,15 @@ mod function;
 mod instruction_set;
 mod one_by_one;
 mod path;
+mod portable;
 mod register;
 mod tiles;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 pub use function::{Function, run};
 #[doc(hidden)]
-pub use function::{Margin, fill, fill_columns};
+pub use function::{Margin, fill, fill_columns, fill_vectors};
 pub use instruction_set::{InstructionSet, Kernel};
 pub(crate) use one_by_one::one_by_one;
 pub use path::Path;

@@ -1,9 +1,7 @@
 //! A number per lane.
 //!
-//! Operations are plain loops over the lanes of a value that lives in one register: the compiler makes each of them
-//! one instruction, which it does not where lanes live in arrays of their own.
+//! What is rare goes lane by lane; the rest is one instruction for all of them.
 
-use core::array;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use bytemuck::{Pod, TransparentWrapper, Zeroable};
@@ -13,17 +11,33 @@ use crate::sin_cos::{self, Real};
 
 impl<R: Register> Real for Lanes<R> {
     #[inline(always)]
-    fn bits(a: Self, b: Self, c: Self, f: impl Fn(u64, u64, u64) -> u64) -> Self {
-        a.zip3(b, c, |a, b, c| f64::from_bits(f(a.to_bits(), b.to_bits(), c.to_bits())))
+    fn xor(self, other: Self) -> Self {
+        Self(R::xor(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(R::and(self.0, other.0))
+    }
+
+    #[inline(always)]
+    fn odd(self) -> Self {
+        Self(R::odd(self.0))
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(self) -> Self {
+        Self(R::shifted::<PLACES>(self.0))
     }
 }
 
-/// The register that lanes live in.
+/// A register, and the instructions that lanes are computed with: those of [`InstructionSet`](super::InstructionSet).
+///
+/// Each method does to every lane what its name says to a number; `mul_add` and its kin round once where
+/// the instruction set can.
 pub trait Register: Pod + Send + Sync {
     /// How many lanes it has.
     const WIDTH: usize;
-    /// Whether `a · b + c` is one instruction.
-    const FUSED: bool;
     /// All lanes with the same value.
     fn splat(value: f64) -> Self;
     /// The value of every lane: `f` of its number.
@@ -32,44 +46,69 @@ pub trait Register: Pod + Send + Sync {
     fn map(a: Self, b: Self, c: Self, f: impl Fn(f64, f64, f64) -> f64) -> Self;
     /// The values of the lanes.
     fn lanes(&self) -> &[f64];
+    /// `a + b`.
+    fn add(a: Self, b: Self) -> Self;
+    /// `a − b`.
+    fn sub(a: Self, b: Self) -> Self;
+    /// `a · b`.
+    fn mul(a: Self, b: Self) -> Self;
+    /// `a / b`.
+    fn div(a: Self, b: Self) -> Self;
+    /// `a · b + c`.
+    fn mul_add(a: Self, b: Self, c: Self) -> Self;
+    /// `a · b − c`.
+    fn mul_sub(a: Self, b: Self, c: Self) -> Self;
+    /// `c − a · b`.
+    fn neg_mul_add(a: Self, b: Self, c: Self) -> Self;
+    /// `√a`.
+    fn sqrt(a: Self) -> Self;
+    /// `a` if it is less than `b`, else `b`.
+    fn min(a: Self, b: Self) -> Self;
+    /// `a` if it is more than `b`, else `b`.
+    fn max(a: Self, b: Self) -> Self;
+    /// Exclusive or of the bits.
+    fn xor(a: Self, b: Self) -> Self;
+    /// And of the bits.
+    fn and(a: Self, b: Self) -> Self;
+    /// And of the bits of `a` and of those that are not set in `b`.
+    fn and_not(a: Self, b: Self) -> Self;
+    /// All bits where `a` is more than `b`, none elsewhere.
+    fn more_than(a: Self, b: Self) -> Self;
+    /// All bits where the lowest bit is set, none elsewhere.
+    fn odd(a: Self) -> Self;
+    /// The bits moved up by so many places.
+    fn shifted<const PLACES: u32>(a: Self) -> Self;
 }
 
-macro_rules! register {
-    ($register:ty, $width:literal, $fused:literal) => {
-        impl Register for $register {
-            const WIDTH: usize = $width;
-            const FUSED: bool = $fused;
+/// What every register does by way of an array.
+macro_rules! by_array {
+    ($width:literal) => {
+        const WIDTH: usize = $width;
 
-            #[inline(always)]
-            fn splat(value: f64) -> Self {
-                bytemuck::cast([value; $width])
-            }
+        #[inline(always)]
+        fn splat(value: f64) -> Self {
+            bytemuck::cast([value; $width])
+        }
 
-            #[inline(always)]
-            fn from_fn(f: impl Fn(usize) -> f64) -> Self {
-                bytemuck::cast::<[f64; $width], Self>(array::from_fn(f))
-            }
+        #[inline(always)]
+        fn from_fn(f: impl Fn(usize) -> f64) -> Self {
+            bytemuck::cast::<[f64; $width], Self>(core::array::from_fn(f))
+        }
 
-            #[inline(always)]
-            fn map(a: Self, b: Self, c: Self, f: impl Fn(f64, f64, f64) -> f64) -> Self {
-                let [a, b, c]: [[f64; $width]; 3] = [a, b, c].map(|register| bytemuck::cast(register));
-                let result: [f64; $width] = array::from_fn(|lane| f(a[lane], b[lane], c[lane]));
-                bytemuck::cast(result)
-            }
+        #[inline(always)]
+        fn map(a: Self, b: Self, c: Self, f: impl Fn(f64, f64, f64) -> f64) -> Self {
+            let [a, b, c]: [[f64; $width]; 3] = [a, b, c].map(|register| bytemuck::cast(register));
+            let result: [f64; $width] = core::array::from_fn(|lane| f(a[lane], b[lane], c[lane]));
+            bytemuck::cast(result)
+        }
 
-            #[inline(always)]
-            fn lanes(&self) -> &[f64] {
-                bytemuck::cast_ref::<Self, [f64; $width]>(self)
-            }
+        #[inline(always)]
+        fn lanes(&self) -> &[f64] {
+            bytemuck::cast_ref::<Self, [f64; $width]>(self)
         }
     };
 }
-
-register!([f64; 2], 2, false);
-#[cfg(target_arch = "x86_64")]
-register!(core::arch::x86_64::__m256d, 4, true);
-#[cfg(target_arch = "x86_64")]
-register!(core::arch::x86_64::__m512d, 8, true);
+pub(super) use by_array;
 
 /// A number per lane: the [`Scalar`] of a batch.
 #[derive(Clone, Copy, Debug, Pod, Zeroable, TransparentWrapper)]
@@ -108,36 +147,29 @@ impl<R: Register> Lanes<R> {
         Self(R::map(self.0, other.0, self.0, |a, b, _| f(a, b)))
     }
 
-    /// `f` of every lane of three.
-    #[inline(always)]
-    fn zip3(self, b: Self, c: Self, f: impl Fn(f64, f64, f64) -> f64) -> Self {
-        Self(R::map(self.0, b.0, c.0, f))
-    }
-
-    /// The smaller of two values, lane by lane; the other if one is not a number.
+    /// The smaller of two values, lane by lane; `other` if one is not a number.
     #[inline(always)]
     pub fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a < b { a } else { b })
+        Self(R::min(self.0, other.0))
     }
 
     /// The larger of two values, lane by lane; `other` if one is not a number.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
+        Self(R::max(self.0, other.0))
     }
 
     /// Where it is more than another.
     #[inline(always)]
     pub fn more_than(self, other: Self) -> Mask<R> {
-        Mask(self.zip(other, |a, b| f64::from_bits(if a > b { u64::MAX } else { 0 })).0)
+        Mask(R::more_than(self.0, other.0))
     }
 
     /// `self` where the mask is set, `other` elsewhere.
     #[inline(always)]
     pub fn or(self, other: Self, mask: Mask<R>) -> Self {
-        self.zip3(other, Self(mask.0), |a, b, mask| {
-            f64::from_bits(a.to_bits() & mask.to_bits() | b.to_bits() & !mask.to_bits())
-        })
+        let change = R::and(R::xor(self.0, other.0), mask.0);
+        Self(R::xor(other.0, change))
     }
 }
 
@@ -150,36 +182,30 @@ impl<R: Register> Mask<R> {
 }
 
 macro_rules! operator {
-    ($operator:ident, $function:ident, $sign:tt) => {
+    ($operator:ident, $function:ident) => {
         impl<R: Register> $operator for Lanes<R> {
             type Output = Self;
 
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
-                self.zip(other, |a, b| a $sign b)
+                Self(R::$function(self.0, other.0))
             }
         }
     };
 }
 
-operator!(Add, add, +);
-operator!(Sub, sub, -);
-operator!(Mul, mul, *);
-operator!(Div, div, /);
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);
 
 impl<R: Register> Neg for Lanes<R> {
     type Output = Self;
 
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(|a| -a)
+        Self(R::xor(self.0, R::splat(-0.0)))
     }
-}
-
-/// `a · b + c`, with one rounding if the register has an instruction for it.
-#[inline(always)]
-fn mul_add<R: Register>(a: f64, b: f64, c: f64) -> f64 {
-    if R::FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 impl<R: Register> Scalar for Lanes<R> {
@@ -190,26 +216,24 @@ impl<R: Register> Scalar for Lanes<R> {
 
     #[inline(always)]
     fn mul_add(self, b: Self, c: Self) -> Self {
-        self.zip3(b, c, mul_add::<R>)
+        Self(R::mul_add(self.0, b.0, c.0))
     }
 
     #[inline(always)]
     fn mul_sub(self, b: Self, c: Self) -> Self {
-        self.zip3(b, c, |a, b, c| mul_add::<R>(a, b, -c))
+        Self(R::mul_sub(self.0, b.0, c.0))
     }
 
     #[inline(always)]
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
-        self.zip3(b, c, |a, b, c| mul_add::<R>(-a, b, c))
+        Self(R::neg_mul_add(self.0, b.0, c.0))
     }
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let far = self.abs().zip(self, |magnitude, _| {
-            // What is not a number is far too.
-            f64::from_bits(if magnitude <= sin_cos::REACH { 0 } else { u64::MAX })
-        });
-        if Mask(far.0).any() {
+        // What is not a number is far too.
+        let near = Lanes::constant(sin_cos::REACH).min(self.abs());
+        if Mask(R::xor(near.0, self.abs().0)).any() {
             return (self.map(|a| Scalar::sin_cos(a).0), self.map(|a| Scalar::sin_cos(a).1));
         }
         sin_cos::near(self)
@@ -237,12 +261,12 @@ impl<R: Register> Scalar for Lanes<R> {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        self.map(f64::sqrt)
+        Self(R::sqrt(self.0))
     }
 
     #[inline(always)]
     fn abs(self) -> Self {
-        self.map(f64::abs)
+        Self(R::and_not(self.0, R::splat(-0.0)))
     }
 
     #[inline(always)]

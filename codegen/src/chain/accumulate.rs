@@ -1,0 +1,58 @@
+//! From the tip to the base: what the errors of all frames do to the tool point, without any frame's pose in `F_0`.
+
+use super::local::Local;
+use crate::graph::{Graph, Node, Vector};
+use crate::spec::Spec;
+
+/// The chain as local motions.
+pub(super) struct Links {
+    frames: Vec<Vec<Local>>,
+    tool: Vec<Local>,
+}
+
+/// What is accumulated, in the axes of the frame that has been reached.
+pub(super) trait Accumulated {
+    /// Takes in the six errors of the frame; `lever` is the tool point as seen from it.
+    fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector);
+    /// Goes over to the axes before a motion.
+    fn turn(&mut self, graph: &mut Graph, motion: &Local);
+}
+
+impl Links {
+    pub(super) fn new(graph: &mut Graph, spec: &Spec) -> Self {
+        let frames = spec.frames.iter().map(|frame| Local::motions(graph, &frame.factors)).collect();
+        Self { frames, tool: Local::motions(graph, &spec.tool) }
+    }
+
+    /// Accumulates from the tip to `F_0`:
+    ///
+    /// ```text
+    /// ρ = p_T − p_i        take in ε_i at ρ        ρ ← t_i + R_i ρ, and what is accumulated ← R_i of it
+    /// ```
+    pub(super) fn accumulate<A: Accumulated>(
+        &self,
+        graph: &mut Graph,
+        errors: &[[Node; 6]],
+        mut sum: A,
+    ) -> A {
+        let mut lever = [graph.zero(); 3];
+        for motion in self.tool.iter().rev() {
+            lever = motion.point(graph, lever);
+        }
+        for (motions, errors) in self.frames.iter().zip(errors).rev() {
+            sum.add(graph, *errors, lever);
+            for motion in motions.iter().rev() {
+                sum.turn(graph, motion);
+                lever = motion.point(graph, lever);
+            }
+        }
+        sum
+    }
+
+    /// The x axis of the tool in `F_0`.
+    pub(super) fn first_axis(&self, graph: &mut Graph) -> Vector {
+        let (zero, one) = (graph.zero(), graph.constant(1.0));
+        let motions = self.frames.iter().chain([&self.tool]).flatten();
+        motions.rev().fold([one, zero, zero], |axis, motion| motion.direction(graph, axis))
+    }
+}

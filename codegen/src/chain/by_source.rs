@@ -1,0 +1,35 @@
+//! What the spec's own sources do to the tool point.
+
+use super::EffectNode;
+use super::accumulate::Links;
+use super::displacement::Displacement;
+use super::rows::Rows;
+use crate::graph::{Graph, Node};
+use crate::spec::Spec;
+
+/// `ΔX = J_e ε` along the chain.
+pub(super) fn along(graph: &mut Graph, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
+    let none = Displacement::none(graph);
+    links.accumulate(graph, errors, none).rows(graph, rows)
+}
+
+/// The six errors of every frame that each source causes by itself, a random one for its magnitude.
+pub(super) fn errors_by_source(zero: Node, spec: &Spec, effects: &[EffectNode]) -> Vec<Vec<[Node; 6]>> {
+    let mut errors = vec![vec![[zero; 6]; spec.frames.len()]; spec.enabled_sources().count()];
+    for effect in effects {
+        errors[effect.source][effect.frame][effect.component as usize] = effect.value;
+    }
+    errors
+}
+
+/// `ΔX = J_e ε` from the columns of `J_e`.
+pub(super) fn product(graph: &mut Graph, columns: &[[Node; 6]], errors: &[[Node; 6]]) -> [Node; 6] {
+    let mut sum = [graph.zero(); 6];
+    for (column, error) in columns.iter().zip(errors.as_flattened()) {
+        for (sum, entry) in sum.iter_mut().zip(column) {
+            let part = graph.mul(*error, *entry);
+            *sum = graph.add(*sum, part);
+        }
+    }
+    sum
+}

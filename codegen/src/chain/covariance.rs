@@ -1,0 +1,165 @@
+//! `J_e diag(σ²) J_eᵀ` without `J_e`.
+
+use super::accumulate::Accumulated;
+use super::local::Local;
+use super::rows::Rows;
+use super::sources::vectors;
+use crate::graph::{Graph, Node, Vector};
+
+type Matrix = [Vector; 3];
+
+/// The covariance of the tool point's displacement δ and turn θ, in blocks of rows; those on the diagonal are symmetric.
+///
+/// With `δ = … + d + θ × ρ` for a frame's errors, and `L = −[ρ]` (so that `θ × ρ = L θ`), a frame adds
+///
+/// ```text
+/// PP += diag(σ_d²) + L diag(σ_θ²) Lᵀ        PR += L diag(σ_θ²)        RR += diag(σ_θ²)
+/// ```
+pub(super) struct Covariance {
+    /// δ by δ.
+    pp: Matrix,
+    /// δ by θ.
+    pr: Matrix,
+    /// θ by θ.
+    rr: Matrix,
+}
+
+impl Covariance {
+    pub(super) fn none(graph: &mut Graph) -> Self {
+        let zero = [[graph.zero(); 3]; 3];
+        Self { pp: zero, pr: zero, rr: zero }
+    }
+
+    /// The 6 × 6 covariance of ΔX: with B from the small rotation to rows 4–6, `PR Bᵀ` and `B RR Bᵀ`.
+    pub(super) fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
+        let pr = self.pr.map(|row| rows.of(graph, row));
+        let half = transposed(self.rr.map(|row| rows.of(graph, row)));
+        let rr = symmetric(half.map(|row| rows.of(graph, row)));
+        let upper = (0..3).map(|i| joined(self.pp[i], pr[i]));
+        let lower = (0..3).map(|i| joined(transposed(pr)[i], rr[i]));
+        upper.chain(lower).collect()
+    }
+}
+
+impl Accumulated for Covariance {
+    fn add(&mut self, graph: &mut Graph, variances: [Node; 6], [x, y, z]: Vector) {
+        let (shift, turn) = vectors(variances);
+        let zero = graph.zero();
+        let [minus_x, minus_y, minus_z] = graph.neg_vector([x, y, z]);
+        let lever = [[zero, z, minus_y], [minus_z, zero, x], [y, minus_x, zero]];
+        let swing = lever.map(|row: Vector| [0, 1, 2].map(|k| graph.mul(row[k], turn[k])));
+        for (i, j) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
+            let part = graph.dot(swing[i], lever[j]);
+            self.pp[i][j] = graph.add(self.pp[i][j], part);
+            self.pp[j][i] = self.pp[i][j];
+        }
+        for i in 0..3 {
+            self.pp[i][i] = graph.add(self.pp[i][i], shift[i]);
+            self.pr[i] = graph.add_vectors(self.pr[i], swing[i]);
+            self.rr[i][i] = graph.add(self.rr[i][i], turn[i]);
+        }
+    }
+
+    fn turn(&mut self, graph: &mut Graph, motion: &Local) {
+        match motion {
+            Local::Shift(_) => {}
+            Local::Turn { axis, sine, cosine } => {
+                let double = Double::new(graph, *sine, *cosine);
+                self.pp = turned_symmetric(graph, motion, *axis, double, &self.pp);
+                self.rr = turned_symmetric(graph, motion, *axis, double, &self.rr);
+                self.pr = turned(graph, motion, *axis, double, &self.pr);
+            }
+            Local::Rotation(_) => {
+                self.pp = symmetric(congruent(graph, motion, &self.pp));
+                self.rr = symmetric(congruent(graph, motion, &self.rr));
+                self.pr = congruent(graph, motion, &self.pr);
+            }
+        }
+    }
+}
+
+/// `cos²`, `sin cos`, `cos 2θ` and `sin 2θ` of a turn: the blocks share them.
+#[derive(Clone, Copy)]
+struct Double {
+    square: Node,
+    product: Node,
+    cosine: Node,
+    sine: Node,
+}
+
+impl Double {
+    fn new(graph: &mut Graph, sine: Node, cosine: Node) -> Self {
+        let (square, product, one) =
+            (graph.mul(cosine, cosine), graph.mul(sine, cosine), graph.constant(1.0));
+        let twice = graph.add(square, square);
+        Self { square, product, cosine: graph.sub(twice, one), sine: graph.add(product, product) }
+    }
+}
+
+/// `R S Rᵀ` of a symmetric S for a turn: with `d = S_jj − S_kk` and `m = S_jk`
+///
+/// ```text
+/// x = cos² d − sin 2θ m        S_jj ← S_kk + x        S_kk ← S_jj − x        S_jk ← sin cos d + cos 2θ m
+/// ```
+fn turned_symmetric(graph: &mut Graph, motion: &Local, axis: usize, double: Double, s: &Matrix) -> Matrix {
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut turned = *s;
+    turned[axis] = motion.direction(graph, s[axis]);
+    let (difference, mixed) = (graph.sub(s[j][j], s[k][k]), s[j][k]);
+    let (first, second) = (graph.mul(double.square, difference), graph.mul(double.sine, mixed));
+    let change = graph.sub(first, second);
+    turned[j][j] = graph.add(s[k][k], change);
+    turned[k][k] = graph.sub(s[j][j], change);
+    let (first, second) = (graph.mul(double.product, difference), graph.mul(double.cosine, mixed));
+    turned[j][k] = graph.add(first, second);
+    turned[k][j] = turned[j][k];
+    for i in [j, k] {
+        turned[i][axis] = turned[axis][i];
+    }
+    turned
+}
+
+/// `R M Rᵀ` of any M for a turn: with `d = M_jj − M_kk` and `f = M_jk + M_kj`
+///
+/// ```text
+/// x = cos² d − sin cos f       M_jj ← M_kk + x        M_kk ← M_jj − x
+/// y = sin cos d + cos² f       M_jk ← y − M_kj        M_kj ← y − M_jk
+/// ```
+fn turned(graph: &mut Graph, motion: &Local, axis: usize, double: Double, m: &Matrix) -> Matrix {
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut turned = *m;
+    turned[axis] = motion.direction(graph, m[axis]);
+    let column = motion.direction(graph, transposed(*m)[axis]);
+    let (difference, sum) = (graph.sub(m[j][j], m[k][k]), graph.add(m[j][k], m[k][j]));
+    let (first, second) = (graph.mul(double.square, difference), graph.mul(double.product, sum));
+    let x = graph.sub(first, second);
+    let (first, second) = (graph.mul(double.product, difference), graph.mul(double.square, sum));
+    let y = graph.add(first, second);
+    turned[j][j] = graph.add(m[k][k], x);
+    turned[k][k] = graph.sub(m[j][j], x);
+    turned[j][k] = graph.sub(y, m[k][j]);
+    turned[k][j] = graph.sub(y, m[j][k]);
+    for i in [j, k] {
+        turned[i][axis] = column[i];
+    }
+    turned
+}
+
+/// `R M Rᵀ`, first the columns, then the rows.
+fn congruent(graph: &mut Graph, motion: &Local, m: &Matrix) -> Matrix {
+    let columns = transposed(*m).map(|column| motion.direction(graph, column));
+    transposed(columns).map(|row| motion.direction(graph, row))
+}
+
+fn transposed(m: Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
+}
+
+/// The upper triangle on both sides of the diagonal.
+fn symmetric(m: Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[i.min(j)][i.max(j)]))
+}
+
+fn joined([a, b, c]: Vector, [d, e, f]: Vector) -> [Node; 6] {
+    [a, b, c, d, e, f]
+}

@@ -1,0 +1,46 @@
+//! `ΔX = J_e ε` without `J_e`.
+
+use super::accumulate::Accumulated;
+use super::local::Local;
+use super::rows::Rows;
+use super::sources::vectors;
+use crate::graph::{Graph, Node, Vector};
+
+/// What the frames from the tip to the one that has been reached do to the tool point:
+///
+/// ```text
+/// δ ← R_i (δ + d_i + θ_i × ρ)        θ ← R_i (θ + θ_i)
+/// ```
+pub(super) struct Displacement {
+    /// δ.
+    shift: Vector,
+    /// θ.
+    turn: Vector,
+}
+
+impl Displacement {
+    pub(super) fn none(graph: &mut Graph) -> Self {
+        let zero = [graph.zero(); 3];
+        Self { shift: zero, turn: zero }
+    }
+
+    /// The six rows of ΔX.
+    pub(super) fn rows(&self, graph: &mut Graph, rows: &Rows) -> [Node; 6] {
+        rows.column(graph, self.shift, self.turn)
+    }
+}
+
+impl Accumulated for Displacement {
+    fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector) {
+        let (shift, turn) = vectors(errors);
+        let swing = graph.cross(turn, lever);
+        self.shift = graph.add_vectors(self.shift, shift);
+        self.shift = graph.add_vectors(self.shift, swing);
+        self.turn = graph.add_vectors(self.turn, turn);
+    }
+
+    fn turn(&mut self, graph: &mut Graph, motion: &Local) {
+        self.shift = motion.direction(graph, self.shift);
+        self.turn = motion.direction(graph, self.turn);
+    }
+}

@@ -1,0 +1,194 @@
+//! A transform `A_i` as local motions, each of which takes little to apply to a vector or a tensor.
+//!
+//! A matrix that is one turn about a coordinate axis, up to an exchange of axes, is taken apart again; so is its
+//! position as far as it lies along the turned axes: `(a cos q, a sin q, 0)` is a shift by a constant before the turn.
+
+use super::walk::about;
+use crate::expr::{Elementary, Motion};
+use crate::graph::{Frame, Graph, Node, Op, Vector};
+use crate::spec::Factor;
+
+/// One of the motions that make up a transform, each in the axes that those before it lead to.
+pub(super) enum Local {
+    /// A translation.
+    Shift(Vector),
+    /// A turn about coordinate axis 0, 1 or 2.
+    Turn { axis: usize, sine: Node, cosine: Node },
+    /// Any other rotation, by its columns; often an exchange of axes, which takes nothing.
+    Rotation([Vector; 3]),
+}
+
+impl Local {
+    /// The motions of a product of factors, in its order.
+    pub(super) fn motions(graph: &mut Graph, factors: &[Factor]) -> Vec<Self> {
+        let mut motions = Vec::new();
+        for factor in factors {
+            match factor {
+                Factor::Elementary(Elementary { motion, axis, amount }) => {
+                    let amount = graph.lower(amount);
+                    motions.push(elementary(graph, *motion, *axis, amount));
+                }
+                Factor::About { motion: Motion::Translation, axis, amount } => {
+                    let amount = graph.lower(amount);
+                    let axis = axis.map(|component| graph.constant(component));
+                    motions.push(Self::Shift(graph.scale(amount, axis)));
+                }
+                Factor::About { motion: Motion::Rotation, axis, amount } => {
+                    let amount = graph.lower(amount);
+                    motions.push(Self::Rotation(about(graph, *axis, amount)));
+                }
+                Factor::Matrix(matrix) => {
+                    let column = |graph: &mut Graph, j: usize| {
+                        [0, 1, 2].map(|row: usize| graph.lower(&matrix.rows[row][j]))
+                    };
+                    let axes = [0, 1, 2].map(|j| column(graph, j));
+                    let position = column(graph, 3);
+                    taken_apart(graph, &Frame { axes, position }, &mut motions);
+                }
+            }
+        }
+        motions
+    }
+
+    /// A direction in the axes before the motion.
+    pub(super) fn direction(&self, graph: &mut Graph, v: Vector) -> Vector {
+        match self {
+            Self::Shift(_) => v,
+            Self::Turn { axis, sine, cosine } => {
+                let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+                let [uc, us, vc, vs] = [(*cosine, v[j]), (*sine, v[j]), (*cosine, v[k]), (*sine, v[k])]
+                    .map(|(factor, component)| graph.mul(factor, component));
+                let mut turned = v;
+                turned[j] = graph.sub(uc, vs);
+                turned[k] = graph.add(us, vc);
+                turned
+            }
+            Self::Rotation(axes) => graph.turn(axes, v),
+        }
+    }
+
+    /// A point in the axes before the motion, from their origin.
+    pub(super) fn point(&self, graph: &mut Graph, p: Vector) -> Vector {
+        match self {
+            Self::Shift(shift) => graph.add_vectors(*shift, p),
+            _ => self.direction(graph, p),
+        }
+    }
+}
+
+fn elementary(graph: &mut Graph, motion: Motion, axis: usize, amount: Node) -> Local {
+    match motion {
+        Motion::Translation => {
+            let mut shift = [graph.zero(); 3];
+            shift[axis] = amount;
+            Local::Shift(shift)
+        }
+        Motion::Rotation => {
+            let (sine, cosine) = (graph.sin(amount), graph.cos(amount));
+            if graph.value(sine).is_some_and(|sine| sine.fract() == 0.0) {
+                let identity = graph.identity();
+                return Local::Rotation(graph.turned(&identity, axis, amount).axes);
+            }
+            Local::Turn { axis, sine, cosine }
+        }
+    }
+}
+
+/// `T(t) R = T(t − R u) R T(u)`, and R as a turn and an exchange of axes if it is one.
+fn taken_apart(graph: &mut Graph, matrix: &Frame, motions: &mut Vec<Local>) {
+    let (before, after) = shifts(graph, matrix);
+    motions.push(Local::Shift(before));
+    match turn(graph, &matrix.axes) {
+        Some((turn, exchange)) => motions.extend([turn, Local::Rotation(exchange)]),
+        None => motions.push(Local::Rotation(matrix.axes)),
+    }
+    motions.push(Local::Shift(after));
+}
+
+/// What of the position stays before the rotation, and what becomes a shift along its columns after it.
+fn shifts(graph: &mut Graph, matrix: &Frame) -> (Vector, Vector) {
+    let zero = graph.zero();
+    let (mut before, mut after) = (matrix.position, [zero; 3]);
+    for (j, axis) in matrix.axes.iter().enumerate() {
+        let rows: Vec<usize> = (0..3).filter(|&i| axis[i] != zero && before[i] != zero).collect();
+        // One product alone is no more than what it would become.
+        if rows.len() < 2 {
+            continue;
+        }
+        let candidates = match graph.op(before[rows[0]]) {
+            Op::Mul(a, b) => vec![a, b],
+            _ => continue,
+        };
+        let signed: Vec<Node> = candidates.into_iter().flat_map(|a| [a, graph.neg(a)]).collect();
+        let amount = signed.into_iter().find(|&amount| {
+            (0..3).filter(|&i| axis[i] != zero).all(|i| graph.mul(amount, axis[i]) == before[i])
+        });
+        if let Some(amount) = amount {
+            after[j] = amount;
+            rows.into_iter().for_each(|i| before[i] = zero);
+        }
+    }
+    (before, after)
+}
+
+/// A rotation as a turn about a coordinate axis and an exchange of axes after it, if it is that.
+///
+/// Some entry (i, j) is ±1: axis j stays on axis i. Any other column k holds the cosine and sine of a turn that brings
+/// axis i + 1 there, and the last column is then ± where axis i + 2 goes.
+fn turn(graph: &mut Graph, axes: &[Vector; 3]) -> Option<(Local, [Vector; 3])> {
+    let zero = graph.zero();
+    let unit = |graph: &Graph, node: Node| graph.value(node).filter(|value| value.abs() == 1.0);
+    let (i, j, sign) =
+        (0..9).find_map(|at| unit(graph, axes[at / 3][at % 3]).map(|sign| (at % 3, at / 3, sign)))?;
+    let (k, l) = ((j + 1) % 3, (j + 2) % 3);
+    let (y, z) = ((i + 1) % 3, (i + 2) % 3);
+    let (cosine, sine) = (axes[k][y], axes[k][z]);
+    let minus = graph.neg(sine);
+    let last = if [axes[l][y], axes[l][z]] == [minus, cosine] {
+        1.0
+    } else if [graph.neg(axes[l][y]), graph.neg(axes[l][z])] == [minus, cosine] {
+        -1.0
+    } else {
+        return None;
+    };
+    let mut exchange = [[zero; 3]; 3];
+    exchange[j][i] = graph.constant(sign);
+    exchange[k][y] = graph.constant(1.0);
+    exchange[l][z] = graph.constant(last);
+    Some((Local::Turn { axis: i, sine, cosine }, exchange))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Symbol;
+
+    /// The matrix of an elbow, `Rz(q) Tz(d) Tx(a) Rx(-π/2)`, becomes one turn by q and shifts by numbers.
+    #[test]
+    fn a_matrix_is_taken_apart() {
+        let mut graph = Graph::new();
+        let g = &mut graph;
+        let (angle, a, d) = (g.symbol(Symbol::Variable(0)), g.constant(0.5), g.constant(0.3));
+        let (sine, cosine, zero, one) = (g.sin(angle), g.cos(angle), g.zero(), g.constant(1.0));
+        let (minus_sine, minus_one) = (g.neg(sine), g.neg(one));
+        let position = [g.mul(a, cosine), g.mul(a, sine), d];
+        let axes = [[cosine, sine, zero], [zero, zero, minus_one], [minus_sine, cosine, zero]];
+        let mut motions = Vec::new();
+        taken_apart(g, &Frame { axes, position }, &mut motions);
+        let [Local::Shift(before), turn, exchange, Local::Shift(after)] = &motions[..] else {
+            panic!("a shift, a turn, an exchange, a shift");
+        };
+        assert!(matches!(turn, Local::Turn { axis: 2, .. }));
+        assert_eq!((before, after), (&[zero, zero, d], &[a, zero, zero]));
+        let symbols = [0, 1, 2].map(|i| g.symbol(Symbol::Parameter(i)));
+        let exchanged = exchange.direction(g, symbols);
+        let direction = turn.direction(g, exchanged);
+        let expected = g.turn(&axes, symbols);
+        let both: Vec<Node> = direction.into_iter().chain(expected).collect();
+        let values = g.evaluate(&both, |symbol| match symbol {
+            Symbol::Parameter(i) => 1.0 + 0.3 * i as f64,
+            _ => 0.7,
+        });
+        assert_eq!(values[..3], values[3..]);
+    }
+}

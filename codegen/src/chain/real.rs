@@ -1,0 +1,26 @@
+//! The exact chain with the errors of the spec's own sources: equation (6) with true rotations.
+
+use super::walk::{Step, walk};
+use crate::expr::Motion;
+use crate::graph::{Frame, Graph, Node};
+use crate::spec::{Component, Spec};
+
+/// `A_1 E_1 A_2 E_2 … A_n E_n · T`; errors that are always zero are left out.
+pub(super) fn real_pose(graph: &mut Graph, spec: &Spec, errors: &[[Node; 6]]) -> Frame {
+    let mut unused: Vec<Step> = Vec::new();
+    let mut pose = graph.identity();
+    for (frame, errors) in spec.frames.iter().zip(errors) {
+        pose = walk(graph, pose, &frame.factors, &mut unused);
+        // E = T(e_x, e_y, e_z) R_y(e_s) R_z(e_r) R_x(e_p): the order of ε.
+        for (component, error) in Component::ALL.into_iter().zip(errors) {
+            if *error == graph.zero() {
+                continue;
+            }
+            pose = match component.motion() {
+                (Motion::Translation, axis) => graph.moved(&pose, axis, *error),
+                (Motion::Rotation, axis) => graph.turned(&pose, axis, *error),
+            };
+        }
+    }
+    walk(graph, pose, &spec.tool, &mut unused)
+}

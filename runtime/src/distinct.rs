@@ -1,0 +1,63 @@
+//! The columns of `J_e` from the numbers that are neither zero nor repeated: the same map for every manipulator.
+//!
+//! A frame with axes `x y z` has six columns, and of their 36 numbers 18 say everything where rows 4–6 are the small
+//! rotation, 27 where they are Euler angles (blank: zero):
+//!
+//! ```text
+//!            e_x  e_y  e_z  e_s        e_r        e_p             numbers of a frame, three each
+//! rows 1–3   x    y    z    moment     moment     moment          0 x   3 y   6 z   9, 12, 15 the moments
+//! rows 4–6                  y          z          x               rotation vector: the axes again
+//!                           18         21         24              Euler angles: numbers of their own
+//! ```
+
+use crate::{Component, Orientation, Scalar};
+
+/// How many vectors of three distinct numbers the six columns of a frame have.
+pub const fn vectors(orientation: Orientation) -> usize {
+    match orientation {
+        Orientation::RotationVector => 6,
+        Orientation::EulerYzx => 9,
+    }
+}
+
+/// Which of a frame's distinct numbers stands in a row (0 to 5) of the column of an error; none if it is zero.
+///
+/// ```
+/// use abbe::{Component, Orientation, distinct};
+///
+/// // Row 4 (rotation about x) of the pitch is the x of the frame's x axis, number 0.
+/// assert_eq!(distinct::number(Orientation::RotationVector, Component::Pitch, 3), Some(0));
+/// assert_eq!(distinct::number(Orientation::EulerYzx, Component::Pitch, 3), Some(24));
+/// assert_eq!(distinct::number(Orientation::EulerYzx, Component::X, 3), None);
+/// ```
+pub const fn number(orientation: Orientation, component: Component, row: usize) -> Option<usize> {
+    let turn = component.index() % 3;
+    match (component.is_rotation(), row < 3, orientation) {
+        (false, true, _) => Some(3 * component.axis() + row),
+        (false, false, _) => None,
+        (true, true, _) => Some(9 + 3 * turn + row),
+        (true, false, Orientation::RotationVector) => Some(3 * component.axis() + row - 3),
+        (true, false, Orientation::EulerYzx) => Some(18 + 3 * turn + row - 3),
+    }
+}
+
+/// The columns of `J_e`, six per frame, from the distinct vectors of each frame: `D` is 6 or 9.
+///
+/// Frames beyond the end of either are left as they are.
+pub fn columns<T: Scalar, const D: usize>(distinct: &[[[T; 3]; D]], columns: &mut [[T; 6]]) {
+    let orientation = const {
+        match D {
+            6 => Orientation::RotationVector,
+            9 => Orientation::EulerYzx,
+            _ => panic!("six vectors for a rotation vector, nine for Euler angles"),
+        }
+    };
+    let zero = T::constant(0.0);
+    for (numbers, six) in distinct.iter().zip(columns.chunks_exact_mut(6)) {
+        for (component, column) in Component::ALL.into_iter().zip(six) {
+            *column = core::array::from_fn(|row| {
+                number(orientation, component, row).map_or(zero, |index| numbers[index / 3][index % 3])
+            });
+        }
+    }
+}

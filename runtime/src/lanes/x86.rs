@@ -1,0 +1,98 @@
+//! The registers of AVX2 and AVX-512: the only `unsafe` of the project.
+//!
+//! An instruction may be used where the machine has it. These types are named nowhere but in
+//! [`InstructionSet::run`](super::InstructionSet::run), which has asked the machine; a kernel gets them as a type
+//! parameter and cannot exist without them. Nothing here reads or writes memory: all values come and go in registers.
+#![allow(unsafe_code)]
+
+use core::arch::x86_64::*;
+
+use bytemuck::{Pod, Zeroable};
+
+use super::Register;
+use super::register::by_array;
+
+/// Four lanes: AVX2 and FMA.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(transparent)]
+pub(super) struct Avx2(__m256d);
+
+/// Eight lanes: AVX-512 F and DQ.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(transparent)]
+pub(super) struct Avx512(__m512d);
+
+macro_rules! instructions {
+    ($($name:ident($($argument:ident),+) $instruction:expr;)+) => {$(
+        #[inline(always)]
+        fn $name($(Self($argument): Self),+) -> Self {
+            // SAFETY: the machine has the instruction, see above.
+            Self(unsafe { $instruction })
+        }
+    )+};
+}
+
+impl Register for Avx2 {
+    by_array!(4);
+
+    instructions! {
+        add(a, b) _mm256_add_pd(a, b);
+        sub(a, b) _mm256_sub_pd(a, b);
+        mul(a, b) _mm256_mul_pd(a, b);
+        div(a, b) _mm256_div_pd(a, b);
+        mul_add(a, b, c) _mm256_fmadd_pd(a, b, c);
+        mul_sub(a, b, c) _mm256_fmsub_pd(a, b, c);
+        neg_mul_add(a, b, c) _mm256_fnmadd_pd(a, b, c);
+        sqrt(a) _mm256_sqrt_pd(a);
+        min(a, b) _mm256_min_pd(a, b);
+        max(a, b) _mm256_max_pd(a, b);
+        xor(a, b) _mm256_xor_pd(a, b);
+        and(a, b) _mm256_and_pd(a, b);
+        and_not(a, b) _mm256_andnot_pd(b, a);
+        more_than(a, b) _mm256_cmp_pd::<_CMP_GT_OQ>(a, b);
+        odd(a) _mm256_castsi256_pd(_mm256_sub_epi64(
+            _mm256_setzero_si256(),
+            _mm256_and_si256(_mm256_castpd_si256(a), _mm256_set1_epi64x(1)),
+        ));
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
+        // SAFETY: the machine has the instruction, see above.
+        Self(unsafe {
+            let places = _mm_cvtsi64_si128(PLACES as i64);
+            _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(a), places))
+        })
+    }
+}
+
+impl Register for Avx512 {
+    by_array!(8);
+
+    instructions! {
+        add(a, b) _mm512_add_pd(a, b);
+        sub(a, b) _mm512_sub_pd(a, b);
+        mul(a, b) _mm512_mul_pd(a, b);
+        div(a, b) _mm512_div_pd(a, b);
+        mul_add(a, b, c) _mm512_fmadd_pd(a, b, c);
+        mul_sub(a, b, c) _mm512_fmsub_pd(a, b, c);
+        neg_mul_add(a, b, c) _mm512_fnmadd_pd(a, b, c);
+        sqrt(a) _mm512_sqrt_pd(a);
+        min(a, b) _mm512_min_pd(a, b);
+        max(a, b) _mm512_max_pd(a, b);
+        xor(a, b) _mm512_xor_pd(a, b);
+        and(a, b) _mm512_and_pd(a, b);
+        and_not(a, b) _mm512_andnot_pd(b, a);
+        more_than(a, b) _mm512_castsi512_pd(_mm512_movm_epi64(_mm512_cmp_pd_mask::<_CMP_GT_OQ>(a, b)));
+        odd(a) _mm512_castsi512_pd(_mm512_sub_epi64(
+            _mm512_setzero_si512(),
+            _mm512_and_si512(_mm512_castpd_si512(a), _mm512_set1_epi64(1)),
+        ));
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
+        // SAFETY: the machine has the instruction, see above.
+        Self(unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<PLACES>(_mm512_castpd_si512(a))) })
+    }
+}
