@@ -2,6 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::sin_cos;
+
 /// A number type for generated code: `f64` and `f32` here, dual numbers or lanes where you need them.
 ///
 /// Angles are radians. `sin_cos` is what generated code calls wherever both are needed.
@@ -41,7 +43,7 @@ pub trait Scalar:
 }
 
 macro_rules! scalar {
-    ($float:ident, $($function:ident: $libm:ident),+; $sincos:ident, $atan2:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:expr, $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
         impl Scalar for $float {
             #[inline]
             fn constant(value: f64) -> Self {
@@ -49,10 +51,7 @@ macro_rules! scalar {
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                #[cfg(feature = "std")]
-                { $float::sin_cos(self) }
-                #[cfg(not(feature = "std"))]
-                { libm::$sincos(self) }
+                $sin_cos(self)
             }
             $(
                 #[inline]
@@ -85,7 +84,10 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f64, sin: sin, cos: cos, tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs;
-    sincos, atan2, pow);
-scalar!(f32, sin: sinf, cos: cosf, tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf;
-    sincosf, atan2f, powf);
+scalar!(f64, sin_cos::scalar, tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs; atan2, pow);
+#[cfg(feature = "std")]
+scalar!(f32, f32::sin_cos, sin: sinf, cos: cosf, tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf,
+    abs: fabsf; atan2f, powf);
+#[cfg(not(feature = "std"))]
+scalar!(f32, libm::sincosf, sin: sinf, cos: cosf, tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf,
+    abs: fabsf; atan2f, powf);
