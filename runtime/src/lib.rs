@@ -5,8 +5,8 @@
 //! pose and of its error Jacobian `J_e = ∂X_T/∂ε`, so that `ΔX ≈ J_e ε`; this crate gives them their types,
 //! the exact chain to check them against, and the analysis of a machine's errors over its workspace.
 //!
-//! The core is `no_std` and never allocates. Features, all on by default: `std` (the platform's own sine and
-//! cosine), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `parallel`
+//! The core is `no_std` and never allocates. Features, all on by default: `std` (the platform's own functions, and
+//! `mul_add`), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `parallel`
 //! (sweeps on all cores).
 //!
 //! | convention | here |

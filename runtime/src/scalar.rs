@@ -2,6 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::sin_cos;
+
 /// A number type for generated code: `f64` and `f32` here, dual numbers or lanes where you need them.
 ///
 /// Angles are radians. `sin_cos` is what generated code calls wherever both are needed.

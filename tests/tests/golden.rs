@@ -220,7 +220,7 @@ impl Scalar for Dual {
         Self(value, 0.0)
     }
     fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = self.0.sin_cos();
+        let (sine, cosine) = Scalar::sin_cos(self.0);
         (self.chain(sine, cosine), self.chain(cosine, -sine))
     }
     fn tan(self) -> Self {
