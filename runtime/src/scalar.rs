@@ -29,6 +29,11 @@ pub trait Scalar:
     }
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
+    /// Sine and cosine of several angles: for some types quicker than one by one, and the same.
+    #[inline(always)]
+    fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        angles.map(Self::sin_cos)
+    }
     /// Sine.
     fn sin(self) -> Self {
         self.sin_cos().0
@@ -58,7 +63,7 @@ pub trait Scalar:
 }
 
 macro_rules! scalar {
-    ($float:ident, $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
+    ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
         impl Scalar for $float {
             #[inline]
             fn constant(value: f64) -> Self {
@@ -66,9 +71,14 @@ macro_rules! scalar {
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                let (sine, cosine) = crate::sin_cos::scalar(self.into());
-                (sine as $float, cosine as $float)
+                $sin_cos(self)
             }
+            $(
+                #[inline(always)]
+                fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+                    sin_cos::$each(angles)
+                }
+            )?
             $(
                 #[inline]
                 fn $function(self) -> Self {
@@ -100,7 +110,10 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f64, sin: sin, cos: cos, tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs;
+scalar!(f64, sin_cos::scalar, each; tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs;
     atan2, pow);
-scalar!(f32, sin: sinf, cos: cosf, tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf;
+#[cfg(feature = "std")]
+scalar!(f32, f32::sin_cos; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf; atan2f, powf);
+#[cfg(not(feature = "std"))]
+scalar!(f32, libm::sincosf; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf;
     atan2f, powf);

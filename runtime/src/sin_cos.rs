@@ -2,7 +2,7 @@
 //!
 //! `x = n π/2 + r` with `|r| ≤ π/4` (Cody and Waite), then `sin r = r + r³ S(r²)` and
 //! `cos r = 1 + r² (−1/2 + r² C(r²))` with the minimax polynomials of fdlibm (below 2⁻⁵⁸), then the quadrant `n`.
-//! At most 1.5 ulp for `|x| ≤` [`REACH`].
+//! Below 1.7 ulp for `|x| ≤` [`REACH`].
 
 use crate::Scalar;
 
@@ -10,33 +10,44 @@ use crate::Scalar;
 pub(crate) const REACH: f64 = 1e5;
 
 const FRAC_2_PI: f64 = core::f64::consts::FRAC_2_PI;
-/// π/2 in three parts. The first two have 37 bits and `n` has 17 with its sign: their products are exact.
-const PARTS: [f64; 3] = [1.570_796_326_792_333_3, 2.563_344_151_583_955_8e-12, 1.056_299_906_698_742_8e-23];
+/// π/2 down to 2⁻³⁶, 2⁻⁵³, 2⁻⁹⁰ and the rest: with an `n` of 16 bits the first three products are exact, and so are
+/// the first two differences. All are positive: thus −0 stays −0.
+const EXACT_PARTS: [f64; 4] = [
+    1.570_796_326_792_333_3,
+    2.563_282_919_254_561_4e-12,
+    6.123_233_995_707_727e-17,
+    2.903_855_973_979_360_5e-28,
+];
+/// π/2 in three parts of 53 bits, whose products are exact where they are fused.
+const FUSED_PARTS: [f64; 3] =
+    [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_765e-17, 1.082_856_673_921_914e-32];
 /// `1.5 · 2⁵²`: adding it rounds to the nearest integer, which then stands in the low bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// `S`, lowest power first.
 const SINE: [f64; 6] = [
-    -1.666_666_666_666_663_243_48e-1,
-    8.333_333_333_322_489_461_24e-3,
-    -1.984_126_982_985_794_931_34e-4,
-    2.755_731_370_707_006_767_89e-6,
-    -2.505_076_025_340_686_341_95e-8,
-    1.589_690_995_211_550_102_21e-10,
+    -0.166_666_666_666_666_32,
+    0.008_333_333_333_322_49,
+    -0.000_198_412_698_298_579_5,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
 ];
 /// `C`, lowest power first, after `−1/2`.
 const COSINE: [f64; 7] = [
     -0.5,
-    4.166_666_666_666_660_190_37e-2,
-    -1.388_888_888_887_410_957_49e-3,
-    2.480_158_728_947_672_941_78e-5,
-    -2.755_731_435_139_066_330_35e-7,
-    2.087_572_321_298_174_827_90e-9,
-    -1.135_964_755_778_819_482_65e-11,
+    0.041_666_666_666_666_6,
+    -0.001_388_888_888_887_411,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
 ];
 
 /// What can be computed with as numbers and as bits.
 pub(crate) trait Real: Scalar {
+    /// Whether `a · b + c` is rounded once.
+    const FUSED: bool;
     /// Exclusive or of the bits.
     fn xor(self, other: Self) -> Self;
     /// And of the bits.
@@ -48,6 +59,8 @@ pub(crate) trait Real: Scalar {
 }
 
 impl Real for f64 {
+    const FUSED: bool = false;
+
     #[inline(always)]
     fn xor(self, other: f64) -> f64 {
         f64::from_bits(self.to_bits() ^ other.to_bits())
@@ -96,6 +109,16 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
     }
 }
 
+/// Sine and cosine of several `f64`, with the bits of [`scalar`]: pairs of angles share SSE2 instructions.
+#[inline(always)]
+pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
+    if angles.iter().fold(true, |all, x| all & (x.abs() <= REACH)) {
+        angles.map(near)
+    } else {
+        angles.map(scalar)
+    }
+}
+
 /// Sine and cosine of any `f64` by the library: the platform's, or `libm` without `std`.
 #[cold]
 #[inline(never)]
@@ -110,13 +133,15 @@ pub(crate) fn beyond(x: f64) -> (f64, f64) {
     }
 }
 
-/// `r = x − n π/2`, and what has `n` in its lowest bits.
+/// `r = x − n π/2`, rounded once (a second rounding matters below 2⁻²⁰ only, where that of the sine is next to none),
+/// and what has `n` in its lowest bits.
 #[inline(always)]
 fn reduce<T: Real>(x: T) -> (T, T) {
     let round = T::constant(ROUND);
     let rounded = x.mul_add(T::constant(FRAC_2_PI), round);
     let n = rounded - round;
-    let r = PARTS.iter().fold(x, |r, part| n.neg_mul_add(T::constant(*part), r));
+    let parts: &[f64] = if T::FUSED { &FUSED_PARTS } else { &EXACT_PARTS };
+    let r = parts.iter().fold(x, |r, part| n.neg_mul_add(T::constant(*part), r));
     (r, rounded)
 }
 
@@ -145,3 +170,6 @@ fn swap<T: Real>(sine: T, cosine: T, n: T) -> (T, T) {
     let change = sine.xor(cosine).and(n.odd()).xor(sign);
     (sine.xor(change), cosine.xor(change))
 }
+
+#[cfg(test)]
+mod tests;

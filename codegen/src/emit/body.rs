@@ -68,14 +68,19 @@ pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
             returned[*register] = true;
         }
     }
-    for step in &program.steps {
-        if let Action::SinCos(operand) = step.action {
-            let angle = writer.operand(operand).at_least(Binding::Atom);
-            let (sine, cosine) = writer.names.sine_and_cosine(operand, program);
-            writer.registers[step.register] = Some(Written::name(&sine));
-            writer.registers[step.register + 1] = Some(Written::name(&cosine));
-            statements.push(quote!(let (#sine, #cosine) = #angle.sin_cos();));
-            ready[step.register..step.register + 2].fill(statements.len());
+    let mut steps = program.steps.iter().peekable();
+    while let Some(step) = steps.next() {
+        if let Action::SinCos(angle) = step.action {
+            let mut pairs = vec![(step.register, angle)];
+            while let Some(Step { register, action: Action::SinCos(angle), .. }) =
+                steps.next_if(|step| matches!(step.action, Action::SinCos(_)))
+            {
+                pairs.push((*register, *angle));
+            }
+            statements.push(writer.sines_and_cosines(&pairs, program));
+            for (register, _) in pairs {
+                ready[register..register + 2].fill(statements.len());
+            }
             continue;
         }
         let written = writer.write(step);
@@ -105,6 +110,26 @@ struct Writer<'w, 's> {
 }
 
 impl Writer<'_, '_> {
+    /// `let (s1, c1) = q1.sin_cos();`, or many together.
+    fn sines_and_cosines(&mut self, pairs: &[(usize, Operand)], program: &Program) -> TokenStream {
+        let angles: Vec<Written> = pairs.iter().map(|(_, angle)| self.operand(*angle)).collect();
+        let names: Vec<TokenStream> = pairs
+            .iter()
+            .map(|(register, angle)| {
+                let (sine, cosine) = self.names.sine_and_cosine(*angle, program);
+                self.registers[*register] = Some(Written::name(&sine));
+                self.registers[register + 1] = Some(Written::name(&cosine));
+                quote!((#sine, #cosine))
+            })
+            .collect();
+        if let ([name], [angle]) = (&names[..], &angles[..]) {
+            let angle = angle.clone().at_least(Binding::Atom);
+            return quote!(let #name = #angle.sin_cos(););
+        }
+        let angles = angles.into_iter().map(|angle| angle.tokens);
+        quote!(let [#(#names),*] = T::sin_cos_each([#(#angles),*]);)
+    }
+
     fn write(&self, step: &Step) -> Written {
         match step.action {
             Action::Neg(a) => {

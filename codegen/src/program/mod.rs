@@ -6,6 +6,7 @@
 mod count;
 mod functions;
 mod fuse;
+mod order;
 mod straight_line;
 
 pub use count::Operations;

@@ -107,6 +107,7 @@ impl Program {
         program.outputs = outputs.iter().filter_map(|node| values[node.index()]).collect();
         program.count_uses();
         program.fuse();
+        program.sines_first();
         program
     }
 

@@ -16,7 +16,7 @@ macro_rules! lane_by_lane {
 }
 
 impl Register for [f64; 2] {
-    by_array!(2);
+    by_array!(2, fused: false);
 
     lane_by_lane! {
         add(a, b) a + b;
@@ -31,6 +31,7 @@ impl Register for [f64; 2] {
         max(a, b) if a > b { a } else { b };
         xor(a, b) f64::from_bits(a.to_bits() ^ b.to_bits());
         and(a, b) f64::from_bits(a.to_bits() & b.to_bits());
+        or(a, b) f64::from_bits(a.to_bits() | b.to_bits());
         and_not(a, b) f64::from_bits(a.to_bits() & !b.to_bits());
         more_than(a, b) f64::from_bits(if a > b { u64::MAX } else { 0 });
         odd(a) f64::from_bits(0_u64.wrapping_sub(a.to_bits() & 1));

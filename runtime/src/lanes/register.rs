@@ -10,6 +10,8 @@ use crate::Scalar;
 use crate::sin_cos::{self, Real};
 
 impl<R: Register> Real for Lanes<R> {
+    const FUSED: bool = R::FUSED;
+
     #[inline(always)]
     fn xor(self, other: Self) -> Self {
         Self(R::xor(self.0, other.0))
@@ -38,6 +40,8 @@ impl<R: Register> Real for Lanes<R> {
 pub trait Register: Pod + Send + Sync {
     /// How many lanes it has.
     const WIDTH: usize;
+    /// Whether `a · b + c` is rounded once.
+    const FUSED: bool;
     /// All lanes with the same value.
     fn splat(value: f64) -> Self;
     /// The value of every lane: `f` of its number.
@@ -70,6 +74,8 @@ pub trait Register: Pod + Send + Sync {
     fn xor(a: Self, b: Self) -> Self;
     /// And of the bits.
     fn and(a: Self, b: Self) -> Self;
+    /// Or of the bits.
+    fn or(a: Self, b: Self) -> Self;
     /// And of the bits of `a` and of those that are not set in `b`.
     fn and_not(a: Self, b: Self) -> Self;
     /// All bits where `a` is more than `b`, none elsewhere.
@@ -82,8 +88,9 @@ pub trait Register: Pod + Send + Sync {
 
 /// What every register does by way of an array.
 macro_rules! by_array {
-    ($width:literal) => {
+    ($width:literal, fused: $fused:literal) => {
         const WIDTH: usize = $width;
+        const FUSED: bool = $fused;
 
         #[inline(always)]
         fn splat(value: f64) -> Self {
@@ -145,6 +152,13 @@ impl<R: Register> Lanes<R> {
     #[inline(always)]
     pub fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         Self(R::map(self.0, other.0, self.0, |a, b, _| f(a, b)))
+    }
+
+    /// Sine and cosine, lane by lane.
+    #[cold]
+    #[inline(never)]
+    fn far(self) -> (Self, Self) {
+        (self.map(|a| Scalar::sin_cos(a).0), self.map(|a| Scalar::sin_cos(a).1))
     }
 
     /// The smaller of two values, lane by lane; `other` if one is not a number.
@@ -231,12 +245,22 @@ impl<R: Register> Scalar for Lanes<R> {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        // What is not a number is far too.
-        let near = Lanes::constant(sin_cos::REACH).min(self.abs());
-        if Mask(R::xor(near.0, self.abs().0)).any() {
-            return (self.map(|a| Scalar::sin_cos(a).0), self.map(|a| Scalar::sin_cos(a).1));
+        let [pair] = Self::sin_cos_each([self]);
+        pair
+    }
+
+    #[inline(always)]
+    fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        let reach = Lanes::constant(sin_cos::REACH);
+        let far = angles.iter().fold(Lanes::constant(0.0), |far: Self, angle| {
+            // Bits that differ from those of what is near. What is not a number stays so either way.
+            let size = angle.abs();
+            Self(R::or(far.0, R::xor(reach.min(size).0, size.0)))
+        });
+        match Mask(far.0).any() {
+            true => angles.map(Self::far),
+            false => angles.map(sin_cos::near),
         }
-        sin_cos::near(self)
     }
 
     fn tan(self) -> Self {

@@ -33,7 +33,7 @@ macro_rules! instructions {
 }
 
 impl Register for Avx2 {
-    by_array!(4);
+    by_array!(4, fused: true);
 
     instructions! {
         add(a, b) _mm256_add_pd(a, b);
@@ -48,6 +48,7 @@ impl Register for Avx2 {
         max(a, b) _mm256_max_pd(a, b);
         xor(a, b) _mm256_xor_pd(a, b);
         and(a, b) _mm256_and_pd(a, b);
+        or(a, b) _mm256_or_pd(a, b);
         and_not(a, b) _mm256_andnot_pd(b, a);
         more_than(a, b) _mm256_cmp_pd::<_CMP_GT_OQ>(a, b);
         odd(a) _mm256_castsi256_pd(_mm256_sub_epi64(
@@ -67,7 +68,7 @@ impl Register for Avx2 {
 }
 
 impl Register for Avx512 {
-    by_array!(8);
+    by_array!(8, fused: true);
 
     instructions! {
         add(a, b) _mm512_add_pd(a, b);
@@ -82,6 +83,7 @@ impl Register for Avx512 {
         max(a, b) _mm512_max_pd(a, b);
         xor(a, b) _mm512_xor_pd(a, b);
         and(a, b) _mm512_and_pd(a, b);
+        or(a, b) _mm512_or_pd(a, b);
         and_not(a, b) _mm512_andnot_pd(b, a);
         more_than(a, b) _mm512_castsi512_pd(_mm512_movm_epi64(_mm512_cmp_pd_mask::<_CMP_GT_OQ>(a, b)));
         odd(a) _mm512_castsi512_pd(_mm512_sub_epi64(

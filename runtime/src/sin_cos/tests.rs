@@ -4,12 +4,100 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use dashu_float::{ConstCache, Context, FBig, round::mode::HalfEven};
 
-use super::{REACH, beyond, scalar, sin_cos};
+use super::{REACH, Real, beyond, each, near, scalar};
+use crate::Scalar;
 
 type Exact = FBig<HalfEven, 2>;
 type Function = fn(f64) -> (f64, f64);
 
-const VARIANTS: [Function; 3] = [scalar, sin_cos::<false>, sin_cos::<true>];
+const VARIANTS: [Function; 3] = [scalar, near, fused];
+
+/// [`near`] where `a · b + c` is rounded once, as in lanes with FMA.
+fn fused(x: f64) -> (f64, f64) {
+    let (Fused(sine), Fused(cosine)) = near(Fused(x));
+    (sine, cosine)
+}
+
+#[derive(Clone, Copy)]
+struct Fused(f64);
+
+macro_rules! fused {
+    ($($operator:ident $function:ident),+) => {$(
+        impl core::ops::$operator for Fused {
+            type Output = Self;
+            fn $function(self, other: Self) -> Self {
+                Self(core::ops::$operator::$function(self.0, other.0))
+            }
+        }
+    )+};
+}
+
+fused!(Add add, Sub sub, Mul mul, Div div);
+
+impl core::ops::Neg for Fused {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl Scalar for Fused {
+    fn constant(value: f64) -> Self {
+        Self(value)
+    }
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        Self(f64::mul_add(self.0, b.0, c.0))
+    }
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        Self(f64::mul_add(-self.0, b.0, c.0))
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        near(self)
+    }
+    fn tan(self) -> Self {
+        unimplemented!("reduction and polynomials do without")
+    }
+    fn asin(self) -> Self {
+        self.tan()
+    }
+    fn acos(self) -> Self {
+        self.tan()
+    }
+    fn atan(self) -> Self {
+        self.tan()
+    }
+    fn atan2(self, _: Self) -> Self {
+        self.tan()
+    }
+    fn sqrt(self) -> Self {
+        self.tan()
+    }
+    fn abs(self) -> Self {
+        self.tan()
+    }
+    fn sign(self) -> Self {
+        self.tan()
+    }
+    fn powf(self, _: Self) -> Self {
+        self.tan()
+    }
+}
+
+impl Real for Fused {
+    const FUSED: bool = true;
+    fn xor(self, other: Self) -> Self {
+        Self(Real::xor(self.0, other.0))
+    }
+    fn and(self, other: Self) -> Self {
+        Self(Real::and(self.0, other.0))
+    }
+    fn odd(self) -> Self {
+        Self(Real::odd(self.0))
+    }
+    fn shifted<const PLACES: u32>(self) -> Self {
+        Self(Real::shifted::<PLACES>(self.0))
+    }
+}
 
 /// Errors in units in the last place of the correctly rounded result.
 struct Reference {
@@ -174,8 +262,17 @@ fn squares_add_to_one() {
 #[test]
 fn the_scalar_form_has_the_bits_of_the_lanes() {
     for x in spread(20_000).flat_map(|u| [REACH * signed(u), of_any_size(u)]) {
-        let ((s, c), (lane_s, lane_c)) = (scalar(x), sin_cos::<false>(x));
+        let ((s, c), (lane_s, lane_c)) = (scalar(x), near(x));
         assert_eq!((s.to_bits(), c.to_bits()), (lane_s.to_bits(), lane_c.to_bits()), "at {x:e}");
+    }
+}
+
+#[test]
+fn many_together_have_the_bits_of_one_by_one() {
+    for x in spread(2_000).map(|u| 2.0 * REACH * signed(u)) {
+        let angles = [x, x / 3.0, -0.0, x / 1e5];
+        let bits = |(s, c): (f64, f64)| (s.to_bits(), c.to_bits());
+        assert_eq!(each(angles).map(bits), angles.map(scalar).map(bits), "at {x:e}");
     }
 }
 
