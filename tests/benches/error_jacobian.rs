@@ -4,43 +4,17 @@
 //! `cargo bench -p abbe-tests`
 
 use abbe::analysis::sampling::{joint_sample, nominal_inputs, nominal_parameters};
-use abbe::{Component, Manipulator, Pose};
+use abbe::{Manipulator, Pose};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, iiwa, pps, puma560, ur5};
+use abbe_tests::frame_loop::{self, Columns, Frame};
 use criterion::{
     BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
 };
-use nalgebra::{Matrix4, Vector3};
 
 /// How many configurations are gone through: their results stay in the cache.
 const COUNT: usize = 1024;
-
-/// The 6 × 6n columns from the frames' matrices, rotation-vector rows.
-fn by_loop(transforms: &[Matrix4<f64>], columns: &mut [[f64; 6]]) -> Matrix4<f64> {
-    let (tool, frames) = transforms.split_last().expect("frames and a tool");
-    let mut product = Matrix4::identity();
-    let mut poses = [Matrix4::identity(); 16];
-    for (pose, transform) in poses.iter_mut().zip(frames) {
-        product *= transform;
-        *pose = product;
-    }
-    product *= tool;
-    let point: Vector3<f64> = product.fixed_view::<3, 1>(0, 3).into();
-    for (i, pose) in poses.iter().take(frames.len()).enumerate() {
-        let lever = point - Vector3::from(pose.fixed_view::<3, 1>(0, 3));
-        for component in Component::ALL {
-            let axis = Vector3::from(pose.fixed_view::<3, 1>(0, component.axis()));
-            let [velocity, rotation] = match component.is_rotation() {
-                true => [axis.cross(&lever), axis],
-                false => [axis, Vector3::zeros()],
-            };
-            columns[6 * i + component.index()] =
-                [velocity.x, velocity.y, velocity.z, rotation.x, rotation.y, rotation.z];
-        }
-    }
-    product
-}
 
 /// The joint values that the shipped robots' limits allow, all configurations one after the other.
 fn configurations(robot: &dyn Manipulator) -> Vec<Vec<f64>> {
@@ -91,19 +65,21 @@ fn interpreted(group: &mut BenchmarkGroup<'_, WallTime>, name: &str) {
 
     // The loop gets its A_i ready made: what they cost is left out, in its favour.
     let s = nominal_parameters(&description);
-    let transforms: Vec<Vec<Matrix4<f64>>> = q
+    let transforms: Vec<Vec<Columns>> = q
         .iter()
         .map(|q| {
             let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
             robot.transforms(q, &s, &mut transforms).expect("within limits");
-            transforms.iter().map(|pose| pose.isometry().to_homogeneous()).collect()
+            transforms.iter().map(|pose| pose.0).collect()
         })
         .collect();
+    let mut poses = vec![Frame::default(); description.frames.len() + 1];
     let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
     group.bench_function(format!("{name}/nalgebra loop, matrices given"), |bencher| {
         bencher.iter(|| {
             for transforms in &transforms {
-                std::hint::black_box(by_loop(transforms, &mut columns));
+                std::hint::black_box(frame_loop::error_jacobian(transforms, &mut poses, &mut columns));
+                std::hint::black_box(&mut columns);
             }
         });
     });

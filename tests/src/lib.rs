@@ -3,6 +3,7 @@
 #![deny(warnings, missing_docs, clippy::all)]
 
 pub mod chains;
+pub mod frame_loop;
 
 /// Generated code.
 pub mod golden {

@@ -1,0 +1,29 @@
+//! What Rust has to know of the generated code: declarations, modules, and a list of all functions.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Writes `bindings.rs` for the generated C, C++ and Rust. A file holds the one function that it is named after.
+pub fn write(out: &Path, c: &[PathBuf], cpp: &[PathBuf], rust: &[PathBuf]) {
+    let name = |path: &PathBuf| path.file_stem().expect("a name").to_string_lossy().into_owned();
+    let mut text = String::from("unsafe extern \"C\" {\n");
+    let mut list = String::new();
+    let mut entry = |name: &str, function: &str| {
+        writeln!(list, "    (\"{name}\", {function}),").expect("a string takes everything");
+    };
+    for name in c.iter().chain(cpp).map(name) {
+        text.push_str(&format!("    fn {name}(q: *const f64, second: *mut f64, result: *mut f64);\n"));
+        entry(&name, &name);
+    }
+    text.push_str("}\n");
+    for path in rust {
+        let name = name(path);
+        text.push_str(&format!("mod {name} {{ include!({path:?}); }}\n"));
+        entry(&name, &format!("{name}::{name}"));
+    }
+    text.push_str(&format!(
+        "/// Every function by its name.\npub const FUNCTIONS: &[(&str, Function)] = &[\n{list}];\n"
+    ));
+    fs::write(out.join("bindings.rs"), text).expect("the bindings");
+}

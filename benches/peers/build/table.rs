@@ -1,0 +1,41 @@
+//! The one table from which every generator starts: the entries of `A_1 … A_n` and the tool, from the spec.
+
+use abbe_codegen::chain::Model;
+use abbe_codegen::expr::{Function, Symbol};
+use abbe_codegen::graph::{Frame, Graph, Node, Op};
+use abbe_codegen::spec::Spec;
+use serde_json::{Value, json};
+
+/// Variables by name, and the upper three rows of every matrix as expressions that Python can read.
+pub fn table(spec: &Spec) -> Value {
+    let model = Model::new(spec);
+    let rows = |frame: &Frame| -> Vec<Vec<String>> {
+        (0..3)
+            .map(|row| {
+                let axes = frame.axes.iter().map(|axis| axis[row]);
+                axes.chain([frame.position[row]]).map(|node| expression(&model.graph, spec, node)).collect()
+            })
+            .collect()
+    };
+    json!({
+        "name": spec.name,
+        "variables": spec.variables.iter().map(|variable| &variable.name).collect::<Vec<_>>(),
+        "transforms": model.transforms.iter().map(rows).collect::<Vec<_>>(),
+    })
+}
+
+fn expression(graph: &Graph, spec: &Spec, node: Node) -> String {
+    let of = |node| expression(graph, spec, node);
+    match graph.op(node) {
+        // Whole numbers stay whole, so that 0 and 1 are recognized everywhere.
+        Op::Constant(bits) => format!("{}", f64::from_bits(bits)),
+        Op::Symbol(Symbol::Variable(index)) => spec.variables[index].name.clone(),
+        Op::Neg(a) => format!("(-{})", of(a)),
+        Op::Add(a, b) => format!("({} + {})", of(a), of(b)),
+        Op::Sub(a, b) => format!("({} - {})", of(a), of(b)),
+        Op::Mul(a, b) => format!("({} * {})", of(a), of(b)),
+        Op::Call(Function::Sin, a) => format!("sin({})", of(a)),
+        Op::Call(Function::Cos, a) => format!("cos({})", of(a)),
+        other => panic!("{}: the generators are not told of {other:?}", spec.name),
+    }
+}

@@ -1,0 +1,145 @@
+//! Pinocchio: every `A_i` as a joint about or along an axis of its own, and where `F_i` is on it.
+
+use std::ffi::c_void;
+
+use abbe::{Manipulator, Pose, VariableKind};
+
+use crate::row::{Kind, Row, Side};
+
+unsafe extern "C" {
+    fn pinocchio_robot(
+        n: i32,
+        kinds: *const i32,
+        signs: *const f64,
+        joints: *const f64,
+        offsets: *const f64,
+        tool: *const f64,
+    ) -> *mut c_void;
+    fn pinocchio_dense(robot: *mut c_void, q: *const f64, pose: *mut f64, columns: *mut f64);
+    fn pinocchio_distinct(robot: *mut c_void, q: *const f64, pose: *mut f64, numbers: *mut f64);
+    fn pinocchio_displacement(robot: *mut c_void, q: *const f64, e: *const f64, shift: *mut f64);
+    fn pinocchio_displacement_by_frames(robot: *mut c_void, q: *const f64, e: *const f64, shift: *mut f64);
+}
+
+/// Pinocchio's rows.
+pub fn rows(manipulator: &dyn Manipulator) -> Vec<Row> {
+    let robot = robot(manipulator);
+    let mut rows = Vec::new();
+    // Safety, here and below: the robot lives as long as the process, and a row has room for all results.
+    type Jacobian = unsafe extern "C" fn(*mut c_void, *const f64, *mut f64, *mut f64);
+    let jacobians: [(Kind, Jacobian); 2] =
+        [(Kind::Dense, pinocchio_dense), (Kind::Distinct, pinocchio_distinct)];
+    for (kind, function) in jacobians {
+        rows.push(Row::jacobian("Pinocchio, C++", Side::Peer, kind, move |q, pose, result| unsafe {
+            function(robot, q.as_ptr(), pose.as_mut_ptr(), result.as_mut_ptr());
+        }));
+    }
+    type Displacement = unsafe extern "C" fn(*mut c_void, *const f64, *const f64, *mut f64);
+    let displacements: [(&str, Displacement); 2] = [
+        ("Pinocchio, C++", pinocchio_displacement),
+        ("Pinocchio, C++, ΔX without J_e", pinocchio_displacement_by_frames),
+    ];
+    for (name, function) in displacements {
+        rows.push(Row::displacement(name, Side::Peer, move |q, errors, result| unsafe {
+            function(robot, q.as_ptr(), errors.as_ptr(), result.as_mut_ptr());
+        }));
+    }
+    rows
+}
+
+fn robot(manipulator: &dyn Manipulator) -> *mut c_void {
+    let description = manipulator.description();
+    let n = description.frames.len();
+    let (home, moved) = (transforms(manipulator, 0.0), transforms(manipulator, 1.0));
+    let (mut kinds, mut signs, mut joints, mut offsets) = (vec![], vec![], vec![], vec![]);
+    for (i, variable) in description.variables.iter().enumerate() {
+        let joint = match variable.kind {
+            VariableKind::Revolute => revolute(&home[i], &moved[i]),
+            VariableKind::Prismatic => prismatic(&home[i], &moved[i]),
+        };
+        kinds.push(joint.kind);
+        signs.push(joint.sign);
+        joints.extend(joint.placement.0.concat());
+        offsets.extend(joint.offset.0.concat());
+    }
+    let tool = home[n].0.concat();
+    // Safety: n entries each, twelve times as many for motions.
+    unsafe {
+        pinocchio_robot(
+            i32::try_from(n).expect("a few frames"),
+            kinds.as_ptr(),
+            signs.as_ptr(),
+            joints.as_ptr(),
+            offsets.as_ptr(),
+            tool.as_ptr(),
+        )
+    }
+}
+
+/// `A_1 … A_n` and the tool with every variable at `value`.
+fn transforms(manipulator: &dyn Manipulator, value: f64) -> Vec<Pose> {
+    let description = manipulator.description();
+    assert!(description.frames.len() == description.variables.len(), "every frame has its variable");
+    let q = vec![value; description.variables.len()];
+    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
+    manipulator.transforms(&q, &[], &mut transforms).expect("no parameters, finite values");
+    transforms
+}
+
+/// `A = placement · joint(sign · q) · offset`.
+struct Joint {
+    /// 0, 1, 2: a turn about x, y, z; 3, 4, 5: a slide along it.
+    kind: i32,
+    sign: f64,
+    placement: Pose,
+    offset: Pose,
+}
+
+/// A slide needs no frame of its own if it is along an axis of `F_i`.
+fn prismatic(home: &Pose, moved: &Pose) -> Joint {
+    let along: [f64; 3] = std::array::from_fn(|k| moved.0[3][k] - home.0[3][k]);
+    let (axis, sign) = aligned(rotation(&home.inverse()).turn(along)).expect("along an axis of its frame");
+    Joint { kind: 3 + axis, sign, placement: *home, offset: Pose::IDENTITY }
+}
+
+/// A turn about an axis of `F_i` through its origin needs no frame of its own either; others turn about their z, as
+/// URDF and Denavit-Hartenberg have it. `moved` is turned by 1 rad.
+fn revolute(home: &Pose, moved: &Pose) -> Joint {
+    let turned = rotation(moved).then(&rotation(&home.inverse()));
+    let [x, y, z, _] = turned.0;
+    let sine = 1f64.sin();
+    let axis = [y[2] - z[1], z[0] - x[2], x[1] - y[0]].map(|twice| twice / (2.0 * sine));
+    // (1 − R) c = p' − R p for a point c of the axis; for c ⊥ axis: c = ½ (d + cot(½) axis × d).
+    let back = turned.turn(home.position());
+    let d: [f64; 3] = std::array::from_fn(|k| moved.0[3][k] - back[k]);
+    let across = cross(axis, d);
+    let point: [f64; 3] = std::array::from_fn(|k| 0.5 * (d[k] + across[k] / 0.5f64.tan()));
+    let inverse = home.inverse();
+    let own = rotation(&inverse).turn(axis);
+    let distance = cross(own, inverse.apply(point)).iter().fold(0.0f64, |most, v| most.max(v.abs()));
+    match aligned(own) {
+        Some((axis, sign)) if distance < 1e-12 => {
+            Joint { kind: axis, sign, placement: *home, offset: Pose::IDENTITY }
+        }
+        _ => {
+            let (along, sign) = aligned(axis).expect("the joint's axis is one of the frame behind it");
+            assert!(along == 2 && sign > 0.0, "about z of the frame behind it");
+            let placement = Pose([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], point]);
+            Joint { kind: 2, sign, placement, offset: placement.inverse().then(home) }
+        }
+    }
+}
+
+fn rotation(pose: &Pose) -> Pose {
+    let [x, y, z, _] = pose.0;
+    Pose([x, y, z, [0.0; 3]])
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The coordinate axis that a unit vector is along, and its sign.
+fn aligned(v: [f64; 3]) -> Option<(i32, f64)> {
+    (0..3).zip(v).find(|(_, component)| component.abs() > 1.0 - 1e-12).map(|(axis, v)| (axis, v.signum()))
+}
