@@ -104,6 +104,9 @@ pub(crate) struct Analyze {
     /// How many threads work; the results are the same for any number. All cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
+    /// Run the spec of a shipped manipulator, not its generated code: the same, slower
+    #[arg(long)]
+    pub(crate) interpret: bool,
     /// Write into this folder: report.html, its figures as SVG, and configurations.csv, sources.csv,
     /// unreachable.csv
     #[arg(long, value_name = "DIR")]

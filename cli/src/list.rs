@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &List) -> Result<Outcome, Failure> {
     let mut lines = Vec::new();
     for shipped in SHIPPED {
         let found = shipped_spec(shipped)?;
-        lines.push(line(&found.spec, found.study.is_some()));
+        lines.push(line(&found.spec, shipped.study.is_some()));
     }
     if arguments.json {
         return Ok(Outcome::passed(json(&lines)?));

@@ -1,23 +1,52 @@
 //! The manipulator that a command is about: a spec file, or a shipped one.
 
+use std::ops::Deref;
 use std::path::Path;
 
+use abbe::Manipulator;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::Document;
 use abbe_codegen::expr::find_name;
 use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, Shipped};
 
 use crate::failure::Failure;
 
 /// A spec, and the manipulator it was shipped as.
-#[derive(Debug)]
 pub(crate) struct Found {
     pub(crate) spec: Spec,
     /// What it is called in messages: the path, or the shipped name.
     pub(crate) origin: String,
-    /// The text of the study shipped with it.
-    pub(crate) study: Option<&'static str>,
+    /// What is shipped with it, if it is a shipped one.
+    pub(crate) shipped: Option<&'static Shipped>,
+}
+
+impl Found {
+    /// The manipulator: its generated code if it is shipped and `compiled` may be used, else its spec, interpreted.
+    pub(crate) fn manipulator(&self, compiled: bool) -> Runnable<'_> {
+        match self.shipped {
+            Some(shipped) if compiled => Runnable::Compiled(shipped.compiled),
+            _ => Runnable::Interpreted(Box::new(Interpreter::new(&self.spec))),
+        }
+    }
+}
+
+/// A manipulator, one way or the other.
+pub(crate) enum Runnable<'s> {
+    Compiled(&'static dyn Manipulator),
+    Interpreted(Box<Interpreter<'s>>),
+}
+
+impl<'s> Deref for Runnable<'s> {
+    type Target = dyn Manipulator + 's;
+
+    fn deref(&self) -> &Self::Target {
+        match self {
+            Self::Compiled(manipulator) => *manipulator,
+            Self::Interpreted(interpreter) => &**interpreter,
+        }
+    }
 }
 
 /// Reads the spec that an argument names.
@@ -30,14 +59,14 @@ pub(crate) fn find(argument: &str) -> Result<Found, Failure> {
     match shipped {
         Some(shipped) if !is_path => shipped_spec(shipped),
         None if !is_path && !path.exists() => Err(unknown(argument)),
-        _ => Ok(Found { spec: Spec::read(path)?, origin: argument.to_owned(), study: None }),
+        _ => Ok(Found { spec: Spec::read(path)?, origin: argument.to_owned(), shipped: None }),
     }
 }
 
 /// A shipped manipulator, with the file name that its generated code carries.
-pub(crate) fn shipped_spec(shipped: &Shipped) -> Result<Found, Failure> {
+pub(crate) fn shipped_spec(shipped: &'static Shipped) -> Result<Found, Failure> {
     let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec)?;
-    Ok(Found { spec, origin: shipped.name.to_owned(), study: shipped.study })
+    Ok(Found { spec, origin: shipped.name.to_owned(), shipped: Some(shipped) })
 }
 
 fn unknown(argument: &str) -> Failure {

@@ -7,8 +7,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 /// How long nothing is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// Every how many configurations the clock is looked at.
-const STEP: usize = 1024;
 
 /// The progress of a sweep; the line goes when it is dropped.
 pub(crate) struct Progress {
@@ -26,7 +24,7 @@ impl Progress {
 
     /// Everything up to this configuration is done.
     pub(crate) fn reached(&mut self, index: usize) {
-        if !self.watched || !index.is_multiple_of(STEP) || self.begun.elapsed() < PATIENCE {
+        if !self.watched || self.begun.elapsed() < PATIENCE {
             return;
         }
         let bar = self.bar.get_or_insert_with(|| {

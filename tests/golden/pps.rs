@@ -62,8 +62,8 @@ pub mod pps {
     pub const EFFECTS: usize = 45;
     /// How many sources there are.
     pub const SOURCES: usize = 7;
-    /// How many numbers of a frame's six columns of `J_e` are neither zero nor repeated.
-    pub const DISTINCT: usize = 27;
+    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    pub const DISTINCT: usize = 9;
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "pps",
@@ -304,6 +304,7 @@ pub mod pps {
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
         /// 2 mul, 2 add, 3 sincos, 3 neg.
+        #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -314,51 +315,11 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let p2_y = y_offset + d2;
-            let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let r4_31 = -s4;
-            let (s5, c5) = q5.sin_cos();
-            let (s6, c6) = q6.sin_cos();
-            let t1 = -s5;
-            let t2 = -s6;
-            let t3 = c6 * couch_offset;
-            let t4 = s6 * couch_offset;
             transforms[0] = [
                 [one, zero, zero],
                 [zero, one, zero],
                 [zero, zero, one],
                 [d1, zero, zero],
-            ];
-            transforms[1] = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [zero, p2_y, zero],
-            ];
-            transforms[2] = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [zero, zero, p3_z],
-            ];
-            transforms[3] = [
-                [c4, zero, r4_31],
-                [zero, one, zero],
-                [s4, zero, c4],
-                [zero, zero, zero],
-            ];
-            transforms[4] = [
-                [c5, s5, zero],
-                [t1, c5, zero],
-                [zero, zero, one],
-                [zero, roll_offset, zero],
-            ];
-            transforms[5] = [
-                [one, zero, zero],
-                [zero, c6, s6],
-                [zero, t2, c6],
-                [zero, t3, t4],
             ];
             transforms[6] = [
                 [one, zero, zero],
@@ -366,10 +327,49 @@ pub mod pps {
                 [zero, zero, one],
                 [x, y, z],
             ];
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
+            let p2_y = y_offset + d2;
+            transforms[1] = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [zero, p2_y, zero],
+            ];
+            let p3_z = z_offset + d3;
+            transforms[2] = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [zero, zero, p3_z],
+            ];
+            let r4_31 = -s4;
+            transforms[3] = [
+                [c4, zero, r4_31],
+                [zero, one, zero],
+                [s4, zero, c4],
+                [zero, zero, zero],
+            ];
+            let t1 = -s5;
+            transforms[4] = [
+                [c5, s5, zero],
+                [t1, c5, zero],
+                [zero, zero, one],
+                [zero, roll_offset, zero],
+            ];
+            let t2 = -s6;
+            let t3 = c6 * couch_offset;
+            let t4 = s6 * couch_offset;
+            transforms[5] = [
+                [one, zero, zero],
+                [zero, c6, s6],
+                [zero, t2, c6],
+                [zero, t3, t4],
+            ];
         }
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
         ///
         /// 26 mul, 19 add, 3 sincos, 2 neg.
+        #[inline(always)]
         pub fn pose<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -378,30 +378,28 @@ pub mod pps {
             let [d1, d2, d3, q4, q5, q6] = *q;
             let [y_offset, z_offset, roll_offset, couch_offset, x, y, z, _, _, _, _, _, _,
             ] = *s;
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
             let p5_y = p2_y + roll_offset;
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
-            let (s6, c6) = q6.sin_cos();
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
             *pose = [
                 [r5_11, s5, r5_31],
                 [r6_12, r6_22, r6_32],
@@ -414,6 +412,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
+        #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -425,33 +424,55 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            columns[0] = [one, zero, zero, zero, zero, zero];
+            columns[1] = [zero, one, zero, zero, zero, zero];
+            columns[2] = [zero, zero, one, zero, zero, zero];
+            columns[6] = [one, zero, zero, zero, zero, zero];
+            columns[7] = [zero, one, zero, zero, zero, zero];
+            columns[8] = [zero, zero, one, zero, zero, zero];
+            columns[12] = [one, zero, zero, zero, zero, zero];
+            columns[13] = [zero, one, zero, zero, zero, zero];
+            columns[14] = [zero, zero, one, zero, zero, zero];
+            columns[19] = [zero, one, zero, zero, zero, zero];
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
+            columns[20] = [s4, zero, c4, zero, zero, zero];
+            columns[26] = [s4, zero, c4, zero, zero, zero];
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
             let r4_31 = -s4;
+            columns[18] = [c4, zero, r4_31, zero, zero, zero];
             let p5_y = p2_y + roll_offset;
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
+            columns[24] = [r5_11, s5, r5_31, zero, zero, zero];
+            columns[30] = [r5_11, s5, r5_31, zero, zero, zero];
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let r5_12 = -t2;
-            let (s6, c6) = q6.sin_cos();
+            columns[25] = [r5_12, c5, r5_32, zero, zero, zero];
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            columns[32] = [r6_13, r6_23, r6_33, zero, zero, zero];
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
+            *pose = [
+                [r5_11, s5, r5_31],
+                [r6_12, r6_22, r6_32],
+                [r6_13, r6_23, r6_33],
+                [pt_x, pt_y, pt_z],
+            ];
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             let t4 = T::constant(1.0) / cos_roll;
             let t5 = r5_11 * t4;
             let t6 = t1 * t4;
@@ -461,97 +482,73 @@ pub mod pps {
             let lever1_x = pt_x - d1;
             let t10 = -pt_z;
             let t11 = -lever1_x;
+            columns[3] = [pt_z, zero, t11, one, zero, zero];
+            columns[9] = [pt_z, zero, t11, one, zero, zero];
             let t12 = -pt_y;
             let t13 = s5 * t8;
+            columns[4] = [t12, lever1_x, zero, t13, t5, t9];
             let t14 = -(s5 * t7);
+            columns[5] = [zero, t10, pt_y, t14, t6, t7];
             let lever4_y = pt_y - p2_y;
+            columns[11] = [zero, t10, lever4_y, t14, t6, t7];
             let t15 = -lever4_y;
+            columns[10] = [t15, lever1_x, zero, t13, t5, t9];
+            columns[16] = [t15, lever1_x, zero, t13, t5, t9];
             let t16 = p3_z - pt_z;
+            columns[17] = [zero, t16, lever4_y, t14, t6, t7];
             let lever4_z = -t16;
+            columns[15] = [lever4_z, zero, t11, one, zero, zero];
+            columns[21] = [lever4_z, zero, t11, one, zero, zero];
             let t17 = s4 * lever4_y;
-            let t18 = c4 * t16 - s4 * lever1_x;
+            let t18 = c4.mul_sub(t16, s4 * lever1_x);
             let t19 = c4 * lever4_y;
             let t20 = -t19;
-            let t21 = c4 * lever1_x + s4 * t16;
-            let t22 = s4 * t7 - c4 * t8;
-            let t23 = c4 * t5 + s4 * t6;
+            let t21 = c4.mul_add(lever1_x, s4 * t16);
+            let t22 = s4.mul_sub(t7, c4 * t8);
+            let t23 = c4.mul_add(t5, s4 * t6);
             let t24 = -(s5 * t22);
-            let t25 = c4 * t7 + s4 * t8;
-            let t26 = c4 * t6 - s4 * t5;
+            columns[22] = [t20, t21, t17, t24, t23, t22];
+            let t25 = c4.mul_add(t7, s4 * t8);
+            let t26 = c4.mul_sub(t6, s4 * t5);
             let t27 = -(s5 * t25);
+            columns[23] = [t17, t18, t19, t27, t26, t25];
             let lever5_y = pt_y - p5_y;
-            let t28 = t1 * lever5_y - s5 * t16;
-            let t29 = r5_11 * t16 - t1 * lever1_x;
-            let t30 = r5_11 * lever5_y - s5 * lever1_x;
-            let t31 = -(c5 * t16 + r5_32 * lever5_y);
-            let t32 = r5_32 * lever1_x - t2 * t16;
-            let t33 = -(t2 * lever5_y + c5 * lever1_x);
-            let t34 = c4 * roll_offset - t19;
-            let t35 = t17 - s4 * roll_offset;
-            let t36 = t2 * t7 + r5_32 * t8;
+            let t28 = t1.mul_sub(lever5_y, s5 * t16);
+            let t29 = r5_11.mul_sub(t16, t1 * lever1_x);
+            let t30 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            columns[29] = [t28, t29, t30, zero, zero, one];
+            let t31 = -c5.mul_add(t16, r5_32 * lever5_y);
+            let t32 = r5_32.mul_sub(lever1_x, t2 * t16);
+            let t33 = -t2.mul_add(lever5_y, c5 * lever1_x);
+            let t34 = c4.mul_sub(roll_offset, t19);
+            let t35 = s4.neg_mul_add(roll_offset, t17);
+            columns[28] = [t34, t21, t35, t24, t23, t22];
+            let t36 = t2.mul_add(t7, r5_32 * t8);
             let t37 = -t36;
-            let t38 = r5_32 * t5 - t2 * t6;
-            let t39 = c5 + s5 * t36;
-            let t40 = t28 - r6_13 * couch_offset;
-            let t41 = t29 + t3 * couch_offset;
-            let t42 = t30 - r6_33 * couch_offset;
+            let t38 = r5_32.mul_sub(t5, t2 * t6);
+            let t39 = s5.mul_add(t36, c5);
+            columns[27] = [t31, t32, t33, t39, t38, t37];
+            let t40 = r6_13.neg_mul_add(couch_offset, t28);
+            let t41 = t3.mul_add(couch_offset, t29);
+            let t42 = r6_33.neg_mul_add(couch_offset, t30);
+            columns[35] = [t40, t41, t42, zero, zero, one];
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;
             let lever6_z = pt_z - p6_z;
-            let t43 = r6_22 * lever6_z - r6_32 * lever6_y;
-            let t44 = r6_32 * lever6_x - r6_12 * lever6_z;
-            let t45 = r6_12 * lever6_y - r6_22 * lever6_x;
-            let t46 = -(t3 * lever6_z + r6_33 * lever6_y);
-            let t47 = r6_33 * lever6_x - r6_13 * lever6_z;
-            let t48 = r6_13 * lever6_y + t3 * lever6_x;
-            let t49 = r6_12 * t7 - r6_32 * t8;
-            let t50 = r6_32 * t5 + r6_12 * t6;
-            let t51 = r6_22 - s5 * t49;
-            let t52 = r6_13 * t7 - r6_33 * t8;
-            let t53 = r6_33 * t5 + r6_13 * t6;
-            let t54 = -(t3 + s5 * t52);
-            *pose = [
-                [r5_11, s5, r5_31],
-                [r6_12, r6_22, r6_32],
-                [r6_13, r6_23, r6_33],
-                [pt_x, pt_y, pt_z],
-            ];
-            columns[0] = [one, zero, zero, zero, zero, zero];
-            columns[1] = [zero, one, zero, zero, zero, zero];
-            columns[2] = [zero, zero, one, zero, zero, zero];
-            columns[3] = [pt_z, zero, t11, one, zero, zero];
-            columns[4] = [t12, lever1_x, zero, t13, t5, t9];
-            columns[5] = [zero, t10, pt_y, t14, t6, t7];
-            columns[6] = [one, zero, zero, zero, zero, zero];
-            columns[7] = [zero, one, zero, zero, zero, zero];
-            columns[8] = [zero, zero, one, zero, zero, zero];
-            columns[9] = [pt_z, zero, t11, one, zero, zero];
-            columns[10] = [t15, lever1_x, zero, t13, t5, t9];
-            columns[11] = [zero, t10, lever4_y, t14, t6, t7];
-            columns[12] = [one, zero, zero, zero, zero, zero];
-            columns[13] = [zero, one, zero, zero, zero, zero];
-            columns[14] = [zero, zero, one, zero, zero, zero];
-            columns[15] = [lever4_z, zero, t11, one, zero, zero];
-            columns[16] = [t15, lever1_x, zero, t13, t5, t9];
-            columns[17] = [zero, t16, lever4_y, t14, t6, t7];
-            columns[18] = [c4, zero, r4_31, zero, zero, zero];
-            columns[19] = [zero, one, zero, zero, zero, zero];
-            columns[20] = [s4, zero, c4, zero, zero, zero];
-            columns[21] = [lever4_z, zero, t11, one, zero, zero];
-            columns[22] = [t20, t21, t17, t24, t23, t22];
-            columns[23] = [t17, t18, t19, t27, t26, t25];
-            columns[24] = [r5_11, s5, r5_31, zero, zero, zero];
-            columns[25] = [r5_12, c5, r5_32, zero, zero, zero];
-            columns[26] = [s4, zero, c4, zero, zero, zero];
-            columns[27] = [t31, t32, t33, t39, t38, t37];
-            columns[28] = [t34, t21, t35, t24, t23, t22];
-            columns[29] = [t28, t29, t30, zero, zero, one];
-            columns[30] = [r5_11, s5, r5_31, zero, zero, zero];
-            columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[32] = [r6_13, r6_23, r6_33, zero, zero, zero];
+            let t43 = r6_22.mul_sub(lever6_z, r6_32 * lever6_y);
+            let t44 = r6_32.mul_sub(lever6_x, r6_12 * lever6_z);
+            let t45 = r6_12.mul_sub(lever6_y, r6_22 * lever6_x);
+            let t46 = -t3.mul_add(lever6_z, r6_33 * lever6_y);
+            let t47 = r6_33.mul_sub(lever6_x, r6_13 * lever6_z);
+            let t48 = r6_13.mul_add(lever6_y, t3 * lever6_x);
+            let t49 = r6_12.mul_sub(t7, r6_32 * t8);
+            let t50 = r6_32.mul_add(t5, r6_12 * t6);
+            let t51 = s5.neg_mul_add(t49, r6_22);
             columns[33] = [t43, t44, t45, t51, t50, t49];
+            let t52 = r6_13.mul_sub(t7, r6_33 * t8);
+            let t53 = r6_33.mul_add(t5, r6_13 * t6);
+            let t54 = -s5.mul_add(t52, t3);
             columns[34] = [t46, t47, t48, t54, t53, t52];
-            columns[35] = [t40, t41, t42, zero, zero, one];
             cos_roll
         }
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
@@ -559,6 +556,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 47 mul, 29 add, 1 div, 3 sincos, 1 sqrt, 6 neg.
+        #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -570,31 +568,38 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            columns[0] = [one, zero, zero, zero, zero, zero];
+            columns[1] = [zero, one, zero, zero, zero, zero];
+            columns[2] = [zero, zero, one, zero, zero, zero];
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
             let p5_y = p2_y + roll_offset;
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
-            let (s6, c6) = q6.sin_cos();
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
+            *pose = [
+                [r5_11, s5, r5_31],
+                [r6_12, r6_22, r6_32],
+                [r6_13, r6_23, r6_33],
+                [pt_x, pt_y, pt_z],
+            ];
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             let t4 = T::constant(1.0) / cos_roll;
             let t5 = r5_11 * t4;
             let t6 = t1 * t4;
@@ -602,28 +607,19 @@ pub mod pps {
             let t7 = -lever1_x;
             let t8 = p3_z - pt_z;
             let lever4_z = -t8;
-            let t9 = c4 * lever1_x + s4 * t8;
-            let t10 = s4 * (t4 * t5) - c4 * (t4 * t6);
-            let t11 = c4 * t5 + s4 * t6;
+            columns[3] = [lever4_z, zero, t7, one, zero, zero];
+            let t9 = c4.mul_add(lever1_x, s4 * t8);
+            let t10 = s4.mul_sub(t4 * t5, c4 * (t4 * t6));
+            let t11 = c4.mul_add(t5, s4 * t6);
             let t12 = -(s5 * t10);
             let lever5_y = pt_y - p5_y;
-            let t13 = t1 * lever5_y - s5 * t8;
-            let t14 = r5_11 * t8 - t1 * lever1_x;
-            let t15 = r5_11 * lever5_y - s5 * lever1_x;
+            let t13 = t1.mul_sub(lever5_y, s5 * t8);
+            let t14 = r5_11.mul_sub(t8, t1 * lever1_x);
+            let t15 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            columns[5] = [t13, t14, t15, zero, zero, one];
             let t16 = -(c4 * lever5_y);
             let t17 = s4 * lever5_y;
-            *pose = [
-                [r5_11, s5, r5_31],
-                [r6_12, r6_22, r6_32],
-                [r6_13, r6_23, r6_33],
-                [pt_x, pt_y, pt_z],
-            ];
-            columns[0] = [one, zero, zero, zero, zero, zero];
-            columns[1] = [zero, one, zero, zero, zero, zero];
-            columns[2] = [zero, zero, one, zero, zero, zero];
-            columns[3] = [lever4_z, zero, t7, one, zero, zero];
             columns[4] = [t16, t9, t17, t12, t11, t10];
-            columns[5] = [t13, t14, t15, zero, zero, one];
             cos_roll
         }
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
@@ -631,6 +627,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 28 mul, 20 add, 3 sincos, 1 sqrt, 2 neg.
+        #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -642,55 +639,54 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let p2_y = y_offset + d2;
-            let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let p5_y = p2_y + roll_offset;
-            let (s5, c5) = q5.sin_cos();
-            let r5_11 = c4 * c5;
-            let t1 = s4 * c5;
-            let r5_31 = -t1;
-            let t2 = c4 * s5;
-            let r5_32 = s4 * s5;
-            let (s6, c6) = q6.sin_cos();
-            let r6_22 = c5 * c6;
-            let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
-            let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
-            *pose = [
-                [r5_11, s5, r5_31],
-                [r6_12, r6_22, r6_32],
-                [r6_13, r6_23, r6_33],
-                [pt_x, pt_y, pt_z],
-            ];
             columns[0] = [zero, one, zero, zero, zero, zero];
             columns[1] = [zero, zero, one, zero, zero, zero];
             columns[2] = [zero, one, zero, zero, zero, zero];
-            columns[3] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[4] = [r5_11, s5, r5_31, zero, zero, zero];
-            columns[5] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[6] = [r6_13, r6_23, r6_33, zero, zero, zero];
             columns[7] = [zero; 6];
             columns[8] = [zero; 6];
             columns[9] = [zero; 6];
             columns[10] = [zero; 6];
             columns[11] = [zero; 6];
             columns[12] = [zero; 6];
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
+            let p2_y = y_offset + d2;
+            let p3_z = z_offset + d3;
+            let p5_y = p2_y + roll_offset;
+            let r5_11 = c4 * c5;
+            let t1 = s4 * c5;
+            let r5_31 = -t1;
+            columns[4] = [r5_11, s5, r5_31, zero, zero, zero];
+            let t2 = c4 * s5;
+            let r5_32 = s4 * s5;
+            let r6_22 = c5 * c6;
+            let t3 = c5 * s6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            columns[3] = [r6_12, r6_22, r6_32, zero, zero, zero];
+            columns[5] = [r6_12, r6_22, r6_32, zero, zero, zero];
+            let r6_13 = t2.mul_add(s6, s4 * c6);
+            let r6_23 = -t3;
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            columns[6] = [r6_13, r6_23, r6_33, zero, zero, zero];
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
+            *pose = [
+                [r5_11, s5, r5_31],
+                [r6_12, r6_22, r6_32],
+                [r6_13, r6_23, r6_33],
+                [pt_x, pt_y, pt_z],
+            ];
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             cos_roll
         }
         /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 13 mul, 5 add, 7 div, 2 sincos, 5 neg.
+        #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -700,13 +696,13 @@ pub mod pps {
             let [d1, _, d3, q4, _, _] = *q;
             let [_, z_offset, _, _, _, _, _, tip_load, tip_lever, arm_EI, arm_GJ,
             assembly_shift, assembly_turn] = *s;
+            let [(s4, c4), (sin_1, cos_1)] = T::sin_cos_each([
+                q4,
+                d1 * T::constant(::core::f64::consts::PI) / T::constant(1600.0),
+            ]);
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let (sin_1, cos_1) = (d1 * T::constant(::core::f64::consts::PI)
-                / T::constant(1600.0))
-                .sin_cos();
-            let t2 = -(d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_1);
-            let t3 = T::constant(6.2e-5) + T::constant(0.000119) * cos_1;
+            let t2 = -d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1);
+            let t3 = cos_1.mul_add(T::constant(0.000119), T::constant(6.2e-5));
             let t4 = c4 * tip_lever;
             let t5 = tip_load * (p3_z * p3_z) / arm_EI
                 * (p3_z / T::constant(3.0) + t4 / T::constant(2.0));
@@ -766,6 +762,7 @@ pub mod pps {
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
         ///
         /// 13 mul, 10 add, 7 div, 2 sincos, 4 neg.
+        #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -775,36 +772,39 @@ pub mod pps {
             let [d1, _, d3, q4, _, _] = *q;
             let [_, z_offset, _, _, _, _, _, tip_load, tip_lever, arm_EI, arm_GJ,
             assembly_shift, assembly_turn] = *s;
+            let [(s4, c4), (sin_1, cos_1)] = T::sin_cos_each([
+                q4,
+                d1 * T::constant(::core::f64::consts::PI) / T::constant(1600.0),
+            ]);
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let (sin_1, cos_1) = (d1 * T::constant(::core::f64::consts::PI)
-                / T::constant(1600.0))
-                .sin_cos();
             let t2 = c4 * tip_lever;
-            let t3 = tip_load * (p3_z * p3_z) / arm_EI
-                * (p3_z / T::constant(3.0) + t2 / T::constant(2.0));
-            let t4 = -assembly_shift;
-            let t5 = -assembly_turn;
-            let t6 = -(d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_1
-                + assembly_shift);
-            let t7 = T::constant(6.2e-5) + T::constant(0.000119) * cos_1 - assembly_turn;
-            let t8 = assembly_shift - t3;
-            let t9 = -(p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ + assembly_turn);
-            let t10 = p3_z * tip_load / arm_EI * (t2 + p3_z / T::constant(2.0))
-                + assembly_turn;
-            errors[0] = [assembly_shift, assembly_shift, t6, t7, t5, assembly_turn];
-            errors[1] = [t4, assembly_shift, t4, t5, t5, t5];
-            errors[2] = [t4, t8, assembly_shift, t5, t9, t10];
-            errors[3] = [t4, assembly_shift, t4, t5, t5, assembly_turn];
-            errors[4] = [t4, t4, assembly_shift, t5, assembly_turn, assembly_turn];
+            let t3 = -assembly_shift;
             errors[5] = [
                 assembly_shift,
-                t4,
-                t4,
+                t3,
+                t3,
                 assembly_turn,
                 assembly_turn,
                 assembly_turn,
             ];
+            let t4 = -assembly_turn;
+            errors[1] = [t3, assembly_shift, t3, t4, t4, t4];
+            errors[3] = [t3, assembly_shift, t3, t4, t4, assembly_turn];
+            errors[4] = [t3, t3, assembly_shift, t4, assembly_turn, assembly_turn];
+            let t5 = -(d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1)
+                + assembly_shift);
+            let t6 = cos_1.mul_add(T::constant(0.000119), T::constant(6.2e-5))
+                - assembly_turn;
+            errors[0] = [assembly_shift, assembly_shift, t5, t6, t4, assembly_turn];
+            let t7 = (tip_load * (p3_z * p3_z) / arm_EI)
+                .neg_mul_add(
+                    p3_z / T::constant(3.0) + t2 / T::constant(2.0),
+                    assembly_shift,
+                );
+            let t8 = -(p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ + assembly_turn);
+            let t9 = (p3_z * tip_load / arm_EI)
+                .mul_add(t2 + p3_z / T::constant(2.0), assembly_turn);
+            errors[2] = [t3, t7, assembly_shift, t4, t8, t9];
         }
         /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the
         /// moments (rows 1–3) of `e_s e_r e_p`, then their rows 4–6. `abbe::distinct` makes the columns of it.
@@ -812,44 +812,73 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
+        #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
-            distinct: &mut [[T; DISTINCT]; FRAMES],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
         ) -> T {
             let [d1, d2, d3, q4, q5, q6] = *q;
             let [y_offset, z_offset, roll_offset, couch_offset, x, y, z, _, _, _, _, _, _,
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            distinct[0][0] = [one, zero, zero];
+            distinct[0][1] = [zero, one, zero];
+            distinct[0][2] = [zero, zero, one];
+            distinct[0][6] = [one, zero, zero];
+            distinct[1][0] = [one, zero, zero];
+            distinct[1][1] = [zero, one, zero];
+            distinct[1][2] = [zero, zero, one];
+            distinct[1][6] = [one, zero, zero];
+            distinct[2][0] = [one, zero, zero];
+            distinct[2][1] = [zero, one, zero];
+            distinct[2][2] = [zero, zero, one];
+            distinct[2][6] = [one, zero, zero];
+            distinct[3][1] = [zero, one, zero];
+            distinct[3][6] = [one, zero, zero];
+            distinct[4][8] = [zero, zero, one];
+            distinct[5][8] = [zero, zero, one];
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
+            distinct[3][2] = [s4, zero, c4];
+            distinct[4][2] = [s4, zero, c4];
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
             let r4_31 = -s4;
+            distinct[3][0] = [c4, zero, r4_31];
             let p5_y = p2_y + roll_offset;
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
+            distinct[4][0] = [r5_11, s5, r5_31];
+            distinct[5][0] = [r5_11, s5, r5_31];
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let r5_12 = -t2;
-            let (s6, c6) = q6.sin_cos();
+            distinct[4][1] = [r5_12, c5, r5_32];
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            distinct[5][1] = [r6_12, r6_22, r6_32];
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - t3 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            distinct[5][2] = [r6_13, r6_23, r6_33];
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
+            *pose = [
+                [r5_11, s5, r5_31],
+                [r6_12, r6_22, r6_32],
+                [r6_13, r6_23, r6_33],
+                [pt_x, pt_y, pt_z],
+            ];
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             let t4 = T::constant(1.0) / cos_roll;
             let t5 = r5_11 * t4;
             let t6 = t1 * t4;
@@ -858,236 +887,86 @@ pub mod pps {
             let t9 = -t8;
             let lever1_x = pt_x - d1;
             let t10 = -pt_z;
+            distinct[0][5] = [zero, t10, pt_y];
             let t11 = -lever1_x;
+            distinct[0][3] = [pt_z, zero, t11];
+            distinct[1][3] = [pt_z, zero, t11];
             let t12 = -pt_y;
+            distinct[0][4] = [t12, lever1_x, zero];
             let t13 = s5 * t8;
+            distinct[0][7] = [t13, t5, t9];
+            distinct[1][7] = [t13, t5, t9];
+            distinct[2][7] = [t13, t5, t9];
             let t14 = -(s5 * t7);
+            distinct[0][8] = [t14, t6, t7];
+            distinct[1][8] = [t14, t6, t7];
+            distinct[2][8] = [t14, t6, t7];
             let lever4_y = pt_y - p2_y;
+            distinct[1][5] = [zero, t10, lever4_y];
             let t15 = -lever4_y;
+            distinct[1][4] = [t15, lever1_x, zero];
+            distinct[2][4] = [t15, lever1_x, zero];
             let t16 = p3_z - pt_z;
+            distinct[2][5] = [zero, t16, lever4_y];
             let lever4_z = -t16;
+            distinct[2][3] = [lever4_z, zero, t11];
+            distinct[3][3] = [lever4_z, zero, t11];
             let t17 = s4 * lever4_y;
-            let t18 = c4 * t16 - s4 * lever1_x;
+            let t18 = c4.mul_sub(t16, s4 * lever1_x);
             let t19 = c4 * lever4_y;
+            distinct[3][5] = [t17, t18, t19];
             let t20 = -t19;
-            let t21 = c4 * lever1_x + s4 * t16;
-            let t22 = s4 * t7 - c4 * t8;
-            let t23 = c4 * t5 + s4 * t6;
+            let t21 = c4.mul_add(lever1_x, s4 * t16);
+            distinct[3][4] = [t20, t21, t17];
+            let t22 = s4.mul_sub(t7, c4 * t8);
+            let t23 = c4.mul_add(t5, s4 * t6);
             let t24 = -(s5 * t22);
-            let t25 = c4 * t7 + s4 * t8;
-            let t26 = c4 * t6 - s4 * t5;
+            distinct[3][7] = [t24, t23, t22];
+            distinct[4][7] = [t24, t23, t22];
+            let t25 = c4.mul_add(t7, s4 * t8);
+            let t26 = c4.mul_sub(t6, s4 * t5);
             let t27 = -(s5 * t25);
+            distinct[3][8] = [t27, t26, t25];
             let lever5_y = pt_y - p5_y;
-            let t28 = t1 * lever5_y - s5 * t16;
-            let t29 = r5_11 * t16 - t1 * lever1_x;
-            let t30 = r5_11 * lever5_y - s5 * lever1_x;
-            let t31 = -(c5 * t16 + r5_32 * lever5_y);
-            let t32 = r5_32 * lever1_x - t2 * t16;
-            let t33 = -(t2 * lever5_y + c5 * lever1_x);
-            let t34 = c4 * roll_offset - t19;
-            let t35 = t17 - s4 * roll_offset;
-            let t36 = t2 * t7 + r5_32 * t8;
+            let t28 = t1.mul_sub(lever5_y, s5 * t16);
+            let t29 = r5_11.mul_sub(t16, t1 * lever1_x);
+            let t30 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            distinct[4][5] = [t28, t29, t30];
+            let t31 = -c5.mul_add(t16, r5_32 * lever5_y);
+            let t32 = r5_32.mul_sub(lever1_x, t2 * t16);
+            let t33 = -t2.mul_add(lever5_y, c5 * lever1_x);
+            distinct[4][3] = [t31, t32, t33];
+            let t34 = c4.mul_sub(roll_offset, t19);
+            let t35 = s4.neg_mul_add(roll_offset, t17);
+            distinct[4][4] = [t34, t21, t35];
+            let t36 = t2.mul_add(t7, r5_32 * t8);
             let t37 = -t36;
-            let t38 = r5_32 * t5 - t2 * t6;
-            let t39 = c5 + s5 * t36;
-            let t40 = t28 - r6_13 * couch_offset;
-            let t41 = t29 + t3 * couch_offset;
-            let t42 = t30 - r6_33 * couch_offset;
+            let t38 = r5_32.mul_sub(t5, t2 * t6);
+            let t39 = s5.mul_add(t36, c5);
+            distinct[4][6] = [t39, t38, t37];
+            let t40 = r6_13.neg_mul_add(couch_offset, t28);
+            let t41 = t3.mul_add(couch_offset, t29);
+            let t42 = r6_33.neg_mul_add(couch_offset, t30);
+            distinct[5][5] = [t40, t41, t42];
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;
             let lever6_z = pt_z - p6_z;
-            let t43 = r6_22 * lever6_z - r6_32 * lever6_y;
-            let t44 = r6_32 * lever6_x - r6_12 * lever6_z;
-            let t45 = r6_12 * lever6_y - r6_22 * lever6_x;
-            let t46 = -(t3 * lever6_z + r6_33 * lever6_y);
-            let t47 = r6_33 * lever6_x - r6_13 * lever6_z;
-            let t48 = r6_13 * lever6_y + t3 * lever6_x;
-            let t49 = r6_12 * t7 - r6_32 * t8;
-            let t50 = r6_32 * t5 + r6_12 * t6;
-            let t51 = r6_22 - s5 * t49;
-            let t52 = r6_13 * t7 - r6_33 * t8;
-            let t53 = r6_33 * t5 + r6_13 * t6;
-            let t54 = -(t3 + s5 * t52);
-            *pose = [
-                [r5_11, s5, r5_31],
-                [r6_12, r6_22, r6_32],
-                [r6_13, r6_23, r6_33],
-                [pt_x, pt_y, pt_z],
-            ];
-            distinct[0] = [
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                pt_z,
-                zero,
-                t11,
-                t12,
-                lever1_x,
-                zero,
-                zero,
-                t10,
-                pt_y,
-                one,
-                zero,
-                zero,
-                t13,
-                t5,
-                t9,
-                t14,
-                t6,
-                t7,
-            ];
-            distinct[1] = [
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                pt_z,
-                zero,
-                t11,
-                t15,
-                lever1_x,
-                zero,
-                zero,
-                t10,
-                lever4_y,
-                one,
-                zero,
-                zero,
-                t13,
-                t5,
-                t9,
-                t14,
-                t6,
-                t7,
-            ];
-            distinct[2] = [
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                lever4_z,
-                zero,
-                t11,
-                t15,
-                lever1_x,
-                zero,
-                zero,
-                t16,
-                lever4_y,
-                one,
-                zero,
-                zero,
-                t13,
-                t5,
-                t9,
-                t14,
-                t6,
-                t7,
-            ];
-            distinct[3] = [
-                c4,
-                zero,
-                r4_31,
-                zero,
-                one,
-                zero,
-                s4,
-                zero,
-                c4,
-                lever4_z,
-                zero,
-                t11,
-                t20,
-                t21,
-                t17,
-                t17,
-                t18,
-                t19,
-                one,
-                zero,
-                zero,
-                t24,
-                t23,
-                t22,
-                t27,
-                t26,
-                t25,
-            ];
-            distinct[4] = [
-                r5_11,
-                s5,
-                r5_31,
-                r5_12,
-                c5,
-                r5_32,
-                s4,
-                zero,
-                c4,
-                t31,
-                t32,
-                t33,
-                t34,
-                t21,
-                t35,
-                t28,
-                t29,
-                t30,
-                t39,
-                t38,
-                t37,
-                t24,
-                t23,
-                t22,
-                zero,
-                zero,
-                one,
-            ];
-            distinct[5] = [
-                r5_11,
-                s5,
-                r5_31,
-                r6_12,
-                r6_22,
-                r6_32,
-                r6_13,
-                r6_23,
-                r6_33,
-                t43,
-                t44,
-                t45,
-                t46,
-                t47,
-                t48,
-                t40,
-                t41,
-                t42,
-                t51,
-                t50,
-                t49,
-                t54,
-                t53,
-                t52,
-                zero,
-                zero,
-                one,
-            ];
+            let t43 = r6_22.mul_sub(lever6_z, r6_32 * lever6_y);
+            let t44 = r6_32.mul_sub(lever6_x, r6_12 * lever6_z);
+            let t45 = r6_12.mul_sub(lever6_y, r6_22 * lever6_x);
+            distinct[5][3] = [t43, t44, t45];
+            let t46 = -t3.mul_add(lever6_z, r6_33 * lever6_y);
+            let t47 = r6_33.mul_sub(lever6_x, r6_13 * lever6_z);
+            let t48 = r6_13.mul_add(lever6_y, t3 * lever6_x);
+            distinct[5][4] = [t46, t47, t48];
+            let t49 = r6_12.mul_sub(t7, r6_32 * t8);
+            let t50 = r6_32.mul_add(t5, r6_12 * t6);
+            let t51 = s5.neg_mul_add(t49, r6_22);
+            distinct[5][6] = [t51, t50, t49];
+            let t52 = r6_13.mul_sub(t7, r6_33 * t8);
+            let t53 = r6_33.mul_add(t5, r6_13 * t6);
+            let t54 = -s5.mul_add(t52, t3);
+            distinct[5][7] = [t54, t53, t52];
             cos_roll
         }
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
@@ -1095,6 +974,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 85 mul, 94 add, 1 div, 3 sincos, 1 sqrt.
+        #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -1108,52 +988,52 @@ pub mod pps {
             e2_p], [e3_x, e3_y, e3_z, e3_s, e3_r, e3_p], [e4_x, e4_y, e4_z, e4_s, e4_r,
             e4_p], [e5_x, e5_y, e5_z, e5_s, e5_r, e5_p], [e6_x, e6_y, e6_z, e6_s, e6_r,
             e6_p]] = *errors;
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
-            let (s6, c6) = q6.sin_cos();
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             let t2 = T::constant(1.0) / cos_roll;
             let t3 = r5_11 * t2;
             let t4 = t1 * t2;
-            let t5 = e6_y + (x * e6_r - z * e6_p);
-            let t6 = e6_z + (y * e6_p - x * e6_s);
+            let t5 = e6_y + x.mul_sub(e6_r, z * e6_p);
+            let t6 = e6_z + y.mul_sub(e6_p, x * e6_s);
             let t7 = couch_offset + y;
-            let t8 = c6 * t7 - s6 * z;
-            let t9 = s6 * t7 + c6 * z;
-            let t10 = e5_s * t9 - e5_r * t8 + (e5_x + (e6_x + (z * e6_s - y * e6_r)));
-            let t11 = x * e5_r - e5_p * t9 + (e5_y + (c6 * t5 - s6 * t6));
-            let t12 = e5_p * t8 - x * e5_s + (e5_z + (s6 * t5 + c6 * t6));
+            let t8 = c6.mul_sub(t7, s6 * z);
+            let t9 = s6.mul_add(t7, c6 * z);
+            let t10 = e5_s.mul_sub(t9, e5_r * t8)
+                + (e5_x + (e6_x + z.mul_sub(e6_s, y * e6_r)));
+            let t11 = x.mul_sub(e5_r, e5_p * t9) + (e5_y + c6.mul_sub(t5, s6 * t6));
+            let t12 = e5_p.mul_sub(t8, x * e5_s) + (e5_z + s6.mul_add(t5, c6 * t6));
             let t13 = e5_p + e6_p;
-            let t14 = e5_s + (c6 * e6_s - s6 * e6_r);
-            let t15 = c5 * x - s5 * t8;
-            let t16 = roll_offset + (s5 * x + c5 * t8);
-            let t17 = e4_s * t9 - e4_r * t16 + (e4_x + (c5 * t10 - s5 * t11));
-            let t18 = e4_r * t15 - e4_p * t9 + (e4_y + (s5 * t10 + c5 * t11));
-            let t19 = e4_p * t16 - e4_s * t15 + (e4_z + t12);
-            let t20 = e4_p + (c5 * t13 - s5 * t14);
-            let t21 = e4_r + (e5_r + (s6 * e6_s + c6 * e6_r));
-            let t22 = c4 * t9 - s4 * t15;
-            let t23 = s4 * t9 + c4 * t15;
-            let t24 = e3_s * t22 - e3_r * t16 + (e3_x + (s4 * t19 + c4 * t17));
-            let t25 = e3_p * t16 - e3_s * t23 + (e3_z + (c4 * t19 - s4 * t17));
+            let t14 = e5_s + c6.mul_sub(e6_s, s6 * e6_r);
+            let t15 = c5.mul_sub(x, s5 * t8);
+            let t16 = roll_offset + s5.mul_add(x, c5 * t8);
+            let t17 = e4_s.mul_sub(t9, e4_r * t16) + (e4_x + c5.mul_sub(t10, s5 * t11));
+            let t18 = e4_r.mul_sub(t15, e4_p * t9) + (e4_y + s5.mul_add(t10, c5 * t11));
+            let t19 = e4_p.mul_sub(t16, e4_s * t15) + (e4_z + t12);
+            let t20 = e4_p + c5.mul_sub(t13, s5 * t14);
+            let t21 = e4_r + (e5_r + s6.mul_add(e6_s, c6 * e6_r));
+            let t22 = c4.mul_sub(t9, s4 * t15);
+            let t23 = s4.mul_add(t9, c4 * t15);
+            let t24 = e3_s.mul_sub(t22, e3_r * t16) + (e3_x + s4.mul_add(t19, c4 * t17));
+            let t25 = e3_p.mul_sub(t16, e3_s * t23) + (e3_z + c4.mul_sub(t19, s4 * t17));
             let t26 = p3_z + t22;
-            let t27 = e2_y + (e3_r * t23 - e3_p * t22 + (e3_y + t18));
-            let t28 = e2_s + (e3_s + (e4_s + (s5 * t13 + c5 * t14)));
+            let t27 = e2_y + (e3_r.mul_sub(t23, e3_p * t22) + (e3_y + t18));
+            let t28 = e2_s + (e3_s + (e4_s + s5.mul_add(t13, c5 * t14)));
             let t29 = p2_y + t16;
-            let t30 = e1_x + (e2_s * t26 - e2_r * t16 + (e2_x + t24));
-            let t31 = e1_z + (e2_p * t16 - e2_s * t23 + (e2_z + t25));
-            let t32 = e1_s * t26 - e1_r * t29 + t30;
-            let t33 = e1_r * t23 - e1_p * t26 + (e1_y + (e2_r * t23 - e2_p * t26 + t27));
-            let t34 = e1_p * t29 - e1_s * t23 + t31;
-            let t35 = e1_p + (e2_p + (e3_p + (s4 * t21 + c4 * t20)));
-            let t36 = e1_r + (e2_r + (e3_r + (c4 * t21 - s4 * t20)));
-            let t37 = t2 * t3 * t35 - t2 * t4 * t36;
-            let t38 = t3 * t36 + t4 * t35;
-            let t39 = e1_s + t28 - s5 * t37;
+            let t30 = e1_x + (e2_s.mul_sub(t26, e2_r * t16) + (e2_x + t24));
+            let t31 = e1_z + (e2_p.mul_sub(t16, e2_s * t23) + (e2_z + t25));
+            let t32 = e1_s.mul_sub(t26, e1_r * t29) + t30;
+            let t33 = e1_r.mul_sub(t23, e1_p * t26)
+                + (e1_y + (e2_r.mul_sub(t23, e2_p * t26) + t27));
+            let t34 = e1_p.mul_sub(t29, e1_s * t23) + t31;
+            let t35 = e1_p + (e2_p + (e3_p + s4.mul_add(t21, c4 * t20)));
+            let t36 = e1_r + (e2_r + (e3_r + c4.mul_sub(t21, s4 * t20)));
+            let t37 = (t2 * t3).mul_sub(t35, t2 * t4 * t36);
+            let t38 = t3.mul_add(t36, t4 * t35);
+            let t39 = s5.neg_mul_add(t37, e1_s + t28);
             *displacement = [t32, t33, t34, t39, t38, t37];
             cos_roll
         }
@@ -1162,6 +1042,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 227 mul, 219 add, 1 div, 3 sincos, 1 sqrt, 1 neg.
+        #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -1175,14 +1056,12 @@ pub mod pps {
             v2_p], [v3_x, v3_y, v3_z, v3_s, v3_r, v3_p], [v4_x, v4_y, v4_z, v4_s, v4_r,
             v4_p], [v5_x, v5_y, v5_z, v5_s, v5_r, v5_p], [v6_x, v6_y, v6_z, v6_s, v6_r,
             v6_p]] = *variances;
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
-            let (s6, c6) = q6.sin_cos();
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
+            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
             let t2 = T::constant(1.0) / cos_roll;
             let t3 = r5_11 * t2;
             let t4 = t1 * t2;
@@ -1195,8 +1074,8 @@ pub mod pps {
             let t11 = y * v6_p;
             let t12 = x * v6_s;
             let t13 = couch_offset + y;
-            let t14 = c6 * t13 - s6 * z;
-            let t15 = s6 * t13 + c6 * z;
+            let t14 = c6.mul_sub(t13, s6 * z);
+            let t15 = s6.mul_add(t13, c6 * z);
             let t16 = v5_s * t15;
             let t17 = v5_r * t14;
             let t18 = x * v5_r;
@@ -1204,16 +1083,16 @@ pub mod pps {
             let t20 = v5_p * t14;
             let t21 = x * v5_s;
             let t22 = v5_p + v6_p;
-            let t23 = c5 * x - s5 * t14;
-            let t24 = roll_offset + (s5 * x + c5 * t14);
+            let t23 = c5.mul_sub(x, s5 * t14);
+            let t24 = roll_offset + s5.mul_add(x, c5 * t14);
             let t25 = v4_s * t15;
             let t26 = v4_r * t24;
             let t27 = v4_r * t23;
             let t28 = v4_p * t15;
             let t29 = v4_p * t24;
             let t30 = v4_s * t23;
-            let t31 = c4 * t15 - s4 * t23;
-            let t32 = s4 * t15 + c4 * t23;
+            let t31 = c4.mul_sub(t15, s4 * t23);
+            let t32 = s4.mul_add(t15, c4 * t23);
             let t33 = v3_s * t31;
             let t34 = v3_r * t24;
             let t35 = v3_r * t32;
@@ -1237,126 +1116,143 @@ pub mod pps {
             let t53 = x * t8;
             let t54 = x * t7;
             let t55 = y * t10;
-            let t56 = v6_y + (z * t10 + x * t9);
-            let t57 = v6_z + (y * t11 + x * t12);
+            let t56 = v6_y + z.mul_add(t10, x * t9);
+            let t57 = v6_z + y.mul_add(t11, x * t12);
             let t58 = c6 * c6;
             let t59 = s6 * c6;
             let t60 = t56 - t57;
-            let t61 = t58 * t60 + t55 * (t59 + t59);
+            let t61 = t58.mul_add(t60, t55 * (t59 + t59));
             let t62 = v6_s - v6_r;
             let t63 = t58 * t62;
             let t64 = t59 * t62;
             let t65 = t9 - t12;
             let t66 = t59 * t65;
             let t67 = t58 * t65;
-            let t68 = v6_x + (z * t7 + y * t8) + (t15 * t16 + t14 * t17);
-            let t69 = s6 * t54 - c6 * t53 - x * t17;
-            let t70 = s6 * t53 + c6 * t54 + x * t16;
-            let t71 = t59 * t60 - t55 * (t58 + t58 - T::constant(1.0)) - t14 * t19;
+            let t68 = v6_x + z.mul_add(t7, y * t8) + t15.mul_add(t16, t14 * t17);
+            let t69 = x.neg_mul_add(t17, s6.mul_sub(t54, c6 * t53));
+            let t70 = x.mul_add(t16, s6.mul_add(t53, c6 * t54));
+            let t71 = t14
+                .neg_mul_add(
+                    t19,
+                    t59.mul_sub(t60, t55 * (t58 + t58 - T::constant(1.0))),
+                );
             let t72 = v5_x + t68;
-            let t73 = t16 + (c6 * t7 + s6 * t8);
-            let t74 = s6 * t7 - c6 * t8 - t17;
-            let t75 = v5_y + (t57 + t61 + (t15 * t19 + x * t18));
-            let t76 = t19 + (c6 * t10 + s6 * t11);
+            let t73 = t16 + c6.mul_add(t7, s6 * t8);
+            let t74 = s6.mul_sub(t7, c6 * t8) - t17;
+            let t75 = v5_y + (t57 + t61 + t15.mul_add(t19, x * t18));
+            let t76 = t19 + c6.mul_add(t10, s6 * t11);
             let t77 = t18 + (t12 + t67);
             let t78 = v5_s + (v6_r + t63);
-            let t79 = v5_z + (t56 - t61 + (t14 * t20 + x * t21));
-            let t80 = t20 + (c6 * t11 - s6 * t10);
+            let t79 = v5_z + (t56 - t61 + t14.mul_add(t20, x * t21));
+            let t80 = t20 + c6.mul_sub(t11, s6 * t10);
             let t81 = t67 - t9 - t21;
             let t82 = c5 * c5;
             let t83 = s5 * c5;
             let t84 = t72 - t75;
-            let t85 = t82 * t84 - t69 * (t83 + t83);
+            let t85 = t82.mul_sub(t84, t69 * (t83 + t83));
             let t86 = c5 * t64;
             let t87 = s5 * t64;
             let t88 = t22 - t78;
             let t89 = t82 * t88;
             let t90 = t83 * t88;
             let t91 = t73 - t76;
-            let t92 = t66 * t82 - t83 * t91;
-            let t93 = t66 * t83 + t82 * t91;
+            let t92 = t66.mul_sub(t82, t83 * t91);
+            let t93 = t66.mul_add(t83, t82 * t91);
             let t94 = t92 - t66;
-            let t95 = t83 * t84 + t69 * (t82 + t82 - T::constant(1.0)) - t23 * t26;
-            let t96 = c5 * t70 + s5 * t71 + t23 * t25;
-            let t97 = c5 * t71 - s5 * t70 - t24 * t28;
-            let t98 = v4_x + (t75 + t85 + (t15 * t25 + t24 * t26));
+            let t95 = t23
+                .neg_mul_add(
+                    t26,
+                    t83.mul_add(t84, t69 * (t82 + t82 - T::constant(1.0))),
+                );
+            let t96 = t23.mul_add(t25, c5.mul_add(t70, s5 * t71));
+            let t97 = t24.neg_mul_add(t28, c5.mul_sub(t71, s5 * t70));
+            let t98 = v4_x + (t75 + t85 + t15.mul_add(t25, t24 * t26));
             let t99 = t25 + (t76 + t93);
-            let t100 = c5 * t74 - s5 * t77 - t26;
+            let t100 = c5.mul_sub(t74, s5 * t77) - t26;
             let t101 = v4_p + (t78 + t89);
-            let t102 = v4_y + (t72 - t85 + (t15 * t28 + t23 * t27));
+            let t102 = v4_y + (t72 - t85 + t15.mul_add(t28, t23 * t27));
             let t103 = t93 - t73 - t28;
-            let t104 = t27 + (s5 * t74 + c5 * t77);
-            let t105 = v4_z + (t79 + (t24 * t29 + t23 * t30));
-            let t106 = t29 + (c5 * t80 - s5 * t81);
-            let t107 = s5 * t80 + c5 * t81 - t30;
+            let t104 = t27 + s5.mul_add(t74, c5 * t77);
+            let t105 = v4_z + (t79 + t24.mul_add(t29, t23 * t30));
+            let t106 = t29 + c5.mul_sub(t80, s5 * t81);
+            let t107 = s5.mul_add(t80, c5 * t81) - t30;
             let t108 = v4_r + (v5_r + (v6_s - t63));
             let t109 = c4 * c4;
             let t110 = s4 * c4;
             let t111 = t109 + t109 - T::constant(1.0);
             let t112 = t110 + t110;
             let t113 = t105 - t98;
-            let t114 = t109 * t113 + t96 * t112;
-            let t115 = c4 * t86 - s4 * t90;
-            let t116 = s4 * t86 + c4 * t90;
+            let t114 = t109.mul_add(t113, t96 * t112);
+            let t115 = c4.mul_sub(t86, s4 * t90);
+            let t116 = s4.mul_add(t86, c4 * t90);
             let t117 = t108 - t101;
-            let t118 = t109 * t117 + t87 * t112;
-            let t119 = t110 * t117 - t87 * t111;
+            let t118 = t109.mul_add(t117, t87 * t112);
+            let t119 = t110.mul_sub(t117, t87 * t111);
             let t120 = t66 - t94;
             let t121 = t100 + t106;
-            let t122 = t109 * t120 - t110 * t121;
-            let t123 = t110 * t120 + t109 * t121;
+            let t122 = t109.mul_sub(t120, t110 * t121);
+            let t123 = t110.mul_add(t120, t109 * t121);
             let t124 = t94 + t122;
             let t125 = t66 - t122;
-            let t126 = v3_x + (t105 - t114 + (t31 * t33 + t24 * t34));
-            let t127 = v3_z + (t98 + t114 + (t24 * t37 + t32 * t38));
-            let t128 = s4 * t97 + c4 * t95 - t32 * t34 - t32 * t41;
-            let t129 = t110 * t113 - t96 * t111 - t32 * t33 - t32 * t40;
-            let t130 = v3_y + (t102 + (t31 * t36 + t32 * t35)) + (t39 * t43 + t32 * t42);
-            let t131 = c4 * t97 - s4 * t95 - t24 * t36 - t24 * t43;
-            let t132 = v2_x + (t126 + (t39 * t40 + t24 * t41)) + (t39 * t47 + t46 * t48);
-            let t133 = t128 - t32 * t48;
-            let t134 = t129 - t32 * t47;
-            let t135 = t131 - t46 * t50;
-            let t136 = v2_z + (t127 + (t24 * t44 + t32 * t45)) + (t46 * t51 + t32 * t52);
+            let t126 = v3_x + (t105 - t114 + t31.mul_add(t33, t24 * t34));
+            let t127 = v3_z + (t98 + t114 + t24.mul_add(t37, t32 * t38));
+            let t128 = t32
+                .neg_mul_add(t41, t32.neg_mul_add(t34, s4.mul_add(t97, c4 * t95)));
+            let t129 = t32
+                .neg_mul_add(t40, t32.neg_mul_add(t33, t110.mul_sub(t113, t96 * t111)));
+            let t130 = v3_y + (t102 + t31.mul_add(t36, t32 * t35))
+                + t39.mul_add(t43, t32 * t42);
+            let t131 = t24
+                .neg_mul_add(t43, t24.neg_mul_add(t36, c4.mul_sub(t97, s4 * t95)));
+            let t132 = v2_x + (t126 + t39.mul_add(t40, t24 * t41))
+                + t39.mul_add(t47, t46 * t48);
+            let t133 = t32.neg_mul_add(t48, t128);
+            let t134 = t32.neg_mul_add(t47, t129);
+            let t135 = t46.neg_mul_add(t50, t131);
+            let t136 = v2_z + (t127 + t24.mul_add(t44, t32 * t45))
+                + t46.mul_add(t51, t32 * t52);
             let t137 = v1_x + t132;
-            let t138 = t47 + (t40 + (t33 + (s4 * t107 + c4 * t99)));
+            let t138 = t47 + (t40 + (t33 + s4.mul_add(t107, c4 * t99)));
             let t139 = t123 - t106 - t34 - t41 - t48;
             let t140 = v1_p + (v2_p + (v3_p + (t108 - t118)));
-            let t141 = v1_y + (v2_y + t130 + (t39 * t50 + t32 * t49));
-            let t142 = s4 * t104 + c4 * t103 - t36 - t43 - t50;
-            let t143 = t49 + (t42 + (t35 + (c4 * t104 - s4 * t103)));
+            let t141 = v1_y + (v2_y + t130 + t39.mul_add(t50, t32 * t49));
+            let t142 = s4.mul_add(t104, c4 * t103) - t36 - t43 - t50;
+            let t143 = t49 + (t42 + (t35 + c4.mul_sub(t104, s4 * t103)));
             let t144 = v1_z + t136;
             let t145 = t51 + (t44 + (t37 + (t123 - t100)));
-            let t146 = c4 * t107 - s4 * t99 - t38 - t45 - t52;
+            let t146 = c4.mul_sub(t107, s4 * t99) - t38 - t45 - t52;
             let t147 = v1_r + (v2_r + (v3_r + (t101 + t118)));
-            let t148 = t5 * t125 - t6 * t139;
-            let t149 = t3 * t139 + t4 * t125;
-            let t150 = t138 - s5 * t148;
-            let t151 = t5 * t142 - t6 * t143;
-            let t152 = t3 * t143 + t4 * t142;
-            let t153 = -(t92 + s5 * t151);
-            let t154 = t5 * t145 - t6 * t124;
-            let t155 = t3 * t124 + t4 * t145;
-            let t156 = t146 - s5 * t154;
-            let t157 = t5 * t140 - t6 * t119;
-            let t158 = t3 * t119 + t4 * t140;
-            let t159 = t116 - s5 * t157;
-            let t160 = v1_s + (v2_s + (v3_s + (v4_s + (t22 - t89))))
-                - s5 * (t5 * t116 - t6 * t115);
-            let t161 = t5 * t119 - t6 * t147;
-            let t162 = t3 * t147 + t4 * t119;
-            let t163 = t115 - s5 * t161;
-            let t164 = t5 * t159 - t6 * t163;
-            let t165 = t3 * t163 + t4 * t159;
-            let t166 = t160 - s5 * t164;
-            let t167 = t5 * t158 - t6 * t162;
-            let t168 = t3 * t162 + t4 * t158;
-            let t169 = t5 * t157 - t6 * t161;
+            let t148 = t5.mul_sub(t125, t6 * t139);
+            let t149 = t3.mul_add(t139, t4 * t125);
+            let t150 = s5.neg_mul_add(t148, t138);
             covariance[0] = [t137, t133, t134, t150, t149, t148];
+            let t151 = t5.mul_sub(t142, t6 * t143);
+            let t152 = t3.mul_add(t143, t4 * t142);
+            let t153 = -s5.mul_add(t151, t92);
             covariance[1] = [t133, t141, t135, t153, t152, t151];
+            let t154 = t5.mul_sub(t145, t6 * t124);
+            let t155 = t3.mul_add(t124, t4 * t145);
+            let t156 = s5.neg_mul_add(t154, t146);
             covariance[2] = [t134, t135, t144, t156, t155, t154];
+            let t157 = t5.mul_sub(t140, t6 * t119);
+            let t158 = t3.mul_add(t119, t4 * t140);
+            let t159 = s5.neg_mul_add(t157, t116);
+            let t160 = s5
+                .neg_mul_add(
+                    t5.mul_sub(t116, t6 * t115),
+                    v1_s + (v2_s + (v3_s + (v4_s + (t22 - t89)))),
+                );
+            let t161 = t5.mul_sub(t119, t6 * t147);
+            let t162 = t3.mul_add(t147, t4 * t119);
+            let t163 = s5.neg_mul_add(t161, t115);
+            let t164 = t5.mul_sub(t159, t6 * t163);
+            let t165 = t3.mul_add(t163, t4 * t159);
+            let t166 = s5.neg_mul_add(t164, t160);
             covariance[3] = [t150, t153, t156, t166, t165, t164];
+            let t167 = t5.mul_sub(t158, t6 * t162);
+            let t168 = t3.mul_add(t162, t4 * t158);
             covariance[4] = [t149, t152, t155, t165, t168, t167];
+            let t169 = t5.mul_sub(t157, t6 * t161);
             covariance[5] = [t148, t151, t154, t164, t167, t169];
             cos_roll
         }
@@ -1365,6 +1261,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 77 mul, 103 add, 8 div, 4 sincos, 1 sqrt.
+        #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -1374,34 +1271,38 @@ pub mod pps {
             let [d1, d2, d3, q4, q5, q6] = *q;
             let [y_offset, z_offset, roll_offset, couch_offset, x, y, z, tip_load,
             tip_lever, arm_EI, arm_GJ, assembly_shift, assembly_turn] = *s;
+            let [(s4, c4), (s5, c5), (s6, c6), (sin_1, cos_1)] = T::sin_cos_each([
+                q4,
+                q5,
+                q6,
+                d1 * T::constant(::core::f64::consts::PI) / T::constant(1600.0),
+            ]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = c4 * c5;
-            let t1 = s4 * c5;
-            let (s6, c6) = q6.sin_cos();
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
-            let t2 = T::constant(1.0) / cos_roll;
-            let t3 = r5_11 * t2;
-            let t4 = t1 * t2;
-            let (sin_5, cos_5) = (d1 * T::constant(::core::f64::consts::PI)
-                / T::constant(1600.0))
-                .sin_cos();
+            let t2 = s4 * c5;
+            let cos_roll = r5_11.mul_add(r5_11, t2 * t2).sqrt();
+            let t3 = T::constant(1.0) / cos_roll;
+            let t4 = r5_11 * t3;
+            let t5 = t2 * t3;
             let t6 = c4 * tip_lever;
-            let t7 = tip_load * (p3_z * p3_z) / arm_EI
-                * (p3_z / T::constant(3.0) + t6 / T::constant(2.0));
-            let t8 = T::constant(6.2e-5) + T::constant(0.000119) * cos_5 - assembly_turn;
+            let t7 = cos_1.mul_add(T::constant(0.000119), T::constant(6.2e-5))
+                - assembly_turn;
+            let t8 = (tip_load * (p3_z * p3_z) / arm_EI)
+                .neg_mul_add(
+                    p3_z / T::constant(3.0) + t6 / T::constant(2.0),
+                    assembly_shift,
+                );
             let t9 = p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ + assembly_turn;
-            let t10 = p3_z * tip_load / arm_EI * (t6 + p3_z / T::constant(2.0))
-                + assembly_turn;
+            let t10 = (p3_z * tip_load / arm_EI)
+                .mul_add(t6 + p3_z / T::constant(2.0), assembly_turn);
             let t11 = couch_offset + y;
-            let t12 = c6 * t11 - s6 * z;
-            let t13 = s6 * t11 + c6 * z;
-            let t14 = c5 * x - s5 * t12;
-            let t15 = roll_offset + (s5 * x + c5 * t12);
-            let t16 = c4 * t13 - s4 * t14;
-            let t17 = s4 * t13 + c4 * t14;
+            let t12 = c6.mul_sub(t11, s6 * z);
+            let t13 = s6.mul_add(t11, c6 * z);
+            let t14 = c5.mul_sub(x, s5 * t12);
+            let t15 = roll_offset + s5.mul_add(x, c5 * t12);
+            let t16 = c4.mul_sub(t13, s4 * t14);
+            let t17 = s4.mul_add(t13, c4 * t14);
             let t18 = p3_z + t16;
             let t19 = z * assembly_turn;
             let t20 = y * assembly_turn;
@@ -1413,39 +1314,39 @@ pub mod pps {
             let t26 = assembly_turn * t13;
             let t27 = assembly_turn * t12;
             let t28 = assembly_shift + (t19 - t20) - assembly_shift - (t26 + t27);
-            let t29 = t21 - t26 + (c6 * t22 - s6 * t23 - assembly_shift);
-            let t30 = t21 + t27 + (assembly_shift + (s6 * t22 + c6 * t23));
+            let t29 = t21 - t26 + (c6.mul_sub(t22, s6 * t23) - assembly_shift);
+            let t30 = t21 + t27 + (assembly_shift + s6.mul_add(t22, c6 * t23));
             let t31 = assembly_turn + assembly_turn;
             let t32 = t24 - t25 - assembly_turn;
             let t33 = assembly_turn * t15;
             let t34 = assembly_turn * t14;
-            let t35 = t33 - t26 + (c5 * t28 - s5 * t29 - assembly_shift);
-            let t36 = assembly_shift + (s5 * t28 + c5 * t29) - (t26 + t34);
+            let t35 = t33 - t26 + (c5.mul_sub(t28, s5 * t29) - assembly_shift);
+            let t36 = assembly_shift + s5.mul_add(t28, c5 * t29) - (t26 + t34);
             let t37 = t33 + t34 + (t30 - assembly_shift);
-            let t38 = assembly_turn + (c5 * t31 - s5 * t32);
+            let t38 = assembly_turn + c5.mul_sub(t31, s5 * t32);
             let t39 = assembly_turn + (t24 + t25) - assembly_turn;
             let t40 = assembly_turn * t17;
-            let t41 = t9 * t15 - assembly_turn * t16
-                + (s4 * t37 + c4 * t35 - assembly_shift);
-            let t42 = assembly_shift - t7 + t36 - (t9 * t17 + t10 * t16);
-            let t43 = t10 * t15 + t40 + (assembly_shift + (c4 * t37 - s4 * t35));
-            let t44 = assembly_turn * t18;
-            let t45 = s5 * t31 + c5 * t32 - assembly_turn - assembly_turn
+            let t41 = t9.mul_sub(t15, assembly_turn * t16)
+                + (s4.mul_add(t37, c4 * t35) - assembly_shift);
+            let t42 = t10.mul_add(t15, t40)
+                + (assembly_shift + c4.mul_sub(t37, s4 * t35));
+            let t43 = assembly_turn * t18;
+            let t44 = assembly_shift + (t8 + t36 - t9.mul_add(t17, t10 * t16));
+            let t45 = s5.mul_add(t31, c5 * t32) - assembly_turn - assembly_turn
                 - assembly_turn;
             let t46 = assembly_turn * (p2_y + t15);
-            let t47 = t40 - t33 + (t43 - assembly_shift)
-                - (d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_5
+            let t47 = t40 - t33 + (t42 - assembly_shift)
+                - (d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1)
                     + assembly_shift);
-            let t48 = t8 * t18 + t46
-                + (assembly_shift + (t33 - t44 + (t41 - assembly_shift)));
-            let t49 = assembly_shift + (t44 - t40 + (assembly_shift + t42))
-                - (t40 + t44);
-            let t50 = t46 - t8 * t17 + t47;
-            let t51 = assembly_turn + (t10 + (s4 * t39 + c4 * t38) - assembly_turn);
-            let t52 = c4 * t39 - s4 * t38 - t9 - assembly_turn - assembly_turn;
-            let t53 = t2 * t3 * t51 - t2 * t4 * t52;
-            let t54 = t3 * t52 + t4 * t51;
-            let t55 = t8 + t45 - s5 * t53;
+            let t48 = t7.mul_add(t18, t46)
+                + (assembly_shift + (t33 - t43 + (t41 - assembly_shift)));
+            let t49 = assembly_shift + (t43 - t40 + t44) - (t40 + t43);
+            let t50 = t7.neg_mul_add(t17, t46) + t47;
+            let t51 = assembly_turn + (t10 + s4.mul_add(t39, c4 * t38) - assembly_turn);
+            let t52 = c4.mul_sub(t39, s4 * t38) - t9 - assembly_turn - assembly_turn;
+            let t53 = (t3 * t4).mul_sub(t51, t3 * t5 * t52);
+            let t54 = t4.mul_add(t52, t5 * t51);
+            let t55 = s5.neg_mul_add(t53, t7 + t45);
             *displacement = [t48, t49, t50, t55, t54, t53];
             cos_roll
         }
@@ -1454,6 +1355,7 @@ pub mod pps {
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
         /// 88 mul, 105 add, 8 div, 4 sincos, 1 sqrt, 4 neg.
+        #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -1464,103 +1366,110 @@ pub mod pps {
             let [y_offset, z_offset, roll_offset, couch_offset, x, y, z, tip_load,
             tip_lever, arm_EI, arm_GJ, assembly_shift, assembly_turn] = *s;
             let zero = T::constant(0.0);
-            let p2_y = y_offset + d2;
-            let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
-            let r5_11 = c4 * c5;
-            let t1 = s4 * c5;
-            let (s6, c6) = q6.sin_cos();
-            let cos_roll = (r5_11 * r5_11 + t1 * t1).sqrt();
-            let t2 = T::constant(1.0) / cos_roll;
-            let t3 = r5_11 * t2;
-            let t4 = t1 * t2;
-            let t5 = t2 * t3;
-            let t6 = t2 * t4;
-            let (sin_7, cos_7) = (d1 * T::constant(::core::f64::consts::PI)
-                / T::constant(1600.0))
-                .sin_cos();
-            let t8 = T::constant(6.2e-5) + T::constant(0.000119) * cos_7;
-            let t9 = c4 * tip_lever;
-            let t10 = tip_load * (p3_z * p3_z) / arm_EI
-                * (p3_z / T::constant(3.0) + t9 / T::constant(2.0));
-            let t11 = p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ;
-            let t12 = p3_z * tip_load / arm_EI * (t9 + p3_z / T::constant(2.0));
-            let t13 = couch_offset + y;
-            let t14 = c6 * t13 - s6 * z;
-            let t15 = s6 * t13 + c6 * z;
-            let t16 = c5 * x - s5 * t14;
-            let t17 = roll_offset + (s5 * x + c5 * t14);
-            let t18 = c4 * t15 - s4 * t16;
-            let t19 = s4 * t15 + c4 * t16;
-            let t20 = p3_z + t18;
-            let t21 = z * assembly_turn;
-            let t22 = y * assembly_turn;
-            let t23 = x * assembly_turn;
-            let t24 = t23 - t21 - assembly_shift;
-            let t25 = t22 - t23 - assembly_shift;
-            let t26 = c6 * assembly_turn;
-            let t27 = s6 * assembly_turn;
-            let t28 = assembly_turn * t15;
-            let t29 = assembly_turn * t14;
-            let t30 = assembly_shift + (t21 - t22) - assembly_shift - (t28 + t29);
-            let t31 = t23 - t28 + (c6 * t24 - s6 * t25 - assembly_shift);
-            let t32 = t23 + t29 + (assembly_shift + (s6 * t24 + c6 * t25));
-            let t33 = assembly_turn + assembly_turn;
-            let t34 = t26 - t27 - assembly_turn;
-            let t35 = assembly_turn * t17;
-            let t36 = assembly_turn * t16;
-            let t37 = t35 - t28 + (c5 * t30 - s5 * t31 - assembly_shift);
-            let t38 = assembly_shift + (s5 * t30 + c5 * t31) - (t28 + t36);
-            let t39 = t35 + t36 + (t32 - assembly_shift);
-            let t40 = assembly_turn + (c5 * t33 - s5 * t34);
-            let t41 = assembly_turn + (t26 + t27) - assembly_turn;
-            let t42 = assembly_turn * t18;
-            let t43 = assembly_turn * t19;
-            let t44 = assembly_turn * t20;
-            let t45 = s5 * t33 + c5 * t34 - assembly_turn - assembly_turn
-                - assembly_turn;
-            let t46 = assembly_turn * (p2_y + t17);
-            let t47 = t8 * t20;
-            let t48 = -(d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_7
-                + t8 * t19);
-            let t49 = T::constant(6.3e-5) * t15;
-            let t50 = T::constant(6.3e-5) * t16;
-            let t51 = -(c4 * t50 + s4 * t49);
-            let t52 = c4 * t49 - s4 * t50;
-            let t53 = t11 * t17;
-            let t54 = t12 * t17;
-            let t55 = -(t10 + (t11 * t19 + t12 * t18));
-            let t56 = t5 * t12 + t6 * t11;
-            let t57 = t4 * t12 - t3 * t11;
-            let t58 = -(s5 * t56);
-            let t59 = s4 * t39 + c4 * t37 - assembly_shift + (t35 - t42);
-            let t60 = assembly_shift + (c4 * t39 - s4 * t37) + (t35 + t43);
-            let t61 = t44 - t43
-                + (assembly_shift + (assembly_shift + t38 - (t42 + t43)));
-            let t62 = t46 - t44
-                + (assembly_shift + (t35 - t44 + (t59 - assembly_shift)));
-            let t63 = assembly_shift + t61 - (t43 + t44);
-            let t64 = t43 + t46 + (t43 - t35 + (t60 - assembly_shift) - assembly_shift);
-            let t65 = assembly_turn
-                + (assembly_turn + (s4 * t41 + c4 * t40) - assembly_turn);
-            let t66 = c4 * t41 - s4 * t40 - assembly_turn - assembly_turn
-                - assembly_turn;
-            let t67 = t5 * t65 - t6 * t66;
-            let t68 = t3 * t66 + t4 * t65;
-            let t69 = t45 - assembly_turn - s5 * t67;
-            displacements[0] = [t47, zero, t48, t8, zero, zero];
-            displacements[1] = [t52, zero, t51, T::constant(6.3e-5), zero, zero];
             displacements[2] = [T::constant(0.04), zero, zero, zero, zero, zero];
             displacements[3] = [zero, T::constant(0.04), zero, zero, zero, zero];
             displacements[4] = [zero, zero, T::constant(0.04), zero, zero, zero];
-            displacements[5] = [t53, t55, t54, t58, t57, t56];
+            let [(s4, c4), (s5, c5), (s6, c6), (sin_1, cos_1)] = T::sin_cos_each([
+                q4,
+                q5,
+                q6,
+                d1 * T::constant(::core::f64::consts::PI) / T::constant(1600.0),
+            ]);
+            let p2_y = y_offset + d2;
+            let p3_z = z_offset + d3;
+            let r5_11 = c4 * c5;
+            let t2 = s4 * c5;
+            let cos_roll = r5_11.mul_add(r5_11, t2 * t2).sqrt();
+            let t3 = T::constant(1.0) / cos_roll;
+            let t4 = r5_11 * t3;
+            let t5 = t2 * t3;
+            let t6 = t3 * t4;
+            let t7 = t3 * t5;
+            let t8 = cos_1.mul_add(T::constant(0.000119), T::constant(6.2e-5));
+            let t9 = c4 * tip_lever;
+            let t10 = p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ;
+            let t11 = p3_z * tip_load / arm_EI * (t9 + p3_z / T::constant(2.0));
+            let t12 = couch_offset + y;
+            let t13 = c6.mul_sub(t12, s6 * z);
+            let t14 = s6.mul_add(t12, c6 * z);
+            let t15 = c5.mul_sub(x, s5 * t13);
+            let t16 = roll_offset + s5.mul_add(x, c5 * t13);
+            let t17 = c4.mul_sub(t14, s4 * t15);
+            let t18 = s4.mul_add(t14, c4 * t15);
+            let t19 = p3_z + t17;
+            let t20 = z * assembly_turn;
+            let t21 = y * assembly_turn;
+            let t22 = x * assembly_turn;
+            let t23 = t22 - t20 - assembly_shift;
+            let t24 = t21 - t22 - assembly_shift;
+            let t25 = c6 * assembly_turn;
+            let t26 = s6 * assembly_turn;
+            let t27 = assembly_turn * t14;
+            let t28 = assembly_turn * t13;
+            let t29 = assembly_shift + (t20 - t21) - assembly_shift - (t27 + t28);
+            let t30 = t22 - t27 + (c6.mul_sub(t23, s6 * t24) - assembly_shift);
+            let t31 = t22 + t28 + (assembly_shift + s6.mul_add(t23, c6 * t24));
+            let t32 = assembly_turn + assembly_turn;
+            let t33 = t25 - t26 - assembly_turn;
+            let t34 = assembly_turn * t16;
+            let t35 = assembly_turn * t15;
+            let t36 = t34 - t27 + (c5.mul_sub(t29, s5 * t30) - assembly_shift);
+            let t37 = assembly_shift + s5.mul_add(t29, c5 * t30) - (t27 + t35);
+            let t38 = t34 + t35 + (t31 - assembly_shift);
+            let t39 = assembly_turn + c5.mul_sub(t32, s5 * t33);
+            let t40 = assembly_turn + (t25 + t26) - assembly_turn;
+            let t41 = assembly_turn * t17;
+            let t42 = assembly_turn * t18;
+            let t43 = assembly_turn * t19;
+            let t44 = s5.mul_add(t32, c5 * t33) - assembly_turn - assembly_turn
+                - assembly_turn;
+            let t45 = assembly_turn * (p2_y + t16);
+            let t46 = t8 * t19;
+            let t47 = -t8
+                .mul_add(
+                    t18,
+                    d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1),
+                );
+            displacements[0] = [t46, zero, t47, t8, zero, zero];
+            let t48 = T::constant(6.3e-5) * t14;
+            let t49 = T::constant(6.3e-5) * t15;
+            let t50 = -c4.mul_add(t49, s4 * t48);
+            let t51 = c4.mul_sub(t48, s4 * t49);
+            displacements[1] = [t51, zero, t50, T::constant(6.3e-5), zero, zero];
+            let t52 = t10 * t16;
+            let t53 = t11 * t16;
+            let t54 = (tip_load * (p3_z * p3_z) / arm_EI)
+                .mul_add(
+                    p3_z / T::constant(3.0) + t9 / T::constant(2.0),
+                    t10.mul_add(t18, t11 * t17),
+                );
+            let t55 = -t54;
+            let t56 = t6.mul_add(t11, t7 * t10);
+            let t57 = t5.mul_sub(t11, t4 * t10);
+            let t58 = -(s5 * t56);
+            displacements[5] = [t52, t55, t53, t58, t57, t56];
+            let t59 = s4.mul_add(t38, c4 * t36) - assembly_shift + (t34 - t41);
+            let t60 = assembly_shift + c4.mul_sub(t38, s4 * t36) + (t34 + t42);
+            let t61 = t43 - t42
+                + (assembly_shift + (assembly_shift + t37 - (t41 + t42)));
+            let t62 = t45 - t43
+                + (assembly_shift + (t34 - t43 + (t59 - assembly_shift)));
+            let t63 = assembly_shift + t61 - (t42 + t43);
+            let t64 = t42 + t45 + (t42 - t34 + (t60 - assembly_shift) - assembly_shift);
+            let t65 = assembly_turn
+                + (assembly_turn + s4.mul_add(t40, c4 * t39) - assembly_turn);
+            let t66 = c4.mul_sub(t40, s4 * t39) - assembly_turn - assembly_turn
+                - assembly_turn;
+            let t67 = t6.mul_sub(t65, t7 * t66);
+            let t68 = t4.mul_add(t66, t5 * t65);
+            let t69 = s5.neg_mul_add(t67, t44 - assembly_turn);
             displacements[6] = [t62, t63, t64, t69, t68, t67];
             cos_roll
         }
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
         ///
         /// 304 mul, 190 add, 7 div, 8 sincos.
+        #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -1570,195 +1479,254 @@ pub mod pps {
             let [d1, d2, d3, q4, q5, q6] = *q;
             let [y_offset, z_offset, roll_offset, couch_offset, x, y, z, tip_load,
             tip_lever, arm_EI, arm_GJ, assembly_shift, assembly_turn] = *s;
+            let [(s4, c4), (s5, c5), (s6, c6), (sin_1, cos_1),
+            (sin_assembly_turn, cos_assembly_turn)] = T::sin_cos_each([
+                q4,
+                q5,
+                q6,
+                d1 * T::constant(::core::f64::consts::PI) / T::constant(1600.0),
+                assembly_turn,
+            ]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
-            let (s6, c6) = q6.sin_cos();
-            let (sin_1, cos_1) = (d1 * T::constant(::core::f64::consts::PI)
-                / T::constant(1600.0))
-                .sin_cos();
             let t2 = c4 * tip_lever;
-            let t3 = tip_load * (p3_z * p3_z) / arm_EI
-                * (p3_z / T::constant(3.0) + t2 / T::constant(2.0));
-            let t4 = assembly_shift - t3;
-            let t5 = p3_z * tip_load / arm_EI * (t2 + p3_z / T::constant(2.0))
-                + assembly_turn;
-            let (sin_6, cos_6) = (T::constant(6.2e-5) + T::constant(0.000119) * cos_1
-                - assembly_turn)
+            let t3 = (tip_load * (p3_z * p3_z) / arm_EI)
+                .neg_mul_add(
+                    p3_z / T::constant(3.0) + t2 / T::constant(2.0),
+                    assembly_shift,
+                );
+            let t4 = (p3_z * tip_load / arm_EI)
+                .mul_add(t2 + p3_z / T::constant(2.0), assembly_turn);
+            let (sin_5, cos_5) = (cos_1
+                .mul_add(T::constant(0.000119), T::constant(6.2e-5)) - assembly_turn)
                 .sin_cos();
-            let (sin_assembly_turn, cos_assembly_turn) = assembly_turn.sin_cos();
-            let t7 = cos_6 * cos_assembly_turn;
-            let t8 = sin_6 * cos_assembly_turn;
-            let t9 = cos_6 * sin_assembly_turn;
-            let t10 = sin_6 * sin_assembly_turn;
-            let t11 = cos_assembly_turn * cos_assembly_turn;
-            let t12 = sin_assembly_turn * cos_assembly_turn;
-            let t13 = t10 + cos_assembly_turn * t9;
-            let t14 = t9 - cos_assembly_turn * t10;
-            let t15 = t8 - sin_assembly_turn * t9;
-            let t16 = t7 + sin_assembly_turn * t10;
-            let t17 = p2_y * t14
-                - (d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_1
-                    + assembly_shift);
-            let t18 = d1 + assembly_shift + p2_y * t13 - assembly_shift * t7
-                + assembly_shift * t13;
-            let t19 = assembly_shift + p2_y * t11 + assembly_shift * sin_assembly_turn
-                + assembly_shift * t11;
-            let t20 = t17 + assembly_shift * t8 + assembly_shift * t14
-                - assembly_shift * t16;
-            let t21 = cos_assembly_turn * t15 - sin_assembly_turn * t7;
-            let t22 = sin_assembly_turn * sin_assembly_turn - cos_assembly_turn * t12;
-            let t23 = cos_assembly_turn * t16 + sin_assembly_turn * t8;
-            let t24 = sin_assembly_turn * t15 + cos_assembly_turn * t7;
-            let t25 = t12 + sin_assembly_turn * t12;
-            let t26 = sin_assembly_turn * t16 - cos_assembly_turn * t8;
-            let t27 = cos_assembly_turn * t24 - sin_assembly_turn * t13;
-            let t28 = cos_assembly_turn * t25 + sin_assembly_turn * t11;
-            let t29 = cos_assembly_turn * t26 - sin_assembly_turn * t14;
-            let t30 = sin_assembly_turn * t24 + cos_assembly_turn * t13;
-            let t31 = cos_assembly_turn * t11 - sin_assembly_turn * t25;
-            let t32 = sin_assembly_turn * t26 + cos_assembly_turn * t14;
-            let t33 = cos_assembly_turn * t30 - sin_assembly_turn * t21;
-            let t34 = cos_assembly_turn * t31 - sin_assembly_turn * t22;
-            let t35 = cos_assembly_turn * t32 - sin_assembly_turn * t23;
-            let t36 = sin_assembly_turn * t30 + cos_assembly_turn * t21;
-            let t37 = sin_assembly_turn * t31 + cos_assembly_turn * t22;
-            let t38 = sin_assembly_turn * t32 + cos_assembly_turn * t23;
-            let t39 = t18 - assembly_shift * t15 + p3_z * t36 - assembly_shift * t27;
-            let t40 = t19 + assembly_shift * t12 + p3_z * t37 + assembly_shift * t28;
-            let t41 = t20 + p3_z * t38 - assembly_shift * t29 + t4 * t35;
-            let t42 = cos_assembly_turn * t36 - sin_assembly_turn * t27;
-            let t43 = cos_assembly_turn * t37 + sin_assembly_turn * t28;
-            let t44 = cos_assembly_turn * t38 - sin_assembly_turn * t29;
-            let t45 = sin_assembly_turn * t36 + cos_assembly_turn * t27;
-            let t46 = sin_assembly_turn * t37 - cos_assembly_turn * t28;
-            let t47 = sin_assembly_turn * t38 + cos_assembly_turn * t29;
-            let (sin_48, cos_48) = (p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ
+            let t6 = cos_5 * cos_assembly_turn;
+            let t7 = sin_5 * cos_assembly_turn;
+            let t8 = cos_5 * sin_assembly_turn;
+            let t9 = sin_5 * sin_assembly_turn;
+            let t10 = cos_assembly_turn * cos_assembly_turn;
+            let t11 = sin_assembly_turn * cos_assembly_turn;
+            let t12 = cos_assembly_turn.mul_add(t8, t9);
+            let t13 = cos_assembly_turn.neg_mul_add(t9, t8);
+            let t14 = sin_assembly_turn.neg_mul_add(t8, t7);
+            let t15 = sin_assembly_turn.mul_add(t9, t6);
+            let t16 = p2_y
+                .mul_sub(
+                    t13,
+                    d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1)
+                        + assembly_shift,
+                );
+            let t17 = assembly_shift
+                .mul_add(
+                    t12,
+                    assembly_shift
+                        .neg_mul_add(t6, p2_y.mul_add(t12, d1 + assembly_shift)),
+                );
+            let t18 = assembly_shift
+                .mul_add(
+                    t10,
+                    assembly_shift
+                        .mul_add(sin_assembly_turn, p2_y.mul_add(t10, assembly_shift)),
+                );
+            let t19 = assembly_shift
+                .neg_mul_add(
+                    t15,
+                    assembly_shift.mul_add(t13, assembly_shift.mul_add(t7, t16)),
+                );
+            let t20 = cos_assembly_turn.mul_sub(t14, sin_assembly_turn * t6);
+            let t21 = sin_assembly_turn
+                .mul_sub(sin_assembly_turn, cos_assembly_turn * t11);
+            let t22 = cos_assembly_turn.mul_add(t15, sin_assembly_turn * t7);
+            let t23 = sin_assembly_turn.mul_add(t14, cos_assembly_turn * t6);
+            let t24 = sin_assembly_turn.mul_add(t11, t11);
+            let t25 = sin_assembly_turn.mul_sub(t15, cos_assembly_turn * t7);
+            let t26 = cos_assembly_turn.mul_sub(t23, sin_assembly_turn * t12);
+            let t27 = cos_assembly_turn.mul_add(t24, sin_assembly_turn * t10);
+            let t28 = cos_assembly_turn.mul_sub(t25, sin_assembly_turn * t13);
+            let t29 = sin_assembly_turn.mul_add(t23, cos_assembly_turn * t12);
+            let t30 = cos_assembly_turn.mul_sub(t10, sin_assembly_turn * t24);
+            let t31 = sin_assembly_turn.mul_add(t25, cos_assembly_turn * t13);
+            let t32 = cos_assembly_turn.mul_sub(t29, sin_assembly_turn * t20);
+            let t33 = cos_assembly_turn.mul_sub(t30, sin_assembly_turn * t21);
+            let t34 = cos_assembly_turn.mul_sub(t31, sin_assembly_turn * t22);
+            let t35 = sin_assembly_turn.mul_add(t29, cos_assembly_turn * t20);
+            let t36 = sin_assembly_turn.mul_add(t30, cos_assembly_turn * t21);
+            let t37 = sin_assembly_turn.mul_add(t31, cos_assembly_turn * t22);
+            let t38 = assembly_shift
+                .neg_mul_add(
+                    t26,
+                    p3_z.mul_add(t35, assembly_shift.neg_mul_add(t14, t17)),
+                );
+            let t39 = assembly_shift
+                .mul_add(t27, p3_z.mul_add(t36, assembly_shift.mul_add(t11, t18)));
+            let t40 = t3
+                .mul_add(t34, assembly_shift.neg_mul_add(t28, p3_z.mul_add(t37, t19)));
+            let t41 = cos_assembly_turn.mul_sub(t35, sin_assembly_turn * t26);
+            let t42 = cos_assembly_turn.mul_add(t36, sin_assembly_turn * t27);
+            let t43 = cos_assembly_turn.mul_sub(t37, sin_assembly_turn * t28);
+            let t44 = sin_assembly_turn.mul_add(t35, cos_assembly_turn * t26);
+            let t45 = sin_assembly_turn.mul_sub(t36, cos_assembly_turn * t27);
+            let t46 = sin_assembly_turn.mul_add(t37, cos_assembly_turn * t28);
+            let (sin_47, cos_47) = (p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ
                 + assembly_turn)
                 .sin_cos();
-            let t49 = t45 * cos_48 - t33 * sin_48;
-            let t50 = t46 * cos_48 - t34 * sin_48;
-            let t51 = t47 * cos_48 - t35 * sin_48;
-            let t52 = t45 * sin_48 + t33 * cos_48;
-            let t53 = t46 * sin_48 + t34 * cos_48;
-            let t54 = t47 * sin_48 + t35 * cos_48;
-            let (sin_55, cos_55) = t5.sin_cos();
-            let t56 = t52 * cos_55 + t42 * sin_55;
-            let t57 = t53 * cos_55 + t43 * sin_55;
-            let t58 = t54 * cos_55 + t44 * sin_55;
-            let t59 = t42 * cos_55 - t52 * sin_55;
-            let t60 = t43 * cos_55 - t53 * sin_55;
-            let t61 = t44 * cos_55 - t54 * sin_55;
-            let t62 = c4 * t59 + s4 * t49;
-            let t63 = c4 * t60 + s4 * t50;
-            let t64 = c4 * t61 + s4 * t51;
-            let t65 = c4 * t49 - s4 * t59;
-            let t66 = c4 * t50 - s4 * t60;
-            let t67 = c4 * t51 - s4 * t61;
-            let t68 = t39 + t4 * t33 + assembly_shift * t36 - assembly_shift * t65;
-            let t69 = t40 + t4 * t34 + assembly_shift * t37 - assembly_shift * t66;
-            let t70 = t41 + assembly_shift * t38 - assembly_shift * t67
-                + assembly_shift * t58;
-            let t71 = cos_assembly_turn * t62 - sin_assembly_turn * t65;
-            let t72 = cos_assembly_turn * t63 - sin_assembly_turn * t66;
-            let t73 = cos_assembly_turn * t64 - sin_assembly_turn * t67;
-            let t74 = sin_assembly_turn * t62 + cos_assembly_turn * t65;
-            let t75 = sin_assembly_turn * t63 + cos_assembly_turn * t66;
-            let t76 = sin_assembly_turn * t64 + cos_assembly_turn * t67;
-            let t77 = cos_assembly_turn * t74 - sin_assembly_turn * t56;
-            let t78 = cos_assembly_turn * t75 - sin_assembly_turn * t57;
-            let t79 = cos_assembly_turn * t76 - sin_assembly_turn * t58;
-            let t80 = sin_assembly_turn * t74 + cos_assembly_turn * t56;
-            let t81 = sin_assembly_turn * t75 + cos_assembly_turn * t57;
-            let t82 = sin_assembly_turn * t76 + cos_assembly_turn * t58;
-            let t83 = cos_assembly_turn * t80 + sin_assembly_turn * t71;
-            let t84 = cos_assembly_turn * t81 + sin_assembly_turn * t72;
-            let t85 = cos_assembly_turn * t82 + sin_assembly_turn * t73;
-            let t86 = cos_assembly_turn * t71 - sin_assembly_turn * t80;
-            let t87 = cos_assembly_turn * t72 - sin_assembly_turn * t81;
-            let t88 = cos_assembly_turn * t73 - sin_assembly_turn * t82;
-            let t89 = t68 + assembly_shift * t56 - assembly_shift * t62
-                + roll_offset * t83;
-            let t90 = t69 + assembly_shift * t57 - assembly_shift * t63
-                + roll_offset * t84;
-            let t91 = c5 * t77 + s5 * t83;
-            let t92 = c5 * t78 + s5 * t84;
-            let t93 = c5 * t79 + s5 * t85;
-            let t94 = c5 * t83 - s5 * t77;
-            let t95 = c5 * t84 - s5 * t78;
-            let t96 = c5 * t85 - s5 * t79;
-            let t97 = t70 - assembly_shift * t64 + roll_offset * t85
-                - assembly_shift * t93;
-            let t98 = t89 - assembly_shift * t91 - assembly_shift * t94
-                + assembly_shift * t86;
-            let t99 = t90 - assembly_shift * t92 - assembly_shift * t95
-                + assembly_shift * t87;
-            let t100 = cos_assembly_turn * t86 - sin_assembly_turn * t91;
-            let t101 = cos_assembly_turn * t87 - sin_assembly_turn * t92;
-            let t102 = cos_assembly_turn * t88 - sin_assembly_turn * t93;
-            let t103 = sin_assembly_turn * t86 + cos_assembly_turn * t91;
-            let t104 = sin_assembly_turn * t87 + cos_assembly_turn * t92;
-            let t105 = sin_assembly_turn * t88 + cos_assembly_turn * t93;
-            let t106 = cos_assembly_turn * t103 + sin_assembly_turn * t94;
-            let t107 = cos_assembly_turn * t104 + sin_assembly_turn * t95;
-            let t108 = cos_assembly_turn * t105 + sin_assembly_turn * t96;
-            let t109 = cos_assembly_turn * t94 - sin_assembly_turn * t103;
-            let t110 = cos_assembly_turn * t95 - sin_assembly_turn * t104;
-            let t111 = cos_assembly_turn * t96 - sin_assembly_turn * t105;
-            let t112 = cos_assembly_turn * t109 + sin_assembly_turn * t100;
-            let t113 = cos_assembly_turn * t110 + sin_assembly_turn * t101;
-            let t114 = cos_assembly_turn * t111 + sin_assembly_turn * t102;
-            let t115 = cos_assembly_turn * t100 - sin_assembly_turn * t109;
-            let t116 = cos_assembly_turn * t101 - sin_assembly_turn * t110;
-            let t117 = cos_assembly_turn * t102 - sin_assembly_turn * t111;
-            let t118 = c6 * t112 + s6 * t115;
-            let t119 = c6 * t113 + s6 * t116;
-            let t120 = c6 * t114 + s6 * t117;
-            let t121 = c6 * t115 - s6 * t112;
-            let t122 = c6 * t116 - s6 * t113;
-            let t123 = c6 * t117 - s6 * t114;
-            let t124 = t97 - assembly_shift * t96 + assembly_shift * t88
-                + couch_offset * t120;
-            let t125 = t98 + couch_offset * t118 + assembly_shift * t106
-                - assembly_shift * t118;
-            let t126 = t99 + couch_offset * t119 + assembly_shift * t107
-                - assembly_shift * t119;
-            let t127 = t124 + assembly_shift * t108 - assembly_shift * t120
-                - assembly_shift * t123;
-            let t128 = cos_assembly_turn * t121 + sin_assembly_turn * t106;
-            let t129 = cos_assembly_turn * t122 + sin_assembly_turn * t107;
-            let t130 = cos_assembly_turn * t123 + sin_assembly_turn * t108;
-            let t131 = cos_assembly_turn * t106 - sin_assembly_turn * t121;
-            let t132 = cos_assembly_turn * t107 - sin_assembly_turn * t122;
-            let t133 = cos_assembly_turn * t108 - sin_assembly_turn * t123;
-            let t134 = cos_assembly_turn * t131 + sin_assembly_turn * t118;
-            let t135 = cos_assembly_turn * t132 + sin_assembly_turn * t119;
-            let t136 = cos_assembly_turn * t133 + sin_assembly_turn * t120;
-            let t137 = cos_assembly_turn * t118 - sin_assembly_turn * t131;
-            let t138 = cos_assembly_turn * t119 - sin_assembly_turn * t132;
-            let t139 = cos_assembly_turn * t120 - sin_assembly_turn * t133;
-            let t140 = cos_assembly_turn * t137 + sin_assembly_turn * t128;
-            let t141 = cos_assembly_turn * t138 + sin_assembly_turn * t129;
-            let t142 = cos_assembly_turn * t139 + sin_assembly_turn * t130;
-            let t143 = cos_assembly_turn * t128 - sin_assembly_turn * t137;
-            let t144 = cos_assembly_turn * t129 - sin_assembly_turn * t138;
-            let t145 = cos_assembly_turn * t130 - sin_assembly_turn * t139;
-            let t146 = t125 - assembly_shift * t121 + x * t134 + y * t140;
-            let t147 = t126 - assembly_shift * t122 + x * t135 + y * t141;
-            let t148 = t146 + z * t143;
-            let t149 = t147 + z * t144;
-            let t150 = t127 + x * t136 + y * t142 + z * t145;
+            let t48 = t44.mul_sub(cos_47, t32 * sin_47);
+            let t49 = t45.mul_sub(cos_47, t33 * sin_47);
+            let t50 = t46.mul_sub(cos_47, t34 * sin_47);
+            let t51 = t44.mul_add(sin_47, t32 * cos_47);
+            let t52 = t45.mul_add(sin_47, t33 * cos_47);
+            let t53 = t46.mul_add(sin_47, t34 * cos_47);
+            let (sin_54, cos_54) = t4.sin_cos();
+            let t55 = t51.mul_add(cos_54, t41 * sin_54);
+            let t56 = t52.mul_add(cos_54, t42 * sin_54);
+            let t57 = t53.mul_add(cos_54, t43 * sin_54);
+            let t58 = t41.mul_sub(cos_54, t51 * sin_54);
+            let t59 = t42.mul_sub(cos_54, t52 * sin_54);
+            let t60 = t43.mul_sub(cos_54, t53 * sin_54);
+            let t61 = c4.mul_add(t58, s4 * t48);
+            let t62 = c4.mul_add(t59, s4 * t49);
+            let t63 = c4.mul_add(t60, s4 * t50);
+            let t64 = c4.mul_sub(t48, s4 * t58);
+            let t65 = c4.mul_sub(t49, s4 * t59);
+            let t66 = c4.mul_sub(t50, s4 * t60);
+            let t67 = assembly_shift
+                .neg_mul_add(t64, assembly_shift.mul_add(t35, t3.mul_add(t32, t38)));
+            let t68 = assembly_shift
+                .neg_mul_add(t65, assembly_shift.mul_add(t36, t3.mul_add(t33, t39)));
+            let t69 = assembly_shift
+                .mul_add(
+                    t57,
+                    assembly_shift.neg_mul_add(t66, assembly_shift.mul_add(t37, t40)),
+                );
+            let t70 = cos_assembly_turn.mul_sub(t61, sin_assembly_turn * t64);
+            let t71 = cos_assembly_turn.mul_sub(t62, sin_assembly_turn * t65);
+            let t72 = cos_assembly_turn.mul_sub(t63, sin_assembly_turn * t66);
+            let t73 = sin_assembly_turn.mul_add(t61, cos_assembly_turn * t64);
+            let t74 = sin_assembly_turn.mul_add(t62, cos_assembly_turn * t65);
+            let t75 = sin_assembly_turn.mul_add(t63, cos_assembly_turn * t66);
+            let t76 = cos_assembly_turn.mul_sub(t73, sin_assembly_turn * t55);
+            let t77 = cos_assembly_turn.mul_sub(t74, sin_assembly_turn * t56);
+            let t78 = cos_assembly_turn.mul_sub(t75, sin_assembly_turn * t57);
+            let t79 = sin_assembly_turn.mul_add(t73, cos_assembly_turn * t55);
+            let t80 = sin_assembly_turn.mul_add(t74, cos_assembly_turn * t56);
+            let t81 = sin_assembly_turn.mul_add(t75, cos_assembly_turn * t57);
+            let t82 = cos_assembly_turn.mul_add(t79, sin_assembly_turn * t70);
+            let t83 = cos_assembly_turn.mul_add(t80, sin_assembly_turn * t71);
+            let t84 = cos_assembly_turn.mul_add(t81, sin_assembly_turn * t72);
+            let t85 = cos_assembly_turn.mul_sub(t70, sin_assembly_turn * t79);
+            let t86 = cos_assembly_turn.mul_sub(t71, sin_assembly_turn * t80);
+            let t87 = cos_assembly_turn.mul_sub(t72, sin_assembly_turn * t81);
+            let t88 = roll_offset
+                .mul_add(
+                    t82,
+                    assembly_shift.neg_mul_add(t61, assembly_shift.mul_add(t55, t67)),
+                );
+            let t89 = roll_offset
+                .mul_add(
+                    t83,
+                    assembly_shift.neg_mul_add(t62, assembly_shift.mul_add(t56, t68)),
+                );
+            let t90 = c5.mul_add(t76, s5 * t82);
+            let t91 = c5.mul_add(t77, s5 * t83);
+            let t92 = c5.mul_add(t78, s5 * t84);
+            let t93 = c5.mul_sub(t82, s5 * t76);
+            let t94 = c5.mul_sub(t83, s5 * t77);
+            let t95 = c5.mul_sub(t84, s5 * t78);
+            let t96 = assembly_shift
+                .neg_mul_add(
+                    t92,
+                    roll_offset.mul_add(t84, assembly_shift.neg_mul_add(t63, t69)),
+                );
+            let t97 = assembly_shift
+                .mul_add(
+                    t85,
+                    assembly_shift.neg_mul_add(t93, assembly_shift.neg_mul_add(t90, t88)),
+                );
+            let t98 = assembly_shift
+                .mul_add(
+                    t86,
+                    assembly_shift.neg_mul_add(t94, assembly_shift.neg_mul_add(t91, t89)),
+                );
+            let t99 = cos_assembly_turn.mul_sub(t85, sin_assembly_turn * t90);
+            let t100 = cos_assembly_turn.mul_sub(t86, sin_assembly_turn * t91);
+            let t101 = cos_assembly_turn.mul_sub(t87, sin_assembly_turn * t92);
+            let t102 = sin_assembly_turn.mul_add(t85, cos_assembly_turn * t90);
+            let t103 = sin_assembly_turn.mul_add(t86, cos_assembly_turn * t91);
+            let t104 = sin_assembly_turn.mul_add(t87, cos_assembly_turn * t92);
+            let t105 = cos_assembly_turn.mul_add(t102, sin_assembly_turn * t93);
+            let t106 = cos_assembly_turn.mul_add(t103, sin_assembly_turn * t94);
+            let t107 = cos_assembly_turn.mul_add(t104, sin_assembly_turn * t95);
+            let t108 = cos_assembly_turn.mul_sub(t93, sin_assembly_turn * t102);
+            let t109 = cos_assembly_turn.mul_sub(t94, sin_assembly_turn * t103);
+            let t110 = cos_assembly_turn.mul_sub(t95, sin_assembly_turn * t104);
+            let t111 = cos_assembly_turn.mul_add(t108, sin_assembly_turn * t99);
+            let t112 = cos_assembly_turn.mul_add(t109, sin_assembly_turn * t100);
+            let t113 = cos_assembly_turn.mul_add(t110, sin_assembly_turn * t101);
+            let t114 = cos_assembly_turn.mul_sub(t99, sin_assembly_turn * t108);
+            let t115 = cos_assembly_turn.mul_sub(t100, sin_assembly_turn * t109);
+            let t116 = cos_assembly_turn.mul_sub(t101, sin_assembly_turn * t110);
+            let t117 = c6.mul_add(t111, s6 * t114);
+            let t118 = c6.mul_add(t112, s6 * t115);
+            let t119 = c6.mul_add(t113, s6 * t116);
+            let t120 = c6.mul_sub(t114, s6 * t111);
+            let t121 = c6.mul_sub(t115, s6 * t112);
+            let t122 = c6.mul_sub(t116, s6 * t113);
+            let t123 = couch_offset
+                .mul_add(
+                    t119,
+                    assembly_shift.mul_add(t87, assembly_shift.neg_mul_add(t95, t96)),
+                );
+            let t124 = assembly_shift
+                .neg_mul_add(
+                    t117,
+                    assembly_shift.mul_add(t105, couch_offset.mul_add(t117, t97)),
+                );
+            let t125 = assembly_shift
+                .neg_mul_add(
+                    t118,
+                    assembly_shift.mul_add(t106, couch_offset.mul_add(t118, t98)),
+                );
+            let t126 = assembly_shift
+                .neg_mul_add(
+                    t122,
+                    assembly_shift.neg_mul_add(t119, assembly_shift.mul_add(t107, t123)),
+                );
+            let t127 = cos_assembly_turn.mul_add(t120, sin_assembly_turn * t105);
+            let t128 = cos_assembly_turn.mul_add(t121, sin_assembly_turn * t106);
+            let t129 = cos_assembly_turn.mul_add(t122, sin_assembly_turn * t107);
+            let t130 = cos_assembly_turn.mul_sub(t105, sin_assembly_turn * t120);
+            let t131 = cos_assembly_turn.mul_sub(t106, sin_assembly_turn * t121);
+            let t132 = cos_assembly_turn.mul_sub(t107, sin_assembly_turn * t122);
+            let t133 = cos_assembly_turn.mul_add(t130, sin_assembly_turn * t117);
+            let t134 = cos_assembly_turn.mul_add(t131, sin_assembly_turn * t118);
+            let t135 = cos_assembly_turn.mul_add(t132, sin_assembly_turn * t119);
+            let t136 = cos_assembly_turn.mul_sub(t117, sin_assembly_turn * t130);
+            let t137 = cos_assembly_turn.mul_sub(t118, sin_assembly_turn * t131);
+            let t138 = cos_assembly_turn.mul_sub(t119, sin_assembly_turn * t132);
+            let t139 = cos_assembly_turn.mul_add(t136, sin_assembly_turn * t127);
+            let t140 = cos_assembly_turn.mul_add(t137, sin_assembly_turn * t128);
+            let t141 = cos_assembly_turn.mul_add(t138, sin_assembly_turn * t129);
+            let t142 = cos_assembly_turn.mul_sub(t127, sin_assembly_turn * t136);
+            let t143 = cos_assembly_turn.mul_sub(t128, sin_assembly_turn * t137);
+            let t144 = cos_assembly_turn.mul_sub(t129, sin_assembly_turn * t138);
+            let t145 = y
+                .mul_add(t139, x.mul_add(t133, assembly_shift.neg_mul_add(t120, t124)));
+            let t146 = y
+                .mul_add(t140, x.mul_add(t134, assembly_shift.neg_mul_add(t121, t125)));
+            let t147 = z.mul_add(t142, t145);
+            let t148 = z.mul_add(t143, t146);
+            let t149 = z.mul_add(t144, y.mul_add(t141, x.mul_add(t135, t126)));
             *pose = [
-                [t134, t135, t136],
-                [t140, t141, t142],
-                [t143, t144, t145],
-                [t148, t149, t150],
+                [t133, t134, t135],
+                [t139, t140, t141],
+                [t142, t143, t144],
+                [t147, t148, t149],
             ];
         }
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
         ///
         /// 340 mul, 214 add, 7 div, 8 sincos, 4 neg.
+        #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -1771,225 +1739,285 @@ pub mod pps {
             tip_lever, arm_EI, arm_GJ, assembly_shift, assembly_turn] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let p2_y = y_offset + d2;
-            let p3_z = z_offset + d3;
-            let (s4, c4) = q4.sin_cos();
-            let p5_y = p2_y + roll_offset;
-            let (s5, c5) = q5.sin_cos();
-            let r5_11 = c4 * c5;
-            let t1 = s4 * c5;
-            let r5_31 = -t1;
-            let t2 = c4 * s5;
-            let r5_32 = s4 * s5;
-            let (s6, c6) = q6.sin_cos();
-            let r6_22 = c5 * c6;
-            let r6_12 = s4 * s6 - t2 * c6;
-            let r6_32 = r5_32 * c6 + c4 * s6;
-            let r6_13 = t2 * s6 + s4 * c6;
-            let r6_33 = c4 * c6 - r5_32 * s6;
-            let p6_x = d1 + r6_12 * couch_offset;
-            let p6_y = p5_y + r6_22 * couch_offset;
-            let p6_z = p3_z + r6_32 * couch_offset;
-            let pt_x = p6_x + r5_11 * x + r6_12 * y + r6_13 * z;
-            let pt_y = p6_y + s5 * x + r6_22 * y - c5 * s6 * z;
-            let pt_z = p6_z - t1 * x + r6_32 * y + r6_33 * z;
-            let lever1_x = pt_x - d1;
-            let t3 = -lever1_x;
-            let t4 = p3_z - pt_z;
-            let lever4_z = -t4;
-            let t5 = c4 * lever1_x + s4 * t4;
-            let lever5_y = pt_y - p5_y;
-            let t6 = t1 * lever5_y - s5 * t4;
-            let t7 = r5_11 * t4 - t1 * lever1_x;
-            let t8 = r5_11 * lever5_y - s5 * lever1_x;
-            let t9 = -(c4 * lever5_y);
-            let t10 = s4 * lever5_y;
-            let (sin_11, cos_11) = (d1 * T::constant(::core::f64::consts::PI)
-                / T::constant(1600.0))
-                .sin_cos();
-            let t12 = c4 * tip_lever;
-            let t13 = tip_load * (p3_z * p3_z) / arm_EI
-                * (p3_z / T::constant(3.0) + t12 / T::constant(2.0));
-            let t14 = assembly_shift - t13;
-            let t15 = p3_z * tip_load / arm_EI * (t12 + p3_z / T::constant(2.0))
-                + assembly_turn;
-            let (sin_16, cos_16) = (T::constant(6.2e-5) + T::constant(0.000119) * cos_11
-                - assembly_turn)
-                .sin_cos();
-            let (sin_assembly_turn, cos_assembly_turn) = assembly_turn.sin_cos();
-            let t17 = cos_16 * cos_assembly_turn;
-            let t18 = sin_16 * cos_assembly_turn;
-            let t19 = cos_16 * sin_assembly_turn;
-            let t20 = sin_16 * sin_assembly_turn;
-            let t21 = cos_assembly_turn * cos_assembly_turn;
-            let t22 = sin_assembly_turn * cos_assembly_turn;
-            let t23 = t20 + cos_assembly_turn * t19;
-            let t24 = t19 - cos_assembly_turn * t20;
-            let t25 = t18 - sin_assembly_turn * t19;
-            let t26 = t17 + sin_assembly_turn * t20;
-            let t27 = p2_y * t24
-                - (d1 * T::constant(6.2e-5) + T::constant(0.060706) * sin_11
-                    + assembly_shift);
-            let t28 = d1 + assembly_shift + p2_y * t23 - assembly_shift * t17
-                + assembly_shift * t23;
-            let t29 = assembly_shift + p2_y * t21 + assembly_shift * sin_assembly_turn
-                + assembly_shift * t21;
-            let t30 = t27 + assembly_shift * t18 + assembly_shift * t24
-                - assembly_shift * t26;
-            let t31 = cos_assembly_turn * t25 - sin_assembly_turn * t17;
-            let t32 = sin_assembly_turn * sin_assembly_turn - cos_assembly_turn * t22;
-            let t33 = cos_assembly_turn * t26 + sin_assembly_turn * t18;
-            let t34 = sin_assembly_turn * t25 + cos_assembly_turn * t17;
-            let t35 = t22 + sin_assembly_turn * t22;
-            let t36 = sin_assembly_turn * t26 - cos_assembly_turn * t18;
-            let t37 = cos_assembly_turn * t34 - sin_assembly_turn * t23;
-            let t38 = cos_assembly_turn * t35 + sin_assembly_turn * t21;
-            let t39 = cos_assembly_turn * t36 - sin_assembly_turn * t24;
-            let t40 = sin_assembly_turn * t34 + cos_assembly_turn * t23;
-            let t41 = cos_assembly_turn * t21 - sin_assembly_turn * t35;
-            let t42 = sin_assembly_turn * t36 + cos_assembly_turn * t24;
-            let t43 = cos_assembly_turn * t40 - sin_assembly_turn * t31;
-            let t44 = cos_assembly_turn * t41 - sin_assembly_turn * t32;
-            let t45 = cos_assembly_turn * t42 - sin_assembly_turn * t33;
-            let t46 = sin_assembly_turn * t40 + cos_assembly_turn * t31;
-            let t47 = sin_assembly_turn * t41 + cos_assembly_turn * t32;
-            let t48 = sin_assembly_turn * t42 + cos_assembly_turn * t33;
-            let t49 = t28 - assembly_shift * t25 + p3_z * t46 - assembly_shift * t37;
-            let t50 = t29 + assembly_shift * t22 + p3_z * t47 + assembly_shift * t38;
-            let t51 = t30 + p3_z * t48 - assembly_shift * t39 + t14 * t45;
-            let t52 = cos_assembly_turn * t46 - sin_assembly_turn * t37;
-            let t53 = cos_assembly_turn * t47 + sin_assembly_turn * t38;
-            let t54 = cos_assembly_turn * t48 - sin_assembly_turn * t39;
-            let t55 = sin_assembly_turn * t46 + cos_assembly_turn * t37;
-            let t56 = sin_assembly_turn * t47 - cos_assembly_turn * t38;
-            let t57 = sin_assembly_turn * t48 + cos_assembly_turn * t39;
-            let (sin_58, cos_58) = (p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ
-                + assembly_turn)
-                .sin_cos();
-            let t59 = t55 * cos_58 - t43 * sin_58;
-            let t60 = t56 * cos_58 - t44 * sin_58;
-            let t61 = t57 * cos_58 - t45 * sin_58;
-            let t62 = t55 * sin_58 + t43 * cos_58;
-            let t63 = t56 * sin_58 + t44 * cos_58;
-            let t64 = t57 * sin_58 + t45 * cos_58;
-            let (sin_65, cos_65) = t15.sin_cos();
-            let t66 = t62 * cos_65 + t52 * sin_65;
-            let t67 = t63 * cos_65 + t53 * sin_65;
-            let t68 = t64 * cos_65 + t54 * sin_65;
-            let t69 = t52 * cos_65 - t62 * sin_65;
-            let t70 = t53 * cos_65 - t63 * sin_65;
-            let t71 = t54 * cos_65 - t64 * sin_65;
-            let t72 = c4 * t69 + s4 * t59;
-            let t73 = c4 * t70 + s4 * t60;
-            let t74 = c4 * t71 + s4 * t61;
-            let t75 = c4 * t59 - s4 * t69;
-            let t76 = c4 * t60 - s4 * t70;
-            let t77 = c4 * t61 - s4 * t71;
-            let t78 = t49 + t14 * t43 + assembly_shift * t46 - assembly_shift * t75;
-            let t79 = t50 + t14 * t44 + assembly_shift * t47 - assembly_shift * t76;
-            let t80 = t51 + assembly_shift * t48 - assembly_shift * t77
-                + assembly_shift * t68;
-            let t81 = cos_assembly_turn * t72 - sin_assembly_turn * t75;
-            let t82 = cos_assembly_turn * t73 - sin_assembly_turn * t76;
-            let t83 = cos_assembly_turn * t74 - sin_assembly_turn * t77;
-            let t84 = sin_assembly_turn * t72 + cos_assembly_turn * t75;
-            let t85 = sin_assembly_turn * t73 + cos_assembly_turn * t76;
-            let t86 = sin_assembly_turn * t74 + cos_assembly_turn * t77;
-            let t87 = cos_assembly_turn * t84 - sin_assembly_turn * t66;
-            let t88 = cos_assembly_turn * t85 - sin_assembly_turn * t67;
-            let t89 = cos_assembly_turn * t86 - sin_assembly_turn * t68;
-            let t90 = sin_assembly_turn * t84 + cos_assembly_turn * t66;
-            let t91 = sin_assembly_turn * t85 + cos_assembly_turn * t67;
-            let t92 = sin_assembly_turn * t86 + cos_assembly_turn * t68;
-            let t93 = cos_assembly_turn * t90 + sin_assembly_turn * t81;
-            let t94 = cos_assembly_turn * t91 + sin_assembly_turn * t82;
-            let t95 = cos_assembly_turn * t92 + sin_assembly_turn * t83;
-            let t96 = cos_assembly_turn * t81 - sin_assembly_turn * t90;
-            let t97 = cos_assembly_turn * t82 - sin_assembly_turn * t91;
-            let t98 = cos_assembly_turn * t83 - sin_assembly_turn * t92;
-            let t99 = t78 + assembly_shift * t66 - assembly_shift * t72
-                + roll_offset * t93;
-            let t100 = t79 + assembly_shift * t67 - assembly_shift * t73
-                + roll_offset * t94;
-            let t101 = c5 * t87 + s5 * t93;
-            let t102 = c5 * t88 + s5 * t94;
-            let t103 = c5 * t89 + s5 * t95;
-            let t104 = c5 * t93 - s5 * t87;
-            let t105 = c5 * t94 - s5 * t88;
-            let t106 = c5 * t95 - s5 * t89;
-            let t107 = t80 - assembly_shift * t74 + roll_offset * t95
-                - assembly_shift * t103;
-            let t108 = t99 - assembly_shift * t101 - assembly_shift * t104
-                + assembly_shift * t96;
-            let t109 = t100 - assembly_shift * t102 - assembly_shift * t105
-                + assembly_shift * t97;
-            let t110 = cos_assembly_turn * t96 - sin_assembly_turn * t101;
-            let t111 = cos_assembly_turn * t97 - sin_assembly_turn * t102;
-            let t112 = cos_assembly_turn * t98 - sin_assembly_turn * t103;
-            let t113 = sin_assembly_turn * t96 + cos_assembly_turn * t101;
-            let t114 = sin_assembly_turn * t97 + cos_assembly_turn * t102;
-            let t115 = sin_assembly_turn * t98 + cos_assembly_turn * t103;
-            let t116 = cos_assembly_turn * t113 + sin_assembly_turn * t104;
-            let t117 = cos_assembly_turn * t114 + sin_assembly_turn * t105;
-            let t118 = cos_assembly_turn * t115 + sin_assembly_turn * t106;
-            let t119 = cos_assembly_turn * t104 - sin_assembly_turn * t113;
-            let t120 = cos_assembly_turn * t105 - sin_assembly_turn * t114;
-            let t121 = cos_assembly_turn * t106 - sin_assembly_turn * t115;
-            let t122 = cos_assembly_turn * t119 + sin_assembly_turn * t110;
-            let t123 = cos_assembly_turn * t120 + sin_assembly_turn * t111;
-            let t124 = cos_assembly_turn * t121 + sin_assembly_turn * t112;
-            let t125 = cos_assembly_turn * t110 - sin_assembly_turn * t119;
-            let t126 = cos_assembly_turn * t111 - sin_assembly_turn * t120;
-            let t127 = cos_assembly_turn * t112 - sin_assembly_turn * t121;
-            let t128 = c6 * t122 + s6 * t125;
-            let t129 = c6 * t123 + s6 * t126;
-            let t130 = c6 * t124 + s6 * t127;
-            let t131 = c6 * t125 - s6 * t122;
-            let t132 = c6 * t126 - s6 * t123;
-            let t133 = c6 * t127 - s6 * t124;
-            let t134 = t107 - assembly_shift * t106 + assembly_shift * t98
-                + couch_offset * t130;
-            let t135 = t108 + couch_offset * t128 + assembly_shift * t116
-                - assembly_shift * t128;
-            let t136 = t109 + couch_offset * t129 + assembly_shift * t117
-                - assembly_shift * t129;
-            let t137 = t134 + assembly_shift * t118 - assembly_shift * t130
-                - assembly_shift * t133;
-            let t138 = cos_assembly_turn * t131 + sin_assembly_turn * t116;
-            let t139 = cos_assembly_turn * t132 + sin_assembly_turn * t117;
-            let t140 = cos_assembly_turn * t133 + sin_assembly_turn * t118;
-            let t141 = cos_assembly_turn * t116 - sin_assembly_turn * t131;
-            let t142 = cos_assembly_turn * t117 - sin_assembly_turn * t132;
-            let t143 = cos_assembly_turn * t118 - sin_assembly_turn * t133;
-            let t144 = cos_assembly_turn * t141 + sin_assembly_turn * t128;
-            let t145 = cos_assembly_turn * t142 + sin_assembly_turn * t129;
-            let t146 = cos_assembly_turn * t143 + sin_assembly_turn * t130;
-            let t147 = cos_assembly_turn * t128 - sin_assembly_turn * t141;
-            let t148 = cos_assembly_turn * t129 - sin_assembly_turn * t142;
-            let t149 = cos_assembly_turn * t130 - sin_assembly_turn * t143;
-            let t150 = cos_assembly_turn * t147 + sin_assembly_turn * t138;
-            let t151 = cos_assembly_turn * t148 + sin_assembly_turn * t139;
-            let t152 = cos_assembly_turn * t149 + sin_assembly_turn * t140;
-            let t153 = cos_assembly_turn * t138 - sin_assembly_turn * t147;
-            let t154 = cos_assembly_turn * t139 - sin_assembly_turn * t148;
-            let t155 = cos_assembly_turn * t140 - sin_assembly_turn * t149;
-            let t156 = t135 - assembly_shift * t131 + x * t144 + y * t150;
-            let t157 = t136 - assembly_shift * t132 + x * t145 + y * t151;
-            let t158 = t156 + z * t153;
-            let t159 = t157 + z * t154;
-            let t160 = t137 + x * t146 + y * t152 + z * t155;
-            *pose = [
-                [t144, t145, t146],
-                [t150, t151, t152],
-                [t153, t154, t155],
-                [t158, t159, t160],
-            ];
             columns[0] = [one, zero, zero, zero, zero, zero];
             columns[1] = [zero, one, zero, zero, zero, zero];
             columns[2] = [zero, zero, one, zero, zero, zero];
-            columns[3] = [lever4_z, zero, t3, zero, one, zero];
-            columns[4] = [t9, t5, t10, s4, zero, c4];
-            columns[5] = [t6, t7, t8, r5_11, s5, r5_31];
+            let [(s4, c4), (s5, c5), (s6, c6), (sin_1, cos_1),
+            (sin_assembly_turn, cos_assembly_turn)] = T::sin_cos_each([
+                q4,
+                q5,
+                q6,
+                d1 * T::constant(::core::f64::consts::PI) / T::constant(1600.0),
+                assembly_turn,
+            ]);
+            let p2_y = y_offset + d2;
+            let p3_z = z_offset + d3;
+            let p5_y = p2_y + roll_offset;
+            let r5_11 = c4 * c5;
+            let t2 = s4 * c5;
+            let r5_31 = -t2;
+            let t3 = c4 * s5;
+            let r5_32 = s4 * s5;
+            let r6_22 = c5 * c6;
+            let r6_12 = s4.mul_sub(s6, t3 * c6);
+            let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            let r6_13 = t3.mul_add(s6, s4 * c6);
+            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
+            let p6_x = r6_12.mul_add(couch_offset, d1);
+            let p6_y = r6_22.mul_add(couch_offset, p5_y);
+            let p6_z = r6_32.mul_add(couch_offset, p3_z);
+            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
+            let pt_y = (c5 * s6).neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t2.neg_mul_add(x, p6_z)));
+            let lever1_x = pt_x - d1;
+            let t4 = -lever1_x;
+            let t5 = p3_z - pt_z;
+            let lever4_z = -t5;
+            columns[3] = [lever4_z, zero, t4, zero, one, zero];
+            let t6 = c4.mul_add(lever1_x, s4 * t5);
+            let lever5_y = pt_y - p5_y;
+            let t7 = t2.mul_sub(lever5_y, s5 * t5);
+            let t8 = r5_11.mul_sub(t5, t2 * lever1_x);
+            let t9 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            columns[5] = [t7, t8, t9, r5_11, s5, r5_31];
+            let t10 = -(c4 * lever5_y);
+            let t11 = s4 * lever5_y;
+            columns[4] = [t10, t6, t11, s4, zero, c4];
+            let t12 = c4 * tip_lever;
+            let t13 = (tip_load * (p3_z * p3_z) / arm_EI)
+                .neg_mul_add(
+                    p3_z / T::constant(3.0) + t12 / T::constant(2.0),
+                    assembly_shift,
+                );
+            let t14 = (p3_z * tip_load / arm_EI)
+                .mul_add(t12 + p3_z / T::constant(2.0), assembly_turn);
+            let (sin_15, cos_15) = (cos_1
+                .mul_add(T::constant(0.000119), T::constant(6.2e-5)) - assembly_turn)
+                .sin_cos();
+            let t16 = cos_15 * cos_assembly_turn;
+            let t17 = sin_15 * cos_assembly_turn;
+            let t18 = cos_15 * sin_assembly_turn;
+            let t19 = sin_15 * sin_assembly_turn;
+            let t20 = cos_assembly_turn * cos_assembly_turn;
+            let t21 = sin_assembly_turn * cos_assembly_turn;
+            let t22 = cos_assembly_turn.mul_add(t18, t19);
+            let t23 = cos_assembly_turn.neg_mul_add(t19, t18);
+            let t24 = sin_assembly_turn.neg_mul_add(t18, t17);
+            let t25 = sin_assembly_turn.mul_add(t19, t16);
+            let t26 = p2_y
+                .mul_sub(
+                    t23,
+                    d1.mul_add(T::constant(6.2e-5), T::constant(0.060706) * sin_1)
+                        + assembly_shift,
+                );
+            let t27 = assembly_shift
+                .mul_add(
+                    t22,
+                    assembly_shift
+                        .neg_mul_add(t16, p2_y.mul_add(t22, d1 + assembly_shift)),
+                );
+            let t28 = assembly_shift
+                .mul_add(
+                    t20,
+                    assembly_shift
+                        .mul_add(sin_assembly_turn, p2_y.mul_add(t20, assembly_shift)),
+                );
+            let t29 = assembly_shift
+                .neg_mul_add(
+                    t25,
+                    assembly_shift.mul_add(t23, assembly_shift.mul_add(t17, t26)),
+                );
+            let t30 = cos_assembly_turn.mul_sub(t24, sin_assembly_turn * t16);
+            let t31 = sin_assembly_turn
+                .mul_sub(sin_assembly_turn, cos_assembly_turn * t21);
+            let t32 = cos_assembly_turn.mul_add(t25, sin_assembly_turn * t17);
+            let t33 = sin_assembly_turn.mul_add(t24, cos_assembly_turn * t16);
+            let t34 = sin_assembly_turn.mul_add(t21, t21);
+            let t35 = sin_assembly_turn.mul_sub(t25, cos_assembly_turn * t17);
+            let t36 = cos_assembly_turn.mul_sub(t33, sin_assembly_turn * t22);
+            let t37 = cos_assembly_turn.mul_add(t34, sin_assembly_turn * t20);
+            let t38 = cos_assembly_turn.mul_sub(t35, sin_assembly_turn * t23);
+            let t39 = sin_assembly_turn.mul_add(t33, cos_assembly_turn * t22);
+            let t40 = cos_assembly_turn.mul_sub(t20, sin_assembly_turn * t34);
+            let t41 = sin_assembly_turn.mul_add(t35, cos_assembly_turn * t23);
+            let t42 = cos_assembly_turn.mul_sub(t39, sin_assembly_turn * t30);
+            let t43 = cos_assembly_turn.mul_sub(t40, sin_assembly_turn * t31);
+            let t44 = cos_assembly_turn.mul_sub(t41, sin_assembly_turn * t32);
+            let t45 = sin_assembly_turn.mul_add(t39, cos_assembly_turn * t30);
+            let t46 = sin_assembly_turn.mul_add(t40, cos_assembly_turn * t31);
+            let t47 = sin_assembly_turn.mul_add(t41, cos_assembly_turn * t32);
+            let t48 = assembly_shift
+                .neg_mul_add(
+                    t36,
+                    p3_z.mul_add(t45, assembly_shift.neg_mul_add(t24, t27)),
+                );
+            let t49 = assembly_shift
+                .mul_add(t37, p3_z.mul_add(t46, assembly_shift.mul_add(t21, t28)));
+            let t50 = t13
+                .mul_add(t44, assembly_shift.neg_mul_add(t38, p3_z.mul_add(t47, t29)));
+            let t51 = cos_assembly_turn.mul_sub(t45, sin_assembly_turn * t36);
+            let t52 = cos_assembly_turn.mul_add(t46, sin_assembly_turn * t37);
+            let t53 = cos_assembly_turn.mul_sub(t47, sin_assembly_turn * t38);
+            let t54 = sin_assembly_turn.mul_add(t45, cos_assembly_turn * t36);
+            let t55 = sin_assembly_turn.mul_sub(t46, cos_assembly_turn * t37);
+            let t56 = sin_assembly_turn.mul_add(t47, cos_assembly_turn * t38);
+            let (sin_57, cos_57) = (p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ
+                + assembly_turn)
+                .sin_cos();
+            let t58 = t54.mul_sub(cos_57, t42 * sin_57);
+            let t59 = t55.mul_sub(cos_57, t43 * sin_57);
+            let t60 = t56.mul_sub(cos_57, t44 * sin_57);
+            let t61 = t54.mul_add(sin_57, t42 * cos_57);
+            let t62 = t55.mul_add(sin_57, t43 * cos_57);
+            let t63 = t56.mul_add(sin_57, t44 * cos_57);
+            let (sin_64, cos_64) = t14.sin_cos();
+            let t65 = t61.mul_add(cos_64, t51 * sin_64);
+            let t66 = t62.mul_add(cos_64, t52 * sin_64);
+            let t67 = t63.mul_add(cos_64, t53 * sin_64);
+            let t68 = t51.mul_sub(cos_64, t61 * sin_64);
+            let t69 = t52.mul_sub(cos_64, t62 * sin_64);
+            let t70 = t53.mul_sub(cos_64, t63 * sin_64);
+            let t71 = c4.mul_add(t68, s4 * t58);
+            let t72 = c4.mul_add(t69, s4 * t59);
+            let t73 = c4.mul_add(t70, s4 * t60);
+            let t74 = c4.mul_sub(t58, s4 * t68);
+            let t75 = c4.mul_sub(t59, s4 * t69);
+            let t76 = c4.mul_sub(t60, s4 * t70);
+            let t77 = assembly_shift
+                .neg_mul_add(t74, assembly_shift.mul_add(t45, t13.mul_add(t42, t48)));
+            let t78 = assembly_shift
+                .neg_mul_add(t75, assembly_shift.mul_add(t46, t13.mul_add(t43, t49)));
+            let t79 = assembly_shift
+                .mul_add(
+                    t67,
+                    assembly_shift.neg_mul_add(t76, assembly_shift.mul_add(t47, t50)),
+                );
+            let t80 = cos_assembly_turn.mul_sub(t71, sin_assembly_turn * t74);
+            let t81 = cos_assembly_turn.mul_sub(t72, sin_assembly_turn * t75);
+            let t82 = cos_assembly_turn.mul_sub(t73, sin_assembly_turn * t76);
+            let t83 = sin_assembly_turn.mul_add(t71, cos_assembly_turn * t74);
+            let t84 = sin_assembly_turn.mul_add(t72, cos_assembly_turn * t75);
+            let t85 = sin_assembly_turn.mul_add(t73, cos_assembly_turn * t76);
+            let t86 = cos_assembly_turn.mul_sub(t83, sin_assembly_turn * t65);
+            let t87 = cos_assembly_turn.mul_sub(t84, sin_assembly_turn * t66);
+            let t88 = cos_assembly_turn.mul_sub(t85, sin_assembly_turn * t67);
+            let t89 = sin_assembly_turn.mul_add(t83, cos_assembly_turn * t65);
+            let t90 = sin_assembly_turn.mul_add(t84, cos_assembly_turn * t66);
+            let t91 = sin_assembly_turn.mul_add(t85, cos_assembly_turn * t67);
+            let t92 = cos_assembly_turn.mul_add(t89, sin_assembly_turn * t80);
+            let t93 = cos_assembly_turn.mul_add(t90, sin_assembly_turn * t81);
+            let t94 = cos_assembly_turn.mul_add(t91, sin_assembly_turn * t82);
+            let t95 = cos_assembly_turn.mul_sub(t80, sin_assembly_turn * t89);
+            let t96 = cos_assembly_turn.mul_sub(t81, sin_assembly_turn * t90);
+            let t97 = cos_assembly_turn.mul_sub(t82, sin_assembly_turn * t91);
+            let t98 = roll_offset
+                .mul_add(
+                    t92,
+                    assembly_shift.neg_mul_add(t71, assembly_shift.mul_add(t65, t77)),
+                );
+            let t99 = roll_offset
+                .mul_add(
+                    t93,
+                    assembly_shift.neg_mul_add(t72, assembly_shift.mul_add(t66, t78)),
+                );
+            let t100 = c5.mul_add(t86, s5 * t92);
+            let t101 = c5.mul_add(t87, s5 * t93);
+            let t102 = c5.mul_add(t88, s5 * t94);
+            let t103 = c5.mul_sub(t92, s5 * t86);
+            let t104 = c5.mul_sub(t93, s5 * t87);
+            let t105 = c5.mul_sub(t94, s5 * t88);
+            let t106 = assembly_shift
+                .neg_mul_add(
+                    t102,
+                    roll_offset.mul_add(t94, assembly_shift.neg_mul_add(t73, t79)),
+                );
+            let t107 = assembly_shift
+                .mul_add(
+                    t95,
+                    assembly_shift
+                        .neg_mul_add(t103, assembly_shift.neg_mul_add(t100, t98)),
+                );
+            let t108 = assembly_shift
+                .mul_add(
+                    t96,
+                    assembly_shift
+                        .neg_mul_add(t104, assembly_shift.neg_mul_add(t101, t99)),
+                );
+            let t109 = cos_assembly_turn.mul_sub(t95, sin_assembly_turn * t100);
+            let t110 = cos_assembly_turn.mul_sub(t96, sin_assembly_turn * t101);
+            let t111 = cos_assembly_turn.mul_sub(t97, sin_assembly_turn * t102);
+            let t112 = sin_assembly_turn.mul_add(t95, cos_assembly_turn * t100);
+            let t113 = sin_assembly_turn.mul_add(t96, cos_assembly_turn * t101);
+            let t114 = sin_assembly_turn.mul_add(t97, cos_assembly_turn * t102);
+            let t115 = cos_assembly_turn.mul_add(t112, sin_assembly_turn * t103);
+            let t116 = cos_assembly_turn.mul_add(t113, sin_assembly_turn * t104);
+            let t117 = cos_assembly_turn.mul_add(t114, sin_assembly_turn * t105);
+            let t118 = cos_assembly_turn.mul_sub(t103, sin_assembly_turn * t112);
+            let t119 = cos_assembly_turn.mul_sub(t104, sin_assembly_turn * t113);
+            let t120 = cos_assembly_turn.mul_sub(t105, sin_assembly_turn * t114);
+            let t121 = cos_assembly_turn.mul_add(t118, sin_assembly_turn * t109);
+            let t122 = cos_assembly_turn.mul_add(t119, sin_assembly_turn * t110);
+            let t123 = cos_assembly_turn.mul_add(t120, sin_assembly_turn * t111);
+            let t124 = cos_assembly_turn.mul_sub(t109, sin_assembly_turn * t118);
+            let t125 = cos_assembly_turn.mul_sub(t110, sin_assembly_turn * t119);
+            let t126 = cos_assembly_turn.mul_sub(t111, sin_assembly_turn * t120);
+            let t127 = c6.mul_add(t121, s6 * t124);
+            let t128 = c6.mul_add(t122, s6 * t125);
+            let t129 = c6.mul_add(t123, s6 * t126);
+            let t130 = c6.mul_sub(t124, s6 * t121);
+            let t131 = c6.mul_sub(t125, s6 * t122);
+            let t132 = c6.mul_sub(t126, s6 * t123);
+            let t133 = couch_offset
+                .mul_add(
+                    t129,
+                    assembly_shift.mul_add(t97, assembly_shift.neg_mul_add(t105, t106)),
+                );
+            let t134 = assembly_shift
+                .neg_mul_add(
+                    t127,
+                    assembly_shift.mul_add(t115, couch_offset.mul_add(t127, t107)),
+                );
+            let t135 = assembly_shift
+                .neg_mul_add(
+                    t128,
+                    assembly_shift.mul_add(t116, couch_offset.mul_add(t128, t108)),
+                );
+            let t136 = assembly_shift
+                .neg_mul_add(
+                    t132,
+                    assembly_shift.neg_mul_add(t129, assembly_shift.mul_add(t117, t133)),
+                );
+            let t137 = cos_assembly_turn.mul_add(t130, sin_assembly_turn * t115);
+            let t138 = cos_assembly_turn.mul_add(t131, sin_assembly_turn * t116);
+            let t139 = cos_assembly_turn.mul_add(t132, sin_assembly_turn * t117);
+            let t140 = cos_assembly_turn.mul_sub(t115, sin_assembly_turn * t130);
+            let t141 = cos_assembly_turn.mul_sub(t116, sin_assembly_turn * t131);
+            let t142 = cos_assembly_turn.mul_sub(t117, sin_assembly_turn * t132);
+            let t143 = cos_assembly_turn.mul_add(t140, sin_assembly_turn * t127);
+            let t144 = cos_assembly_turn.mul_add(t141, sin_assembly_turn * t128);
+            let t145 = cos_assembly_turn.mul_add(t142, sin_assembly_turn * t129);
+            let t146 = cos_assembly_turn.mul_sub(t127, sin_assembly_turn * t140);
+            let t147 = cos_assembly_turn.mul_sub(t128, sin_assembly_turn * t141);
+            let t148 = cos_assembly_turn.mul_sub(t129, sin_assembly_turn * t142);
+            let t149 = cos_assembly_turn.mul_add(t146, sin_assembly_turn * t137);
+            let t150 = cos_assembly_turn.mul_add(t147, sin_assembly_turn * t138);
+            let t151 = cos_assembly_turn.mul_add(t148, sin_assembly_turn * t139);
+            let t152 = cos_assembly_turn.mul_sub(t137, sin_assembly_turn * t146);
+            let t153 = cos_assembly_turn.mul_sub(t138, sin_assembly_turn * t147);
+            let t154 = cos_assembly_turn.mul_sub(t139, sin_assembly_turn * t148);
+            let t155 = y
+                .mul_add(t149, x.mul_add(t143, assembly_shift.neg_mul_add(t130, t134)));
+            let t156 = y
+                .mul_add(t150, x.mul_add(t144, assembly_shift.neg_mul_add(t131, t135)));
+            let t157 = z.mul_add(t152, t155);
+            let t158 = z.mul_add(t153, t156);
+            let t159 = z.mul_add(t154, y.mul_add(t151, x.mul_add(t145, t136)));
+            *pose = [
+                [t143, t144, t145],
+                [t149, t150, t151],
+                [t152, t153, t154],
+                [t157, t158, t159],
+            ];
         }
     }
 }

@@ -58,8 +58,8 @@ pub mod puma560 {
     pub const EFFECTS: usize = 8;
     /// How many sources there are.
     pub const SOURCES: usize = 6;
-    /// How many numbers of a frame's six columns of `J_e` are neither zero nor repeated.
-    pub const DISTINCT: usize = 18;
+    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    pub const DISTINCT: usize = 6;
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "puma560",
@@ -218,7 +218,14 @@ pub mod puma560 {
                 [zero, zero, one],
                 [zero, zero, zero],
             ];
-            let (s1, c1) = q1.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             let r1_23 = -c1;
             transforms[0] = [
                 [c1, s1, zero],
@@ -226,7 +233,6 @@ pub mod puma560 {
                 [s1, r1_23, zero],
                 [zero, zero, zero],
             ];
-            let (s2, c2) = q2.sin_cos();
             let t1 = -s2;
             let t2 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
@@ -236,7 +242,6 @@ pub mod puma560 {
                 [zero, zero, one],
                 [t2, p2_z, zero],
             ];
-            let (s3, c3) = q3.sin_cos();
             let t3 = -s3;
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
@@ -246,7 +251,6 @@ pub mod puma560 {
                 [t3, c3, zero],
                 [t4, t5, T::constant(0.15005)],
             ];
-            let (s4, c4) = q4.sin_cos();
             let t6 = -c4;
             transforms[3] = [
                 [c4, s4, zero],
@@ -254,7 +258,6 @@ pub mod puma560 {
                 [s4, t6, zero],
                 [zero, zero, T::constant(0.4318)],
             ];
-            let (s5, c5) = q5.sin_cos();
             let t7 = -s5;
             transforms[4] = [
                 [c5, s5, zero],
@@ -262,7 +265,6 @@ pub mod puma560 {
                 [t7, c5, zero],
                 [zero, zero, zero],
             ];
-            let (s6, c6) = q6.sin_cos();
             let t8 = -s6;
             transforms[5] = [
                 [c6, s6, zero],
@@ -281,8 +283,14 @@ pub mod puma560 {
             pose: &mut [[T; 3]; 4],
         ) {
             let [q1, q2, q3, q4, q5, q6] = *q;
-            let (s1, c1) = q1.sin_cos();
-            let (s2, c2) = q2.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
             let p2_x = c1 * t1;
@@ -291,7 +299,6 @@ pub mod puma560 {
             let r2_21 = s1 * c2;
             let t2 = c1 * s2;
             let t3 = s1 * s2;
-            let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
@@ -305,7 +312,6 @@ pub mod puma560 {
             let p3_y = p2_y
                 + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
             let r4_21 = r3_21.mul_add(c4, c1 * s4);
@@ -315,14 +321,12 @@ pub mod puma560 {
             let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
             let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
             let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
             let r5_13 = -r4_11.mul_add(s5, t6 * c5);
             let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
-            let (s6, c6) = q6.sin_cos();
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
             let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
             let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
@@ -350,12 +354,18 @@ pub mod puma560 {
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
             columns[1] = [zero, zero, one, zero, zero, zero];
-            let (s1, c1) = q1.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             columns[0] = [c1, s1, zero, zero, zero, zero];
             let r1_23 = -c1;
             columns[2] = [s1, r1_23, zero, zero, zero, zero];
             columns[8] = [s1, r1_23, zero, zero, zero, zero];
-            let (s2, c2) = q2.sin_cos();
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
             let p2_x = c1 * t1;
@@ -368,7 +378,6 @@ pub mod puma560 {
             let t3 = s1 * s2;
             let r2_22 = -t3;
             columns[7] = [r2_12, r2_22, c2, zero, zero, zero];
-            let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
@@ -391,7 +400,6 @@ pub mod puma560 {
             let p3_y = p2_y
                 + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
             let r4_21 = r3_21.mul_add(c4, c1 * s4);
@@ -405,7 +413,6 @@ pub mod puma560 {
             let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
             let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
             let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
@@ -423,7 +430,6 @@ pub mod puma560 {
             columns[28] = [zero, zero, zero, r5_13, r5_23, r5_33];
             columns[32] = [r5_13, r5_23, r5_33, zero, zero, zero];
             columns[34] = [zero, zero, zero, r5_13, r5_23, r5_33];
-            let (s6, c6) = q6.sin_cos();
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
             let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
             let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
@@ -485,9 +491,15 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let (s1, c1) = q1.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             let r1_23 = -c1;
-            let (s2, c2) = q2.sin_cos();
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
             let p2_x = c1 * t1;
@@ -496,7 +508,6 @@ pub mod puma560 {
             let r2_21 = s1 * c2;
             let t2 = c1 * s2;
             let t3 = s1 * s2;
-            let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
@@ -513,7 +524,6 @@ pub mod puma560 {
             let p3_y = p2_y
                 + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
             let r4_21 = r3_21.mul_add(c4, c1 * s4);
@@ -524,7 +534,6 @@ pub mod puma560 {
             let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
             let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
             let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
@@ -532,7 +541,6 @@ pub mod puma560 {
             let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
             columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
-            let (s6, c6) = q6.sin_cos();
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
             let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
             let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
@@ -572,8 +580,14 @@ pub mod puma560 {
             _columns: &mut [[T; 6]; PARAMETERS],
         ) {
             let [q1, q2, q3, q4, q5, q6] = *q;
-            let (s1, c1) = q1.sin_cos();
-            let (s2, c2) = q2.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
             let p2_x = c1 * t1;
@@ -582,7 +596,6 @@ pub mod puma560 {
             let r2_21 = s1 * c2;
             let t2 = c1 * s2;
             let t3 = s1 * s2;
-            let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
@@ -596,7 +609,6 @@ pub mod puma560 {
             let p3_y = p2_y
                 + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let (s4, c4) = q4.sin_cos();
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
             let r4_21 = r3_21.mul_add(c4, c1 * s4);
@@ -606,14 +618,12 @@ pub mod puma560 {
             let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
             let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
             let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let (s5, c5) = q5.sin_cos();
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
             let r5_13 = -r4_11.mul_add(s5, t6 * c5);
             let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
-            let (s6, c6) = q6.sin_cos();
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
             let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
             let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
@@ -670,223 +680,145 @@ pub mod puma560 {
         /// moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
         ///
         /// 94 mul, 45 add, 6 sincos, 21 neg.
+        #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
-            distinct: &mut [[T; DISTINCT]; FRAMES],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
         ) {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let (s1, c1) = q1.sin_cos();
+            distinct[0][1] = [zero, zero, one];
+            distinct[2][4] = [zero; 3];
+            distinct[3][3] = [zero; 3];
+            distinct[3][4] = [zero; 3];
+            distinct[3][5] = [zero; 3];
+            distinct[4][3] = [zero; 3];
+            distinct[4][4] = [zero; 3];
+            distinct[4][5] = [zero; 3];
+            distinct[5][3] = [zero; 3];
+            distinct[5][4] = [zero; 3];
+            distinct[5][5] = [zero; 3];
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
+            distinct[0][0] = [c1, s1, zero];
             let r1_23 = -c1;
-            let (s2, c2) = q2.sin_cos();
+            distinct[0][2] = [s1, r1_23, zero];
+            distinct[1][2] = [s1, r1_23, zero];
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
             let r2_21 = s1 * c2;
+            distinct[1][0] = [r2_11, r2_21, s2];
             let t2 = c1 * s2;
             let r2_12 = -t2;
             let t3 = s1 * s2;
             let r2_22 = -t3;
-            let (s3, c3) = q3.sin_cos();
+            distinct[1][1] = [r2_12, r2_22, c2];
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
-            let r3_11 = r2_11 * c3 - t2 * s3;
-            let r3_21 = r2_21 * c3 - t3 * s3;
-            let r3_31 = s2 * c3 + c2 * s3;
+            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
+            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            distinct[2][0] = [r3_11, r3_21, r3_31];
             let r3_12 = -s1;
-            let t6 = r2_11 * s3 + t2 * c3;
+            distinct[2][1] = [r3_12, c1, zero];
+            let t6 = r2_11.mul_add(s3, t2 * c3);
             let r3_13 = -t6;
-            let t7 = r2_21 * s3 + t3 * c3;
+            let t7 = r2_21.mul_add(s3, t3 * c3);
             let r3_23 = -t7;
-            let r3_33 = c2 * c3 - s2 * s3;
-            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
-            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
-            let p3_z = p2_z + (s2 * t4 + c2 * t5);
-            let (s4, c4) = q4.sin_cos();
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            distinct[2][2] = [r3_13, r3_23, r3_33];
+            distinct[3][1] = [r3_13, r3_23, r3_33];
+            let p3_x = p2_x
+                + s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y
+                + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
+            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11 * c4 - s1 * s4;
-            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
+            distinct[3][0] = [r4_11, r4_21, r4_31];
             let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11 * s4 + s1 * c4;
-            let r4_23 = r3_21 * s4 - c1 * c4;
-            let p4_x = p3_x - T::constant(0.4318) * t6;
-            let p4_y = p3_y - T::constant(0.4318) * t7;
-            let p4_z = p3_z + T::constant(0.4318) * r3_33;
-            let (s5, c5) = q5.sin_cos();
-            let r5_11 = r4_11 * c5 - t6 * s5;
-            let r5_21 = r4_21 * c5 - t7 * s5;
-            let r5_31 = r4_31 * c5 + r3_33 * s5;
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            distinct[3][2] = [r4_13, r4_23, r4_33];
+            let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
+            let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
+            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            distinct[4][0] = [r5_11, r5_21, r5_31];
             let r5_12 = -r4_13;
             let r5_22 = -r4_23;
             let r5_32 = -r4_33;
-            let r5_13 = -(r4_11 * s5 + t6 * c5);
-            let r5_23 = -(r4_21 * s5 + t7 * c5);
-            let r5_33 = r3_33 * c5 - r4_31 * s5;
-            let (s6, c6) = q6.sin_cos();
-            let r6_11 = r5_11 * c6 - r4_13 * s6;
-            let r6_21 = r5_21 * c6 - r4_23 * s6;
-            let r6_31 = r5_31 * c6 - r4_33 * s6;
-            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
-            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
-            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
-            let t8 = s1 * p4_z;
-            let t9 = -(c1 * p4_z);
-            let t10 = c1 * p4_y - s1 * p4_x;
-            let t11 = -p4_y;
-            let t12 = -t8;
-            let t13 = s1 * p4_y + c1 * p4_x;
-            let lever2_x = p4_x - p2_x;
-            let lever2_y = p4_y - p2_y;
-            let lever2_z = p4_z - p2_z;
-            let t14 = r2_21 * lever2_z - s2 * lever2_y;
-            let t15 = s2 * lever2_x - r2_11 * lever2_z;
-            let t16 = r2_11 * lever2_y - r2_21 * lever2_x;
-            let t17 = -(t3 * lever2_z + c2 * lever2_y);
-            let t18 = c2 * lever2_x + t2 * lever2_z;
-            let t19 = t3 * lever2_x - t2 * lever2_y;
-            let t20 = -(c1 * lever2_z);
-            let t21 = -(s1 * lever2_z);
-            let t22 = s1 * lever2_y + c1 * lever2_x;
-            let t23 = s1 * T::constant(0.4318);
-            let t24 = -(c1 * T::constant(0.4318));
-            let t25 = T::constant(0.4318) * r3_11;
-            let t26 = T::constant(0.4318) * r3_21;
-            let t27 = T::constant(0.4318) * r3_31;
+            distinct[4][1] = [r5_12, r5_22, r5_32];
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
+            distinct[4][2] = [r5_13, r5_23, r5_33];
+            distinct[5][2] = [r5_13, r5_23, r5_33];
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            distinct[5][0] = [r6_11, r6_21, r6_31];
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
             *pose = [
                 [r6_11, r6_21, r6_31],
                 [r6_12, r6_22, r6_32],
                 [r5_13, r5_23, r5_33],
                 [p4_x, p4_y, p4_z],
             ];
-            distinct[0] = [
-                c1,
-                s1,
-                zero,
-                zero,
-                zero,
-                one,
-                s1,
-                r1_23,
-                zero,
-                t11,
-                p4_x,
-                zero,
-                t9,
-                t12,
-                t13,
-                t8,
-                t9,
-                t10,
-            ];
-            distinct[1] = [
-                r2_11,
-                r2_21,
-                s2,
-                r2_12,
-                r2_22,
-                c2,
-                s1,
-                r1_23,
-                zero,
-                t17,
-                t18,
-                t19,
-                t20,
-                t21,
-                t22,
-                t14,
-                t15,
-                t16,
-            ];
-            distinct[2] = [
-                r3_11,
-                r3_21,
-                r3_31,
-                r3_12,
-                c1,
-                zero,
-                r3_13,
-                r3_23,
-                r3_33,
-                t25,
-                t26,
-                t27,
-                zero,
-                zero,
-                zero,
-                t23,
-                t24,
-                zero,
-            ];
-            distinct[3] = [
-                r4_11,
-                r4_21,
-                r4_31,
-                r3_13,
-                r3_23,
-                r3_33,
-                r4_13,
-                r4_23,
-                r4_33,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-            ];
-            distinct[4] = [
-                r5_11,
-                r5_21,
-                r5_31,
-                r5_12,
-                r5_22,
-                r5_32,
-                r5_13,
-                r5_23,
-                r5_33,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-            ];
-            distinct[5] = [
-                r6_11,
-                r6_21,
-                r6_31,
-                r6_12,
-                r6_22,
-                r6_32,
-                r5_13,
-                r5_23,
-                r5_33,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-            ];
+            distinct[5][1] = [r6_12, r6_22, r6_32];
+            let t8 = s1 * p4_z;
+            let t9 = -(c1 * p4_z);
+            let t10 = c1.mul_sub(p4_y, s1 * p4_x);
+            distinct[0][5] = [t8, t9, t10];
+            let t11 = -p4_y;
+            distinct[0][3] = [t11, p4_x, zero];
+            let t12 = -t8;
+            let t13 = s1.mul_add(p4_y, c1 * p4_x);
+            distinct[0][4] = [t9, t12, t13];
+            let lever2_x = p4_x - p2_x;
+            let lever2_y = p4_y - p2_y;
+            let lever2_z = p4_z - p2_z;
+            let t14 = r2_21.mul_sub(lever2_z, s2 * lever2_y);
+            let t15 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
+            let t16 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
+            distinct[1][5] = [t14, t15, t16];
+            let t17 = -t3.mul_add(lever2_z, c2 * lever2_y);
+            let t18 = c2.mul_add(lever2_x, t2 * lever2_z);
+            let t19 = t3.mul_sub(lever2_x, t2 * lever2_y);
+            distinct[1][3] = [t17, t18, t19];
+            let t20 = -(c1 * lever2_z);
+            let t21 = -(s1 * lever2_z);
+            let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
+            distinct[1][4] = [t20, t21, t22];
+            let t23 = s1 * T::constant(0.4318);
+            let t24 = -(c1 * T::constant(0.4318));
+            distinct[2][5] = [t23, t24, zero];
+            let t25 = T::constant(0.4318) * r3_11;
+            let t26 = T::constant(0.4318) * r3_21;
+            let t27 = T::constant(0.4318) * r3_31;
+            distinct[2][3] = [t25, t26, t27];
         }
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
         ///
         /// 70 mul, 73 add, 6 sincos.
+        #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -898,54 +830,58 @@ pub mod puma560 {
             e2_p], [e3_x, e3_y, e3_z, e3_s, e3_r, e3_p], [e4_x, e4_y, e4_z, e4_s, e4_r,
             e4_p], [e5_x, e5_y, e5_z, e5_s, e5_r, e5_p], [e6_x, e6_y, e6_z, e6_s, e6_r,
             e6_p]] = *errors;
-            let (s1, c1) = q1.sin_cos();
-            let (s2, c2) = q2.sin_cos();
-            let (s3, c3) = q3.sin_cos();
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
-            let (s6, c6) = q6.sin_cos();
-            let t1 = e5_x + (c6 * e6_x - s6 * e6_y);
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
+            let t1 = e5_x + c6.mul_sub(e6_x, s6 * e6_y);
             let t2 = e5_z + e6_z;
-            let t3 = e5_p + (c6 * e6_p - s6 * e6_s);
+            let t3 = e5_p + c6.mul_sub(e6_p, s6 * e6_s);
             let t4 = e5_r + e6_r;
-            let t5 = e4_x + (c5 * t1 - s5 * t2);
-            let t6 = e4_z - (e5_y + (s6 * e6_x + c6 * e6_y));
-            let t7 = e4_p + (c5 * t3 - s5 * t4);
-            let t8 = e4_r - (e5_s + (s6 * e6_p + c6 * e6_s));
-            let t9 = e3_z + (e4_y + (c5 * t2 + s5 * t1));
-            let t10 = T::constant(0.4318) * e3_s + (e3_x + (s4 * t6 + c4 * t5));
-            let t11 = e3_y + (s4 * t5 - c4 * t6) - T::constant(0.4318) * e3_p;
-            let t12 = e3_p + (s4 * t8 + c4 * t7);
-            let t13 = e3_r + (e4_s + (c5 * t4 + s5 * t3));
-            let t14 = c3 * T::constant(0.0203) - T::constant(0.4318) * s3;
-            let t15 = s3 * T::constant(0.0203) + T::constant(0.4318) * c3;
-            let t16 = T::constant(0.15005) * e2_s - e2_r * t15
-                + (e2_x + (c3 * t10 - s3 * t9));
-            let t17 = e2_r * t14 - T::constant(0.15005) * e2_p
-                + (e2_y + (c3 * t9 + s3 * t10));
-            let t18 = e2_p + (c3 * t12 - s3 * t13);
-            let t19 = e2_s + (c3 * t13 + s3 * t12);
+            let t5 = e4_x + c5.mul_sub(t1, s5 * t2);
+            let t6 = e4_z - (e5_y + s6.mul_add(e6_x, c6 * e6_y));
+            let t7 = e4_p + c5.mul_sub(t3, s5 * t4);
+            let t8 = e4_r - (e5_s + s6.mul_add(e6_p, c6 * e6_s));
+            let t9 = e3_z + (e4_y + c5.mul_add(t2, s5 * t1));
+            let t10 = e3_s.mul_add(T::constant(0.4318), e3_x + s4.mul_add(t6, c4 * t5));
+            let t11 = e3_p
+                .neg_mul_add(T::constant(0.4318), e3_y + s4.mul_sub(t5, c4 * t6));
+            let t12 = e3_p + s4.mul_add(t8, c4 * t7);
+            let t13 = e3_r + (e4_s + c5.mul_add(t4, s5 * t3));
+            let t14 = c3.mul_sub(T::constant(0.0203), T::constant(0.4318) * s3);
+            let t15 = s3.mul_add(T::constant(0.0203), T::constant(0.4318) * c3);
+            let t16 = e2_s.mul_sub(T::constant(0.15005), e2_r * t15)
+                + (e2_x + c3.mul_sub(t10, s3 * t9));
+            let t17 = e2_r.mul_sub(t14, T::constant(0.15005) * e2_p)
+                + (e2_y + c3.mul_add(t9, s3 * t10));
+            let t18 = e2_p + c3.mul_sub(t12, s3 * t13);
+            let t19 = e2_s + c3.mul_add(t13, s3 * t12);
             let t20 = T::constant(0.4318) + t14;
-            let t21 = c2 * t20 - s2 * t15;
-            let t22 = s2 * t20 + c2 * t15;
-            let t23 = e1_z + (e2_p * t15 - e2_s * t14 + (e2_z - t11));
-            let t24 = T::constant(0.15005) * e1_s - e1_r * t22
-                + (e1_x + (c2 * t16 - s2 * t17));
-            let t25 = e1_r * t21 - T::constant(0.15005) * e1_p
-                + (e1_y + (s2 * t16 + c2 * t17));
-            let t26 = e1_p * t22 - e1_s * t21 + t23;
-            let t27 = e1_p + (c2 * t18 - s2 * t19);
-            let t28 = e1_s + (s2 * t18 + c2 * t19);
-            let t29 = e1_r + (e2_r - (e3_s + (s4 * t7 - c4 * t8)));
-            let t30 = s1 * t26 + c1 * t24;
-            let t31 = s1 * t24 - c1 * t26;
-            let t32 = s1 * t29 + c1 * t27;
-            let t33 = s1 * t27 - c1 * t29;
+            let t21 = c2.mul_sub(t20, s2 * t15);
+            let t22 = s2.mul_add(t20, c2 * t15);
+            let t23 = e1_z + (e2_p.mul_sub(t15, e2_s * t14) + (e2_z - t11));
+            let t24 = e1_s.mul_sub(T::constant(0.15005), e1_r * t22)
+                + (e1_x + c2.mul_sub(t16, s2 * t17));
+            let t25 = e1_r.mul_sub(t21, T::constant(0.15005) * e1_p)
+                + (e1_y + s2.mul_add(t16, c2 * t17));
+            let t26 = e1_p.mul_sub(t22, e1_s * t21) + t23;
+            let t27 = e1_p + c2.mul_sub(t18, s2 * t19);
+            let t28 = e1_s + s2.mul_add(t18, c2 * t19);
+            let t29 = e1_r + (e2_r - (e3_s + s4.mul_sub(t7, c4 * t8)));
+            let t30 = s1.mul_add(t26, c1 * t24);
+            let t31 = s1.mul_sub(t24, c1 * t26);
+            let t32 = s1.mul_add(t29, c1 * t27);
+            let t33 = s1.mul_sub(t27, c1 * t29);
             *displacement = [t30, t31, t25, t32, t33, t28];
         }
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.
         ///
         /// 156 mul, 162 add, 6 sincos, 1 neg.
+        #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -957,12 +893,14 @@ pub mod puma560 {
             v2_p], [v3_x, v3_y, v3_z, v3_s, v3_r, v3_p], [v4_x, v4_y, v4_z, v4_s, v4_r,
             v4_p], [v5_x, v5_y, v5_z, v5_s, v5_r, v5_p], [v6_x, v6_y, v6_z, v6_s, v6_r,
             v6_p]] = *variances;
-            let (s1, c1) = q1.sin_cos();
-            let (s2, c2) = q2.sin_cos();
-            let (s3, c3) = q3.sin_cos();
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
-            let (s6, c6) = q6.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             let t1 = s1 * s1;
             let t2 = c2 * c2;
             let t3 = s3 * s3;
@@ -973,8 +911,8 @@ pub mod puma560 {
             let t8 = v5_r + v6_r;
             let t9 = T::constant(0.4318) * v3_s;
             let t10 = T::constant(0.4318) * v3_p;
-            let t11 = c3 * T::constant(0.0203) - T::constant(0.4318) * s3;
-            let t12 = s3 * T::constant(0.0203) + T::constant(0.4318) * c3;
+            let t11 = c3.mul_sub(T::constant(0.0203), T::constant(0.4318) * s3);
+            let t12 = s3.mul_add(T::constant(0.0203), T::constant(0.4318) * c3);
             let t13 = T::constant(0.15005) * v2_s;
             let t14 = v2_r * t12;
             let t15 = v2_r * t11;
@@ -982,8 +920,8 @@ pub mod puma560 {
             let t17 = v2_p * t12;
             let t18 = v2_s * t11;
             let t19 = T::constant(0.4318) + t11;
-            let t20 = c2 * t19 - s2 * t12;
-            let t21 = s2 * t19 + c2 * t12;
+            let t20 = c2.mul_sub(t19, s2 * t12);
+            let t21 = s2.mul_add(t19, c2 * t12);
             let t22 = T::constant(0.15005) * v1_s;
             let t23 = v1_r * t21;
             let t24 = v1_r * t20;
@@ -1017,17 +955,17 @@ pub mod puma560 {
             let t52 = c4 * s4;
             let t53 = t4 + t4 - T::constant(1.0);
             let t54 = t52 + t52;
-            let t55 = s4 * t38 + c4 * t42;
-            let t56 = c4 * t38 - s4 * t42;
+            let t55 = s4.mul_add(t38, c4 * t42);
+            let t56 = c4.mul_sub(t38, s4 * t42);
             let t57 = t50 - t48;
-            let t58 = t4 * t57 - t39 * t54;
-            let t59 = t52 * t57 + t39 * t53;
-            let t60 = s4 * t43 + c4 * t47;
-            let t61 = c4 * t43 - s4 * t47;
+            let t58 = t4.mul_sub(t57, t39 * t54);
+            let t59 = t52.mul_add(t57, t39 * t53);
+            let t60 = s4.mul_add(t43, c4 * t47);
+            let t61 = c4.mul_sub(t43, s4 * t47);
             let t62 = t51 - t49;
-            let t63 = t4 * t62 - t44 * t54;
-            let t64 = t52 * t62 + t44 * t53;
-            let t65 = v3_x + (t48 + t58 + T::constant(0.4318) * t9);
+            let t63 = t4.mul_sub(t62, t44 * t54);
+            let t64 = t52.mul_add(t62, t44 * t53);
+            let t65 = v3_x + t9.mul_add(T::constant(0.4318), t48 + t58);
             let t66 = v3_p + (t49 + t63);
             let t67 = v3_z + (v4_y + (t7 - t41));
             let t68 = v3_r + (v4_s + (t8 - t46));
@@ -1035,91 +973,92 @@ pub mod puma560 {
             let t70 = t3 + t3 - T::constant(1.0);
             let t71 = t69 + t69;
             let t72 = t67 - t65;
-            let t73 = t3 * t72 + t55 * t71;
-            let t74 = s3 * t61 + c3 * t64;
-            let t75 = s3 * t64 - c3 * t61;
+            let t73 = t3.mul_add(t72, t55 * t71);
+            let t74 = s3.mul_add(t61, c3 * t64);
+            let t75 = s3.mul_sub(t64, c3 * t61);
             let t76 = t68 - t66;
-            let t77 = t3 * t76 + t60 * t71;
-            let t78 = t60 * t70 - t69 * t76;
-            let t79 = t55 * t70 - t69 * t72 - t11 * t14;
-            let t80 = s3 * t56 + c3 * t59 - t11 * t13;
-            let t81 = s3 * t59 - c3 * t56 - t12 * t16;
-            let t82 = v3_y + (t50 - t58 + T::constant(0.4318) * t10)
-                + (t12 * t17 + t11 * t18);
-            let t83 = v2_x + (t65 + t73 + (T::constant(0.15005) * t13 + t12 * t14));
-            let t84 = t14 + c3 * t9;
+            let t77 = t3.mul_add(t76, t60 * t71);
+            let t78 = t60.mul_sub(t70, t69 * t76);
+            let t79 = t11.neg_mul_add(t14, t55.mul_sub(t70, t69 * t72));
+            let t80 = t11.neg_mul_add(t13, s3.mul_add(t56, c3 * t59));
+            let t81 = t12.neg_mul_add(t16, s3.mul_sub(t59, c3 * t56));
+            let t82 = v3_y + t10.mul_add(T::constant(0.4318), t50 - t58)
+                + t12.mul_add(t17, t11 * t18);
+            let t83 = v2_x + (t65 + t73 + t13.mul_add(T::constant(0.15005), t12 * t14));
+            let t84 = c3.mul_add(t9, t14);
             let t85 = v2_p + (t66 + t77);
-            let t86 = v2_y + (t67 - t73 + (T::constant(0.15005) * t16 + t11 * t15));
-            let t87 = t15 - s3 * t9;
+            let t86 = v2_y + (t67 - t73 + t16.mul_add(T::constant(0.15005), t11 * t15));
+            let t87 = s3.neg_mul_add(t9, t15);
             let t88 = v2_s + (t68 - t77);
-            let t89 = t17 + c3 * t10;
-            let t90 = s3 * t10 - t18;
+            let t89 = c3.mul_add(t10, t17);
+            let t90 = s3.mul_sub(t10, t18);
             let t91 = c2 * s2;
             let t92 = t2 + t2 - T::constant(1.0);
             let t93 = t91 + t91;
             let t94 = t83 - t86;
-            let t95 = t2 * t94 - t79 * t93;
-            let t96 = c2 * t74 - s2 * t75;
-            let t97 = s2 * t74 + c2 * t75;
+            let t95 = t2.mul_sub(t94, t79 * t93);
+            let t96 = c2.mul_sub(t74, s2 * t75);
+            let t97 = s2.mul_add(t74, c2 * t75);
             let t98 = t85 - t88;
-            let t99 = t2 * t98 - t78 * t93;
-            let t100 = t91 * t98 + t78 * t92;
+            let t99 = t2.mul_sub(t98, t78 * t93);
+            let t100 = t91.mul_add(t98, t78 * t92);
             let t101 = t13 - t16;
             let t102 = t91 * t101;
             let t103 = t2 * t101;
-            let t104 = t91 * t94 + t79 * t92 - t20 * t23;
-            let t105 = c2 * t80 - s2 * t81 - t20 * t22;
-            let t106 = s2 * t80 + c2 * t81 - t21 * t25;
-            let t107 = v1_x + (t86 + t95 + (T::constant(0.15005) * t22 + t21 * t23));
+            let t104 = t20.neg_mul_add(t23, t91.mul_add(t94, t79 * t92));
+            let t105 = t20.neg_mul_add(t22, c2.mul_sub(t80, s2 * t81));
+            let t106 = t21.neg_mul_add(t25, s2.mul_add(t80, c2 * t81));
+            let t107 = v1_x + (t86 + t95 + t22.mul_add(T::constant(0.15005), t21 * t23));
             let t108 = t22 + (t16 + t103);
-            let t109 = t23 + (c2 * t84 + s2 * t87);
+            let t109 = t23 + c2.mul_add(t84, s2 * t87);
             let t110 = v1_p + (t88 + t99);
-            let t111 = v1_y + (t83 - t95 + (T::constant(0.15005) * t25 + t20 * t24));
+            let t111 = v1_y + (t83 - t95 + t25.mul_add(T::constant(0.15005), t20 * t24));
             let t112 = t103 - t13 - t25;
-            let t113 = t24 + (c2 * t87 - s2 * t84);
+            let t113 = t24 + c2.mul_sub(t87, s2 * t84);
             let t114 = v1_s + (t85 - t99);
-            let t115 = v1_z + (v2_z + t82 + (t21 * t26 + t20 * t27));
-            let t116 = t26 + (c2 * t89 - s2 * t90);
-            let t117 = s2 * t89 + c2 * t90 - t27;
+            let t115 = v1_z + (v2_z + t82 + t21.mul_add(t26, t20 * t27));
+            let t116 = t26 + c2.mul_sub(t89, s2 * t90);
+            let t117 = s2.mul_add(t89, c2 * t90) - t27;
             let t118 = v1_r + (v2_r + (v3_s + (t51 - t63)));
             let t119 = c1 * s1;
             let t120 = t1 + t1 - T::constant(1.0);
             let t121 = t119 + t119;
-            let t122 = s1 * t106 + c1 * t104;
-            let t123 = s1 * t104 - c1 * t106;
+            let t122 = s1.mul_add(t106, c1 * t104);
+            let t123 = s1.mul_sub(t104, c1 * t106);
             let t124 = t115 - t107;
-            let t125 = t1 * t124 + t105 * t121;
+            let t125 = t1.mul_add(t124, t105 * t121);
             let t126 = t107 + t125;
             let t127 = t115 - t125;
-            let t128 = t105 * t120 - t119 * t124;
-            let t129 = s1 * t97 + c1 * t100;
-            let t130 = s1 * t100 - c1 * t97;
+            let t128 = t105.mul_sub(t120, t119 * t124);
+            let t129 = s1.mul_add(t97, c1 * t100);
+            let t130 = s1.mul_sub(t100, c1 * t97);
             let t131 = t118 - t110;
-            let t132 = t1 * t131 + t96 * t121;
+            let t132 = t1.mul_add(t131, t96 * t121);
             let t133 = t110 + t132;
             let t134 = t118 - t132;
-            let t135 = t96 * t120 - t119 * t131;
-            let t136 = s1 * t113 + c1 * t112;
-            let t137 = s1 * t112 - c1 * t113;
-            let t138 = s1 * t117 + c1 * t108;
-            let t139 = s1 * t108 - c1 * t117;
+            let t135 = t96.mul_sub(t120, t119 * t131);
+            let t136 = s1.mul_add(t113, c1 * t112);
+            let t137 = s1.mul_sub(t112, c1 * t113);
+            covariance[2] = [t122, t123, t111, t136, t137, t102];
+            let t138 = s1.mul_add(t117, c1 * t108);
+            let t139 = s1.mul_sub(t108, c1 * t117);
+            covariance[5] = [t138, t139, t102, t129, t130, t114];
             let t140 = t116 - t109;
-            let t141 = t1 * t102 + t119 * t140;
-            let t142 = t1 * t140 - t102 * t119;
+            let t141 = t1.mul_add(t102, t119 * t140);
+            let t142 = t1.mul_sub(t140, t102 * t119);
             let t143 = t141 - t102;
             let t144 = -t141;
             let t145 = t109 + t142;
-            let t146 = t142 - t116;
             covariance[0] = [t126, t128, t122, t143, t145, t138];
-            covariance[1] = [t128, t127, t123, t146, t144, t139];
-            covariance[2] = [t122, t123, t111, t136, t137, t102];
-            covariance[3] = [t143, t146, t136, t133, t135, t129];
             covariance[4] = [t145, t144, t137, t135, t134, t130];
-            covariance[5] = [t138, t139, t102, t129, t130, t114];
+            let t146 = t142 - t116;
+            covariance[1] = [t128, t127, t123, t146, t144, t139];
+            covariance[3] = [t143, t146, t136, t133, t135, t129];
         }
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -1132,6 +1071,7 @@ pub mod puma560 {
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.
         ///
         /// 69 mul, 25 add, 5 sincos, 9 neg.
+        #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -1140,60 +1080,19 @@ pub mod puma560 {
         ) {
             let [q1, q2, q3, q4, q5, _] = *q;
             let zero = T::constant(0.0);
-            let (s1, c1) = q1.sin_cos();
-            let (s2, c2) = q2.sin_cos();
-            let (s3, c3) = q3.sin_cos();
-            let (s4, c4) = q4.sin_cos();
-            let (s5, c5) = q5.sin_cos();
-            let t1 = c3 * T::constant(0.0203) - T::constant(0.4318) * s3;
-            let t2 = s3 * T::constant(0.0203) + T::constant(0.4318) * c3;
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+            ]);
+            let t1 = c3.mul_sub(T::constant(0.0203), T::constant(0.4318) * s3);
+            let t2 = s3.mul_add(T::constant(0.0203), T::constant(0.4318) * c3);
             let t3 = T::constant(5.017628908595749e-5)
-                * (c2 * (T::constant(0.4318) + t1) - s2 * t2);
-            let t4 = c1 * T::constant(7.528952177347921e-6) - s1 * t3;
-            let t5 = c1 * t3 + s1 * T::constant(7.528952177347921e-6);
-            let t6 = T::constant(2.9138734439454556e-5) * t2;
-            let t7 = T::constant(1.2582105530956479e-5)
-                + T::constant(2.9138734439454556e-5) * t1;
-            let t8 = c2 * t6 + s2 * t7;
-            let t9 = c2 * t7 - s2 * t6;
-            let t10 = -(s1 * t8);
-            let t11 = -(c1 * t8);
-            let t12 = s1 * T::constant(2.9138734439454556e-5);
-            let t13 = -(c1 * T::constant(2.9138734439454556e-5));
-            let t14 = s3 * T::constant(1.187464615284851e-6)
-                + c3 * T::constant(2.5258483787192057e-5);
-            let t15 = c3 * T::constant(1.187464615284851e-6)
-                - s3 * T::constant(2.5258483787192057e-5);
-            let t16 = c2 * t14 + s2 * t15;
-            let t17 = c2 * t15 - s2 * t14;
-            let t18 = -(s1 * t16);
-            let t19 = -(c1 * t16);
-            let t20 = s1 * T::constant(5.849579385639661e-5);
-            let t21 = -(c1 * T::constant(5.849579385639661e-5));
-            let t22 = s3 * T::constant(4.1316956794243195e-5);
-            let t23 = c3 * T::constant(4.1316956794243195e-5);
-            let t24 = c2 * t22 + s2 * t23;
-            let t25 = c2 * t23 - s2 * t22;
-            let t26 = -(s1 * t24);
-            let t27 = -(c1 * t24);
-            let t28 = s4 * T::constant(4.367994457391645e-5);
-            let t29 = c4 * T::constant(4.367994457391645e-5);
-            let t30 = s3 * t28;
-            let t31 = c3 * t28;
-            let t32 = c2 * t31 - s2 * t30;
-            let t33 = s2 * t31 + c2 * t30;
-            let t34 = s1 * t29 + c1 * t32;
-            let t35 = s1 * t32 - c1 * t29;
-            let t36 = s5 * T::constant(4.096696468181667e-5);
-            let t37 = c5 * T::constant(4.096696468181667e-5);
-            let t38 = s4 * t36;
-            let t39 = c4 * t36;
-            let t40 = s3 * t37 + c3 * t39;
-            let t41 = c3 * t37 - s3 * t39;
-            let t42 = c2 * t40 + s2 * t41;
-            let t43 = c2 * t41 - s2 * t40;
-            let t44 = s1 * t38 - c1 * t42;
-            let t45 = -(c1 * t38 + s1 * t42);
+                * c2.mul_sub(T::constant(0.4318) + t1, s2 * t2);
+            let t4 = c1.mul_sub(T::constant(7.528952177347921e-6), s1 * t3);
+            let t5 = c1.mul_add(t3, s1 * T::constant(7.528952177347921e-6));
             displacements[0] = [
                 t4,
                 t5,
@@ -1202,15 +1101,68 @@ pub mod puma560 {
                 zero,
                 T::constant(5.017628908595749e-5),
             ];
+            let t6 = T::constant(2.9138734439454556e-5) * t2;
+            let t7 = t1
+                .mul_add(
+                    T::constant(2.9138734439454556e-5),
+                    T::constant(1.2582105530956479e-5),
+                );
+            let t8 = c2.mul_add(t6, s2 * t7);
+            let t9 = c2.mul_sub(t7, s2 * t6);
+            let t10 = -(s1 * t8);
+            let t11 = -(c1 * t8);
+            let t12 = s1 * T::constant(2.9138734439454556e-5);
+            let t13 = -(c1 * T::constant(2.9138734439454556e-5));
             displacements[1] = [t11, t10, t9, t12, t13, zero];
+            let t14 = s3
+                .mul_add(
+                    T::constant(1.187464615284851e-6),
+                    c3 * T::constant(2.5258483787192057e-5),
+                );
+            let t15 = c3
+                .mul_sub(
+                    T::constant(1.187464615284851e-6),
+                    s3 * T::constant(2.5258483787192057e-5),
+                );
+            let t16 = c2.mul_add(t14, s2 * t15);
+            let t17 = c2.mul_sub(t15, s2 * t14);
+            let t18 = -(s1 * t16);
+            let t19 = -(c1 * t16);
+            let t20 = s1 * T::constant(5.849579385639661e-5);
+            let t21 = -(c1 * T::constant(5.849579385639661e-5));
             displacements[2] = [t19, t18, t17, t20, t21, zero];
+            let t22 = s3 * T::constant(4.1316956794243195e-5);
+            let t23 = c3 * T::constant(4.1316956794243195e-5);
+            let t24 = c2.mul_add(t22, s2 * t23);
+            let t25 = c2.mul_sub(t23, s2 * t22);
+            let t26 = -(s1 * t24);
+            let t27 = -(c1 * t24);
             displacements[3] = [zero, zero, zero, t27, t26, t25];
+            let t28 = s4 * T::constant(4.367994457391645e-5);
+            let t29 = c4 * T::constant(4.367994457391645e-5);
+            let t30 = s3 * t28;
+            let t31 = c3 * t28;
+            let t32 = c2.mul_sub(t31, s2 * t30);
+            let t33 = s2.mul_add(t31, c2 * t30);
+            let t34 = s1.mul_add(t29, c1 * t32);
+            let t35 = s1.mul_sub(t32, c1 * t29);
             displacements[4] = [zero, zero, zero, t34, t35, t33];
+            let t36 = s5 * T::constant(4.096696468181667e-5);
+            let t37 = c5 * T::constant(4.096696468181667e-5);
+            let t38 = s4 * t36;
+            let t39 = c4 * t36;
+            let t40 = s3.mul_add(t37, c3 * t39);
+            let t41 = c3.mul_sub(t37, s3 * t39);
+            let t42 = c2.mul_add(t40, s2 * t41);
+            let t43 = c2.mul_sub(t41, s2 * t40);
+            let t44 = s1.mul_sub(t38, c1 * t42);
+            let t45 = -c1.mul_add(t38, s1 * t42);
             displacements[5] = [zero, zero, zero, t44, t45, t43];
         }
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
         ///
         /// 67 mul, 33 add, 6 sincos, 5 neg.
+        #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -1218,8 +1170,14 @@ pub mod puma560 {
             pose: &mut [[T; 3]; 4],
         ) {
             let [q1, q2, q3, q4, q5, q6] = *q;
-            let (s1, c1) = q1.sin_cos();
-            let (s2, c2) = q2.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
             let p2_x = c1 * t1;
@@ -1228,42 +1186,40 @@ pub mod puma560 {
             let r2_21 = s1 * c2;
             let t2 = c1 * s2;
             let t3 = s1 * s2;
-            let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
-            let r3_11 = r2_11 * c3 - t2 * s3;
-            let r3_21 = r2_21 * c3 - t3 * s3;
-            let r3_31 = s2 * c3 + c2 * s3;
-            let t6 = r2_11 * s3 + t2 * c3;
-            let t7 = r2_21 * s3 + t3 * c3;
-            let r3_33 = c2 * c3 - s2 * s3;
-            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
-            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
-            let p3_z = p2_z + (s2 * t4 + c2 * t5);
-            let (s4, c4) = q4.sin_cos();
+            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
+            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            let t6 = r2_11.mul_add(s3, t2 * c3);
+            let t7 = r2_21.mul_add(s3, t3 * c3);
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            let p3_x = p2_x
+                + s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y
+                + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
+            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11 * c4 - s1 * s4;
-            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
             let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11 * s4 + s1 * c4;
-            let r4_23 = r3_21 * s4 - c1 * c4;
-            let p4_x = p3_x - T::constant(0.4318) * t6;
-            let p4_y = p3_y - T::constant(0.4318) * t7;
-            let p4_z = p3_z + T::constant(0.4318) * r3_33;
-            let (s5, c5) = q5.sin_cos();
-            let r5_11 = r4_11 * c5 - t6 * s5;
-            let r5_21 = r4_21 * c5 - t7 * s5;
-            let r5_31 = r4_31 * c5 + r3_33 * s5;
-            let r5_13 = -(r4_11 * s5 + t6 * c5);
-            let r5_23 = -(r4_21 * s5 + t7 * c5);
-            let r5_33 = r3_33 * c5 - r4_31 * s5;
-            let (s6, c6) = q6.sin_cos();
-            let r6_11 = r5_11 * c6 - r4_13 * s6;
-            let r6_21 = r5_21 * c6 - r4_23 * s6;
-            let r6_31 = r5_31 * c6 - r4_33 * s6;
-            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
-            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
-            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
+            let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
+            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
             *pose = [
                 [r6_11, r6_21, r6_31],
                 [r6_12, r6_22, r6_32],
@@ -1274,6 +1230,7 @@ pub mod puma560 {
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
         ///
         /// 83 mul, 50 add, 6 sincos, 13 neg.
+        #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -1284,9 +1241,15 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let (s1, c1) = q1.sin_cos();
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([
+                q1,
+                q2,
+                q3,
+                q4,
+                q5,
+                q6,
+            ]);
             let r1_23 = -c1;
-            let (s2, c2) = q2.sin_cos();
             let t1 = c2 * T::constant(0.4318);
             let p2_z = s2 * T::constant(0.4318);
             let p2_x = c1 * t1;
@@ -1295,67 +1258,66 @@ pub mod puma560 {
             let r2_21 = s1 * c2;
             let t2 = c1 * s2;
             let t3 = s1 * s2;
-            let (s3, c3) = q3.sin_cos();
             let t4 = c3 * T::constant(0.0203);
             let t5 = s3 * T::constant(0.0203);
-            let r3_11 = r2_11 * c3 - t2 * s3;
-            let r3_21 = r2_21 * c3 - t3 * s3;
-            let r3_31 = s2 * c3 + c2 * s3;
-            let t6 = r2_11 * s3 + t2 * c3;
+            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
+            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            let t6 = r2_11.mul_add(s3, t2 * c3);
             let r3_13 = -t6;
-            let t7 = r2_21 * s3 + t3 * c3;
+            let t7 = r2_21.mul_add(s3, t3 * c3);
             let r3_23 = -t7;
-            let r3_33 = c2 * c3 - s2 * s3;
-            let p3_x = p2_x + (s1 * T::constant(0.15005) + (r2_11 * t4 - t2 * t5));
-            let p3_y = p2_y + (r2_21 * t4 - t3 * t5 - c1 * T::constant(0.15005));
-            let p3_z = p2_z + (s2 * t4 + c2 * t5);
-            let (s4, c4) = q4.sin_cos();
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            let p3_x = p2_x
+                + s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y
+                + c1.neg_mul_add(T::constant(0.15005), r2_21.mul_sub(t4, t3 * t5));
+            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11 * c4 - s1 * s4;
-            let r4_21 = r3_21 * c4 + c1 * s4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
             let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11 * s4 + s1 * c4;
-            let r4_23 = r3_21 * s4 - c1 * c4;
-            let p4_x = p3_x - T::constant(0.4318) * t6;
-            let p4_y = p3_y - T::constant(0.4318) * t7;
-            let p4_z = p3_z + T::constant(0.4318) * r3_33;
-            let (s5, c5) = q5.sin_cos();
-            let r5_11 = r4_11 * c5 - t6 * s5;
-            let r5_21 = r4_21 * c5 - t7 * s5;
-            let r5_31 = r4_31 * c5 + r3_33 * s5;
-            let r5_13 = -(r4_11 * s5 + t6 * c5);
-            let r5_23 = -(r4_21 * s5 + t7 * c5);
-            let r5_33 = r3_33 * c5 - r4_31 * s5;
-            let (s6, c6) = q6.sin_cos();
-            let r6_11 = r5_11 * c6 - r4_13 * s6;
-            let r6_21 = r5_21 * c6 - r4_23 * s6;
-            let r6_31 = r5_31 * c6 - r4_33 * s6;
-            let r6_12 = -(r5_11 * s6 + r4_13 * c6);
-            let r6_22 = -(r5_21 * s6 + r4_23 * c6);
-            let r6_32 = -(r5_31 * s6 + r4_33 * c6);
-            let t8 = -p4_y;
-            let lever2_x = p4_x - p2_x;
-            let lever2_y = p4_y - p2_y;
-            let lever2_z = p4_z - p2_z;
-            let t9 = -(c1 * lever2_z + c1 * p2_z);
-            let t10 = -(s1 * lever2_z + s1 * p2_z);
-            let t11 = t1 + (s1 * lever2_y + c1 * lever2_x);
-            let t12 = p4_z - p3_z;
-            let t13 = -(r2_11 * t5 + t2 * t4 + c1 * t12);
-            let t14 = -(r2_21 * t5 + t3 * t4 + s1 * t12);
-            let t15 = c2 * t4 - s2 * t5 + (s1 * (p4_y - p3_y) + c1 * (p4_x - p3_x));
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
+            let p4_x = t6.neg_mul_add(T::constant(0.4318), p3_x);
+            let p4_y = t7.neg_mul_add(T::constant(0.4318), p3_y);
+            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
+            columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
             *pose = [
                 [r6_11, r6_21, r6_31],
                 [r6_12, r6_22, r6_32],
                 [r5_13, r5_23, r5_33],
                 [p4_x, p4_y, p4_z],
             ];
+            let t8 = -p4_y;
             columns[0] = [t8, p4_x, zero, zero, zero, one];
+            let lever2_x = p4_x - p2_x;
+            let lever2_y = p4_y - p2_y;
+            let lever2_z = p4_z - p2_z;
+            let t9 = -c1.mul_add(lever2_z, c1 * p2_z);
+            let t10 = -s1.mul_add(lever2_z, s1 * p2_z);
+            let t11 = t1 + s1.mul_add(lever2_y, c1 * lever2_x);
             columns[1] = [t9, t10, t11, s1, r1_23, zero];
+            let t12 = p4_z - p3_z;
+            let t13 = -c1.mul_add(t12, r2_11.mul_add(t5, t2 * t4));
+            let t14 = -s1.mul_add(t12, r2_21.mul_add(t5, t3 * t4));
+            let t15 = c2.mul_sub(t4, s2 * t5)
+                + s1.mul_add(p4_y - p3_y, c1 * (p4_x - p3_x));
             columns[2] = [t13, t14, t15, s1, r1_23, zero];
-            columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
-            columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
         }
     }
 }

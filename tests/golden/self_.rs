@@ -51,8 +51,8 @@ pub mod self_ {
     pub const EFFECTS: usize = 2;
     /// How many sources there are.
     pub const SOURCES: usize = 1;
-    /// How many numbers of a frame's six columns of `J_e` are neither zero nor repeated.
-    pub const DISTINCT: usize = 18;
+    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    pub const DISTINCT: usize = 6;
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "self_",
@@ -206,11 +206,17 @@ pub mod self_ {
                 [zero, zero, one],
                 [zero, zero, zero],
             ];
-            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
-            let t2 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
+            let t4 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
             let r1_32 = -sin_r1_11;
             let r1_33 = -cos_r1_11;
             let r1_12 = sin_1 * cos_r1_11;
@@ -223,22 +229,19 @@ pub mod self_ {
                 [r1_13, r1_23, r1_33],
                 [p1_x, p1_y, zero],
             ];
-            let (sin__s, cos__s) = _s.sin_cos();
-            let (sin_3, cos_3) = self_.atan2(q_).sin_cos();
-            let (sin_4, cos_4) = Some_.abs().powf(T::constant(2.7)).sin_cos();
             let t5 = cos__s * self_;
             let t6 = sin__s * self_;
-            let t7 = cos__s * cos_3;
-            let t8 = sin__s * cos_3;
-            let t9 = cos__s * sin_3;
-            let t10 = sin__s * sin_3;
-            let t11 = -sin_3;
-            let t12 = cos_3 * cos_4;
-            let t13 = cos_3 * sin_4;
-            let t14 = sin_4.mul_sub(t9, sin__s * cos_4);
-            let t15 = cos__s.mul_add(cos_4, sin_4 * t10);
-            let t16 = sin__s.mul_add(sin_4, cos_4 * t9);
-            let t17 = cos_4.mul_sub(t10, cos__s * sin_4);
+            let t7 = cos__s * cos_2;
+            let t8 = sin__s * cos_2;
+            let t9 = cos__s * sin_2;
+            let t10 = sin__s * sin_2;
+            let t11 = -sin_2;
+            let t12 = cos_2 * cos_3;
+            let t13 = cos_2 * sin_3;
+            let t14 = sin_3.mul_sub(t9, sin__s * cos_3);
+            let t15 = cos__s.mul_add(cos_3, sin_3 * t10);
+            let t16 = sin__s.mul_add(sin_3, cos_3 * t9);
+            let t17 = cos_3.mul_sub(t10, cos__s * sin_3);
             transforms[1] = [
                 [t7, t8, t11],
                 [t14, t15, t13],
@@ -257,39 +260,42 @@ pub mod self_ {
         ) {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
-            let t2 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
+            let t4 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
             let r1_12 = sin_1 * cos_r1_11;
-            let t3 = cos_1 * cos_r1_11;
-            let t4 = sin_1 * sin_r1_11;
+            let t5 = cos_1 * cos_r1_11;
+            let t6 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let (sin__s, cos__s) = _s.sin_cos();
-            let t5 = sin_r1_11 * cos__s;
-            let t6 = sin_r1_11 * sin__s;
-            let t7 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t8 = sin_1.mul_sub(cos__s, t3 * sin__s);
-            let t9 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t10 = sin_1.mul_add(sin__s, t3 * cos__s);
-            let p2_z = -(t6 * self_);
-            let p2_x = t7.mul_add(self_, p1_x);
-            let p2_y = t8.mul_add(self_, p1_y);
-            let (sin_11, cos_11) = self_.atan2(q_).sin_cos();
-            let t12 = t7.mul_sub(sin_11, t4 * cos_11);
-            let t13 = r1_23.mul_add(cos_11, t8 * sin_11);
-            let t14 = cos_r1_11.mul_add(cos_11, t6 * sin_11);
-            let r2_11 = t4.mul_add(sin_11, t7 * cos_11);
-            let r2_21 = t8.mul_sub(cos_11, r1_23 * sin_11);
-            let r2_31 = cos_r1_11.mul_sub(sin_11, t6 * cos_11);
-            let (sin_15, cos_15) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t9.mul_add(cos_15, t12 * sin_15);
-            let r2_22 = t13.mul_sub(sin_15, t10 * cos_15);
-            let r2_32 = -t5.mul_add(cos_15, t14 * sin_15);
-            let r2_13 = t12.mul_sub(cos_15, t9 * sin_15);
-            let r2_23 = t10.mul_add(sin_15, t13 * cos_15);
-            let r2_33 = t5.mul_sub(sin_15, t14 * cos_15);
+            let t7 = sin_r1_11 * cos__s;
+            let t8 = sin_r1_11 * sin__s;
+            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
+            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let p2_z = -(t8 * self_);
+            let p2_x = t9.mul_add(self_, p1_x);
+            let p2_y = t10.mul_add(self_, p1_y);
+            let t13 = t9.mul_sub(sin_2, t6 * cos_2);
+            let t14 = r1_23.mul_add(cos_2, t10 * sin_2);
+            let t15 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
+            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
+            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
+            let r2_12 = t11.mul_add(cos_3, t13 * sin_3);
+            let r2_22 = t14.mul_sub(sin_3, t12 * cos_3);
+            let r2_32 = -t7.mul_add(cos_3, t15 * sin_3);
+            let r2_13 = t13.mul_sub(cos_3, t11 * sin_3);
+            let r2_23 = t12.mul_add(sin_3, t14 * cos_3);
+            let r2_33 = t7.mul_sub(sin_3, t15 * cos_3);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
@@ -310,51 +316,54 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
             columns[0] = [cos_1, sin_1, zero, zero, zero, zero];
-            let t2 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
+            let t4 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
             let r1_32 = -sin_r1_11;
             let r1_33 = -cos_r1_11;
             let r1_12 = sin_1 * cos_r1_11;
-            let t3 = cos_1 * cos_r1_11;
-            let r1_22 = -t3;
+            let t5 = cos_1 * cos_r1_11;
+            let r1_22 = -t5;
             columns[1] = [r1_12, r1_22, r1_32, zero, zero, zero];
-            let t4 = sin_1 * sin_r1_11;
+            let t6 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let r1_13 = -t4;
+            let r1_13 = -t6;
             columns[2] = [r1_13, r1_23, r1_33, zero, zero, zero];
-            let (sin__s, cos__s) = _s.sin_cos();
-            let t5 = sin_r1_11 * cos__s;
-            let t6 = sin_r1_11 * sin__s;
-            let t7 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t8 = sin_1.mul_sub(cos__s, t3 * sin__s);
-            let t9 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t10 = sin_1.mul_add(sin__s, t3 * cos__s);
-            let t11 = t6 * self_;
-            let p2_z = -t11;
-            let p2_x = t7.mul_add(self_, p1_x);
-            let p2_y = t8.mul_add(self_, p1_y);
-            let (sin_12, cos_12) = self_.atan2(q_).sin_cos();
-            let t13 = t7.mul_sub(sin_12, t4 * cos_12);
-            let t14 = r1_23.mul_add(cos_12, t8 * sin_12);
-            let t15 = cos_r1_11.mul_add(cos_12, t6 * sin_12);
-            let r2_11 = t4.mul_add(sin_12, t7 * cos_12);
-            let r2_21 = t8.mul_sub(cos_12, r1_23 * sin_12);
-            let r2_31 = cos_r1_11.mul_sub(sin_12, t6 * cos_12);
+            let t7 = sin_r1_11 * cos__s;
+            let t8 = sin_r1_11 * sin__s;
+            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
+            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let t13 = t8 * self_;
+            let p2_z = -t13;
+            let p2_x = t9.mul_add(self_, p1_x);
+            let p2_y = t10.mul_add(self_, p1_y);
+            let t14 = t9.mul_sub(sin_2, t6 * cos_2);
+            let t15 = r1_23.mul_add(cos_2, t10 * sin_2);
+            let t16 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
+            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
+            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
             columns[6] = [r2_11, r2_21, r2_31, zero, zero, zero];
             columns[11] = [zero, zero, zero, r2_11, r2_21, r2_31];
-            let (sin_16, cos_16) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t9.mul_add(cos_16, t13 * sin_16);
-            let r2_22 = t14.mul_sub(sin_16, t10 * cos_16);
-            let r2_32 = -t5.mul_add(cos_16, t15 * sin_16);
+            let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
+            let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
+            let r2_32 = -t7.mul_add(cos_3, t16 * sin_3);
             columns[7] = [r2_12, r2_22, r2_32, zero, zero, zero];
             columns[9] = [zero, zero, zero, r2_12, r2_22, r2_32];
-            let r2_13 = t13.mul_sub(cos_16, t9 * sin_16);
-            let r2_23 = t10.mul_add(sin_16, t14 * cos_16);
-            let r2_33 = t5.mul_sub(sin_16, t15 * cos_16);
+            let r2_13 = t14.mul_sub(cos_3, t11 * sin_3);
+            let r2_23 = t12.mul_add(sin_3, t15 * cos_3);
+            let r2_33 = t7.mul_sub(sin_3, t16 * cos_3);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
@@ -365,17 +374,17 @@ pub mod self_ {
             columns[10] = [zero, zero, zero, r2_13, r2_23, r2_33];
             let lever1_x = p2_x - p1_x;
             let lever1_y = p2_y - p1_y;
-            let t17 = -(sin_1 * t11);
-            let t18 = cos_1 * t11;
+            let t17 = -(sin_1 * t13);
+            let t18 = cos_1 * t13;
             let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
             columns[5] = [t17, t18, t19, cos_1, sin_1, zero];
-            let t20 = t3.mul_add(t11, sin_r1_11 * lever1_y);
-            let t21 = r1_12.mul_sub(t11, sin_r1_11 * lever1_x);
-            let t22 = r1_12.mul_add(lever1_y, t3 * lever1_x);
+            let t20 = t5.mul_add(t13, sin_r1_11 * lever1_y);
+            let t21 = r1_12.mul_sub(t13, sin_r1_11 * lever1_x);
+            let t22 = r1_12.mul_add(lever1_y, t5 * lever1_x);
             columns[3] = [t20, t21, t22, r1_12, r1_22, r1_32];
-            let t23 = cos_r1_11.mul_sub(lever1_y, r1_23 * t11);
-            let t24 = -cos_r1_11.mul_add(lever1_x, t4 * t11);
-            let t25 = -t4.mul_add(lever1_y, r1_23 * lever1_x);
+            let t23 = cos_r1_11.mul_sub(lever1_y, r1_23 * t13);
+            let t24 = -cos_r1_11.mul_add(lever1_x, t6 * t13);
+            let t25 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
             columns[4] = [t23, t24, t25, r1_13, r1_23, r1_33];
         }
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
@@ -391,60 +400,63 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
-            let t2 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let r1_12 = sin_1 * cos_r1_11;
-            let t3 = cos_1 * cos_r1_11;
-            let t4 = sin_1 * sin_r1_11;
-            let r1_23 = cos_1 * sin_r1_11;
-            let (sin__s, cos__s) = _s.sin_cos();
-            let t5 = sin_r1_11 * cos__s;
-            let t6 = sin_r1_11 * sin__s;
-            let t7 = -t6;
-            let t8 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t9 = sin_1.mul_sub(cos__s, t3 * sin__s);
-            let t10 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t11 = sin_1.mul_add(sin__s, t3 * cos__s);
-            let p2_z = -(t6 * self_);
-            let p2_x = t8.mul_add(self_, p1_x);
-            let p2_y = t9.mul_add(self_, p1_y);
-            let (sin_12, cos_12) = self_.atan2(q_).sin_cos();
-            let t13 = t8.mul_sub(sin_12, t4 * cos_12);
-            let t14 = r1_23.mul_add(cos_12, t9 * sin_12);
-            let t15 = cos_r1_11.mul_add(cos_12, t6 * sin_12);
-            let r2_11 = t4.mul_add(sin_12, t8 * cos_12);
-            let r2_21 = t9.mul_sub(cos_12, r1_23 * sin_12);
-            let r2_31 = cos_r1_11.mul_sub(sin_12, t6 * cos_12);
-            let t16 = Some_.abs();
-            let (sin_17, cos_17) = t16.powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t10.mul_add(cos_17, t13 * sin_17);
-            let r2_22 = t14.mul_sub(sin_17, t11 * cos_17);
-            let r2_32 = -t5.mul_add(cos_17, t15 * sin_17);
-            let r2_13 = t13.mul_sub(cos_17, t10 * sin_17);
-            let r2_23 = t11.mul_add(sin_17, t14 * cos_17);
-            let r2_33 = t5.mul_sub(sin_17, t15 * cos_17);
+            let t1_ = Some_.abs();
+            let [(sin_2, cos_2), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_3, cos_3), (sin_4, cos_4)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                t1_.powf(T::constant(2.7)),
+            ]);
+            let t5 = Some_ * ERRORS_;
+            let p1_x = cos_2.mul_sub(q_, sin_2 * t5);
+            let p1_y = sin_2.mul_add(q_, cos_2 * t5);
+            let r1_12 = sin_2 * cos_r1_11;
+            let t6 = cos_2 * cos_r1_11;
+            let t7 = sin_2 * sin_r1_11;
+            let r1_23 = cos_2 * sin_r1_11;
+            let t8 = sin_r1_11 * cos__s;
+            let t9 = sin_r1_11 * sin__s;
+            let t10 = -t9;
+            let t11 = cos_2.mul_add(cos__s, r1_12 * sin__s);
+            let t12 = sin_2.mul_sub(cos__s, t6 * sin__s);
+            let t13 = r1_12.mul_sub(cos__s, cos_2 * sin__s);
+            let t14 = sin_2.mul_add(sin__s, t6 * cos__s);
+            let p2_z = -(t9 * self_);
+            let p2_x = t11.mul_add(self_, p1_x);
+            let p2_y = t12.mul_add(self_, p1_y);
+            let t15 = t11.mul_sub(sin_3, t7 * cos_3);
+            let t16 = r1_23.mul_add(cos_3, t12 * sin_3);
+            let t17 = cos_r1_11.mul_add(cos_3, t9 * sin_3);
+            let r2_11 = t7.mul_add(sin_3, t11 * cos_3);
+            let r2_21 = t12.mul_sub(cos_3, r1_23 * sin_3);
+            let r2_31 = cos_r1_11.mul_sub(sin_3, t9 * cos_3);
+            let r2_12 = t13.mul_add(cos_4, t15 * sin_4);
+            let r2_22 = t16.mul_sub(sin_4, t14 * cos_4);
+            let r2_32 = -t8.mul_add(cos_4, t17 * sin_4);
+            let r2_13 = t15.mul_sub(cos_4, t13 * sin_4);
+            let r2_23 = t14.mul_add(sin_4, t16 * cos_4);
+            let r2_33 = t8.mul_sub(sin_4, t17 * cos_4);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            let t18 = -sin_1.mul_add(ERRORS_, p2_y);
-            let t19 = cos_1.mul_add(ERRORS_, p2_x);
+            let t18 = -sin_2.mul_add(ERRORS_, p2_y);
+            let t19 = cos_2.mul_add(ERRORS_, p2_x);
             let t20 = Some_.sign()
-                * (T::constant(2.7) * t16.powf(T::constant(1.7000000000000002)));
+                * (T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002)));
             let t21 = r2_11 * t20;
             let t22 = r2_21 * t20;
             let t23 = r2_31.mul_add(t20, T::constant(1.0));
             columns[0] = [t18, t19, zero, t21, t22, t23];
             let t24 = q_ / q_.mul_add(q_, self_ * self_);
-            let t25 = t10 * t24;
-            let t26 = -(t11 * t24);
-            let t27 = -(t5 * t24);
-            columns[1] = [t8, t9, t7, t25, t26, t27];
+            let t25 = t13 * t24;
+            let t26 = -(t14 * t24);
+            let t27 = -(t8 * t24);
+            columns[1] = [t11, t12, t10, t25, t26, t27];
         }
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
         ///
@@ -463,42 +475,45 @@ pub mod self_ {
             columns[5] = [zero; 6];
             columns[7] = [zero; 6];
             columns[8] = [zero; 6];
-            let (sin_1, cos_1) = None_.mul_add(T, Some_).sin_cos();
-            let t2 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t2);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t2);
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
+            let t4 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
             let r1_33 = -cos_r1_11;
             let r1_12 = sin_1 * cos_r1_11;
-            let t3 = cos_1 * cos_r1_11;
-            let t4 = sin_1 * sin_r1_11;
+            let t5 = cos_1 * cos_r1_11;
+            let t6 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let r1_13 = -t4;
-            let (sin__s, cos__s) = _s.sin_cos();
-            let t5 = sin_r1_11 * cos__s;
-            let t6 = sin_r1_11 * sin__s;
-            let t7 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t8 = sin_1.mul_sub(cos__s, t3 * sin__s);
-            let t9 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t10 = sin_1.mul_add(sin__s, t3 * cos__s);
-            let t11 = t6 * self_;
-            let p2_z = -t11;
-            let p2_x = t7.mul_add(self_, p1_x);
-            let p2_y = t8.mul_add(self_, p1_y);
-            let (sin_12, cos_12) = self_.atan2(q_).sin_cos();
-            let t13 = t7.mul_sub(sin_12, t4 * cos_12);
-            let t14 = r1_23.mul_add(cos_12, t8 * sin_12);
-            let t15 = cos_r1_11.mul_add(cos_12, t6 * sin_12);
-            let r2_11 = t4.mul_add(sin_12, t7 * cos_12);
-            let r2_21 = t8.mul_sub(cos_12, r1_23 * sin_12);
-            let r2_31 = cos_r1_11.mul_sub(sin_12, t6 * cos_12);
-            let (sin_16, cos_16) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t9.mul_add(cos_16, t13 * sin_16);
-            let r2_22 = t14.mul_sub(sin_16, t10 * cos_16);
-            let r2_32 = -t5.mul_add(cos_16, t15 * sin_16);
-            let r2_13 = t13.mul_sub(cos_16, t9 * sin_16);
-            let r2_23 = t10.mul_add(sin_16, t14 * cos_16);
-            let r2_33 = t5.mul_sub(sin_16, t15 * cos_16);
+            let r1_13 = -t6;
+            let t7 = sin_r1_11 * cos__s;
+            let t8 = sin_r1_11 * sin__s;
+            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
+            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let t13 = t8 * self_;
+            let p2_z = -t13;
+            let p2_x = t9.mul_add(self_, p1_x);
+            let p2_y = t10.mul_add(self_, p1_y);
+            let t14 = t9.mul_sub(sin_2, t6 * cos_2);
+            let t15 = r1_23.mul_add(cos_2, t10 * sin_2);
+            let t16 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
+            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
+            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
+            let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
+            let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
+            let r2_32 = -t7.mul_add(cos_3, t16 * sin_3);
+            let r2_13 = t14.mul_sub(cos_3, t11 * sin_3);
+            let r2_23 = t12.mul_add(sin_3, t15 * cos_3);
+            let r2_33 = t7.mul_sub(sin_3, t16 * cos_3);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
@@ -507,18 +522,18 @@ pub mod self_ {
             ];
             let lever1_x = p2_x - p1_x;
             let lever1_y = p2_y - p1_y;
-            let t17 = -(sin_1 * t11);
-            let t18 = cos_1 * t11;
+            let t17 = -(sin_1 * t13);
+            let t18 = cos_1 * t13;
             let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
             columns[6] = [t17, t18, t19, cos_1, sin_1, zero];
-            let t20 = cos_r1_11.mul_sub(lever1_y, r1_23 * t11);
-            let t21 = -cos_r1_11.mul_add(lever1_x, t4 * t11);
-            let t22 = -t4.mul_add(lever1_y, r1_23 * lever1_x);
+            let t20 = cos_r1_11.mul_sub(lever1_y, r1_23 * t13);
+            let t21 = -cos_r1_11.mul_add(lever1_x, t6 * t13);
+            let t22 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
             columns[9] = [t20, t21, t22, r1_13, r1_23, r1_33];
             let t23 = self_ / q_.mul_add(q_, self_ * self_);
-            let t24 = -(t9 * t23);
-            let t25 = t10 * t23;
-            let t26 = t5 * t23;
+            let t24 = -(t11 * t23);
+            let t25 = t12 * t23;
+            let t26 = t7 * t23;
             columns[0] = [cos_1, sin_1, zero, t24, t25, t26];
             let t27 = -(T * p2_y);
             let t28 = T * p2_x;
@@ -567,114 +582,91 @@ pub mod self_ {
         /// moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
         ///
         /// 63 mul, 30 add, 5 sincos, 3 other, 9 neg.
+        #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
-            distinct: &mut [[T; DISTINCT]; FRAMES],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
         ) {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
+            distinct[1][3] = [zero; 3];
+            distinct[1][4] = [zero; 3];
+            distinct[1][5] = [zero; 3];
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
+            distinct[0][0] = [cos_1, sin_1, zero];
+            let t4 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
             let r1_32 = -sin_r1_11;
             let r1_33 = -cos_r1_11;
-            let r1_12 = s1 * cos_r1_11;
-            let t2 = c1 * cos_r1_11;
-            let r1_22 = -t2;
-            let t3 = s1 * sin_r1_11;
-            let r1_23 = c1 * sin_r1_11;
-            let r1_13 = -t3;
-            let (sin__s, cos__s) = _s.sin_cos();
-            let t4 = sin_r1_11 * cos__s;
-            let t5 = sin_r1_11 * sin__s;
-            let t6 = c1 * cos__s + r1_12 * sin__s;
-            let t7 = s1 * cos__s - t2 * sin__s;
-            let t8 = r1_12 * cos__s - c1 * sin__s;
-            let t9 = s1 * sin__s + t2 * cos__s;
-            let t10 = t5 * self_;
-            let p2_z = -t10;
-            let p2_x = p1_x + t6 * self_;
-            let p2_y = p1_y + t7 * self_;
-            let (sin_11, cos_11) = self_.atan2(q_).sin_cos();
-            let t12 = t6 * sin_11 - t3 * cos_11;
-            let t13 = r1_23 * cos_11 + t7 * sin_11;
-            let t14 = cos_r1_11 * cos_11 + t5 * sin_11;
-            let r2_11 = t3 * sin_11 + t6 * cos_11;
-            let r2_21 = t7 * cos_11 - r1_23 * sin_11;
-            let r2_31 = cos_r1_11 * sin_11 - t5 * cos_11;
-            let (sin_15, cos_15) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t8 * cos_15 + t12 * sin_15;
-            let r2_22 = t13 * sin_15 - t9 * cos_15;
-            let r2_32 = -(t4 * cos_15 + t14 * sin_15);
-            let r2_13 = t12 * cos_15 - t8 * sin_15;
-            let r2_23 = t9 * sin_15 + t13 * cos_15;
-            let r2_33 = t4 * sin_15 - t14 * cos_15;
-            let lever1_x = p2_x - p1_x;
-            let lever1_y = p2_y - p1_y;
-            let t16 = -(s1 * t10);
-            let t17 = c1 * t10;
-            let t18 = c1 * lever1_y - s1 * lever1_x;
-            let t19 = t2 * t10 + sin_r1_11 * lever1_y;
-            let t20 = r1_12 * t10 - sin_r1_11 * lever1_x;
-            let t21 = r1_12 * lever1_y + t2 * lever1_x;
-            let t22 = cos_r1_11 * lever1_y - r1_23 * t10;
-            let t23 = -(cos_r1_11 * lever1_x + t3 * t10);
-            let t24 = -(t3 * lever1_y + r1_23 * lever1_x);
+            let r1_12 = sin_1 * cos_r1_11;
+            let t5 = cos_1 * cos_r1_11;
+            let r1_22 = -t5;
+            distinct[0][1] = [r1_12, r1_22, r1_32];
+            let t6 = sin_1 * sin_r1_11;
+            let r1_23 = cos_1 * sin_r1_11;
+            let r1_13 = -t6;
+            distinct[0][2] = [r1_13, r1_23, r1_33];
+            let t7 = sin_r1_11 * cos__s;
+            let t8 = sin_r1_11 * sin__s;
+            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
+            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let t13 = t8 * self_;
+            let p2_z = -t13;
+            let p2_x = t9.mul_add(self_, p1_x);
+            let p2_y = t10.mul_add(self_, p1_y);
+            let t14 = t9.mul_sub(sin_2, t6 * cos_2);
+            let t15 = r1_23.mul_add(cos_2, t10 * sin_2);
+            let t16 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
+            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
+            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
+            distinct[1][0] = [r2_11, r2_21, r2_31];
+            let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
+            let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
+            let r2_32 = -t7.mul_add(cos_3, t16 * sin_3);
+            distinct[1][1] = [r2_12, r2_22, r2_32];
+            let r2_13 = t14.mul_sub(cos_3, t11 * sin_3);
+            let r2_23 = t12.mul_add(sin_3, t15 * cos_3);
+            let r2_33 = t7.mul_sub(sin_3, t16 * cos_3);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            distinct[0] = [
-                c1,
-                s1,
-                zero,
-                r1_12,
-                r1_22,
-                r1_32,
-                r1_13,
-                r1_23,
-                r1_33,
-                t19,
-                t20,
-                t21,
-                t22,
-                t23,
-                t24,
-                t16,
-                t17,
-                t18,
-            ];
-            distinct[1] = [
-                r2_11,
-                r2_21,
-                r2_31,
-                r2_12,
-                r2_22,
-                r2_32,
-                r2_13,
-                r2_23,
-                r2_33,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-            ];
+            distinct[1][2] = [r2_13, r2_23, r2_33];
+            let lever1_x = p2_x - p1_x;
+            let lever1_y = p2_y - p1_y;
+            let t17 = -(sin_1 * t13);
+            let t18 = cos_1 * t13;
+            let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
+            distinct[0][5] = [t17, t18, t19];
+            let t20 = t5.mul_add(t13, sin_r1_11 * lever1_y);
+            let t21 = r1_12.mul_sub(t13, sin_r1_11 * lever1_x);
+            let t22 = r1_12.mul_add(lever1_y, t5 * lever1_x);
+            distinct[0][3] = [t20, t21, t22];
+            let t23 = cos_r1_11.mul_sub(lever1_y, r1_23 * t13);
+            let t24 = -cos_r1_11.mul_add(lever1_x, t6 * t13);
+            let t25 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
+            distinct[0][4] = [t23, t24, t25];
         }
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
         ///
         /// 47 mul, 31 add, 5 sincos, 3 other, 2 neg.
+        #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -685,38 +677,43 @@ pub mod self_ {
             let [q_, None_, _, T, _, _, r1_11, _, _, _s] = *s;
             let [[e1_x, e1_y, e1_z, e1_s, e1_r, e1_p], [e2_x, e2_y, e2_z, e2_s, e2_r,
             e2_p]] = *errors;
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let (sin__s, cos__s) = _s.sin_cos();
-            let (sin_1, cos_1) = self_.atan2(q_).sin_cos();
-            let (sin_2, cos_2) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let t3 = cos__s * self_;
-            let t4 = sin__s * self_;
-            let t5 = cos_2 * e2_y - sin_2 * e2_z;
-            let t6 = sin_2 * e2_y + cos_2 * e2_z;
-            let t7 = cos_2 * e2_s - sin_2 * e2_r;
-            let t8 = sin_2 * e2_s + cos_2 * e2_r;
-            let t9 = sin_1 * t6 + cos_1 * e2_x;
-            let t10 = sin_1 * t8 + cos_1 * e2_p;
-            let t11 = e1_x + (cos__s * t9 - sin__s * t5) - t4 * e1_r;
-            let t12 = t3 * e1_r + (e1_y + (sin__s * t9 + cos__s * t5));
-            let t13 = t4 * e1_p - t3 * e1_s + (e1_z + (cos_1 * t6 - sin_1 * e2_x));
-            let t14 = e1_p + (cos__s * t10 - sin__s * t7);
-            let t15 = e1_s + (sin__s * t10 + cos__s * t7);
-            let t16 = e1_r + (cos_1 * t8 - sin_1 * e2_p);
-            let t17 = sin_r1_11 * t13 - cos_r1_11 * t12;
-            let t18 = -(sin_r1_11 * t12 + cos_r1_11 * t13);
-            let t19 = sin_r1_11 * t16 - cos_r1_11 * t15;
-            let t20 = -(sin_r1_11 * t15 + cos_r1_11 * t16);
-            let t21 = c1 * t11 - s1 * t17;
-            let t22 = s1 * t11 + c1 * t17;
-            let t23 = c1 * t14 - s1 * t19;
-            let t24 = s1 * t14 + c1 * t19;
-            *displacement = [t21, t22, t18, t23, t24, t20];
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
+            let t4 = cos__s * self_;
+            let t5 = sin__s * self_;
+            let t6 = cos_3.mul_sub(e2_y, sin_3 * e2_z);
+            let t7 = sin_3.mul_add(e2_y, cos_3 * e2_z);
+            let t8 = cos_3.mul_sub(e2_s, sin_3 * e2_r);
+            let t9 = sin_3.mul_add(e2_s, cos_3 * e2_r);
+            let t10 = sin_2.mul_add(t7, cos_2 * e2_x);
+            let t11 = sin_2.mul_add(t9, cos_2 * e2_p);
+            let t12 = t5.neg_mul_add(e1_r, e1_x + cos__s.mul_sub(t10, sin__s * t6));
+            let t13 = t4.mul_add(e1_r, e1_y + sin__s.mul_add(t10, cos__s * t6));
+            let t14 = t5.mul_sub(e1_p, t4 * e1_s)
+                + (e1_z + cos_2.mul_sub(t7, sin_2 * e2_x));
+            let t15 = e1_p + cos__s.mul_sub(t11, sin__s * t8);
+            let t16 = e1_s + sin__s.mul_add(t11, cos__s * t8);
+            let t17 = e1_r + cos_2.mul_sub(t9, sin_2 * e2_p);
+            let t18 = sin_r1_11.mul_sub(t14, cos_r1_11 * t13);
+            let t19 = -sin_r1_11.mul_add(t13, cos_r1_11 * t14);
+            let t20 = sin_r1_11.mul_sub(t17, cos_r1_11 * t16);
+            let t21 = -sin_r1_11.mul_add(t16, cos_r1_11 * t17);
+            let t22 = cos_1.mul_sub(t12, sin_1 * t18);
+            let t23 = sin_1.mul_add(t12, cos_1 * t18);
+            let t24 = cos_1.mul_sub(t15, sin_1 * t20);
+            let t25 = sin_1.mul_add(t15, cos_1 * t20);
+            *displacement = [t22, t23, t19, t24, t25, t21];
         }
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.
         ///
         /// 100 mul, 88 add, 5 sincos, 3 other, 4 neg.
+        #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -727,129 +724,133 @@ pub mod self_ {
             let [q_, None_, _, T, _, _, r1_11, _, _, _s] = *s;
             let [[v1_x, v1_y, v1_z, v1_s, v1_r, v1_p], [v2_x, v2_y, v2_z, v2_s, v2_r,
             v2_p]] = *variances;
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let (sin__s, cos__s) = _s.sin_cos();
-            let (sin_1, cos_1) = self_.atan2(q_).sin_cos();
-            let (sin_2, cos_2) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let t3 = cos__s * self_;
-            let t4 = sin__s * self_;
-            let t5 = t4 * v1_r;
-            let t6 = t3 * v1_r;
-            let t7 = t4 * v1_p;
-            let t8 = t3 * v1_s;
-            let t9 = cos_2 * cos_2;
-            let t10 = sin_2 * cos_2;
-            let t11 = v2_y - v2_z;
-            let t12 = t9 * t11;
-            let t13 = v2_z + t12;
-            let t14 = v2_y - t12;
-            let t15 = t10 * t11;
-            let t16 = v2_s - v2_r;
-            let t17 = t9 * t16;
-            let t18 = v2_r + t17;
-            let t19 = v2_s - t17;
-            let t20 = t10 * t16;
-            let t21 = cos_1 * cos_1;
-            let t22 = sin_1 * cos_1;
-            let t23 = cos_1 * t15;
-            let t24 = sin_1 * t15;
-            let t25 = t14 - v2_x;
-            let t26 = t21 * t25;
-            let t27 = t14 - t26;
-            let t28 = t22 * t25;
-            let t29 = cos_1 * t20;
-            let t30 = sin_1 * t20;
-            let t31 = t19 - v2_p;
-            let t32 = t21 * t31;
-            let t33 = t19 - t32;
-            let t34 = t22 * t31;
-            let t35 = cos__s * cos__s;
-            let t36 = sin__s * cos__s;
-            let t37 = t35 + t35 - T::constant(1.0);
-            let t38 = t36 + t36;
-            let t39 = cos__s * t28 - sin__s * t23;
-            let t40 = sin__s * t28 + cos__s * t23;
-            let t41 = t27 - t13;
-            let t42 = t35 * t41 - t24 * t38;
-            let t43 = cos__s * t34 - sin__s * t29;
-            let t44 = sin__s * t34 + cos__s * t29;
-            let t45 = t33 - t18;
-            let t46 = t35 * t45 - t30 * t38;
-            let t47 = t36 * t45 + t30 * t37;
-            let t48 = t36 * t41 + t24 * t37 - t3 * t5;
-            let t49 = v1_x + (t13 + t42 + t4 * t5);
-            let t50 = v1_p + (t18 + t46);
-            let t51 = v1_y + (t27 - t42 + t3 * t6);
-            let t52 = v1_s + (t33 - t46);
-            let t53 = v1_z + (v2_x + t26 + (t4 * t7 + t3 * t8));
-            let t54 = v1_r + (v2_p + t32);
-            let t55 = cos_r1_11 * cos_r1_11;
-            let t56 = sin_r1_11 * cos_r1_11;
-            let t57 = t55 + t55 - T::constant(1.0);
-            let t58 = t56 + t56;
-            let t59 = sin_r1_11 * t39 - cos_r1_11 * t48;
-            let t60 = sin_r1_11 * t48 + cos_r1_11 * t39;
-            let t61 = t51 - t53;
-            let t62 = t55 * t61 - t40 * t58;
-            let t63 = t53 + t62;
-            let t64 = t51 - t62;
-            let t65 = t56 * t61 + t40 * t57;
-            let t66 = sin_r1_11 * t43 - cos_r1_11 * t47;
-            let t67 = sin_r1_11 * t47 + cos_r1_11 * t43;
-            let t68 = t52 - t54;
-            let t69 = t55 * t68 - t44 * t58;
-            let t70 = t54 + t69;
-            let t71 = t52 - t69;
-            let t72 = t56 * t68 + t44 * t57;
-            let t73 = cos_r1_11 * t5;
-            let t74 = sin_r1_11 * t5;
-            let t75 = cos_r1_11 * t7;
-            let t76 = sin_r1_11 * t7;
-            let t77 = t6 - t8;
-            let t78 = t56 * t77;
-            let t79 = t55 * t77;
-            let t80 = t8 + t79;
-            let t81 = t79 - t6;
-            let t82 = c1 * c1;
-            let t83 = s1 * c1;
-            let t84 = t82 + t82 - T::constant(1.0);
-            let t85 = t83 + t83;
-            let t86 = -(c1 * t60 + s1 * t65);
-            let t87 = c1 * t65 - s1 * t60;
-            let t88 = t49 - t63;
-            let t89 = t82 * t88 - t59 * t85;
-            let t90 = t63 + t89;
-            let t91 = t49 - t89;
-            let t92 = t83 * t88 + t59 * t84;
-            let t93 = -(c1 * t67 + s1 * t72);
-            let t94 = c1 * t72 - s1 * t67;
-            let t95 = t50 - t70;
-            let t96 = t82 * t95 - t66 * t85;
-            let t97 = t70 + t96;
-            let t98 = t50 - t96;
-            let t99 = t83 * t95 + t66 * t84;
-            let t100 = -(c1 * t75 + s1 * t81);
-            let t101 = c1 * t81 - s1 * t75;
-            let t102 = c1 * t73 - s1 * t80;
-            let t103 = s1 * t73 + c1 * t80;
-            let t104 = t76 - t74;
-            let t105 = t78 * t82 - t83 * t104;
-            let t106 = t78 * t83 + t82 * t104;
-            let t107 = t105 - t78;
-            let t108 = -t105;
-            let t109 = t106 - t76;
-            let t110 = t74 + t106;
-            covariance[0] = [t90, t92, t86, t107, t109, t102];
-            covariance[1] = [t92, t91, t87, t110, t108, t103];
-            covariance[2] = [t86, t87, t64, t100, t101, t78];
-            covariance[3] = [t107, t110, t100, t97, t99, t93];
-            covariance[4] = [t109, t108, t101, t99, t98, t94];
-            covariance[5] = [t102, t103, t78, t93, t94, t71];
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
+            let t4 = cos__s * self_;
+            let t5 = sin__s * self_;
+            let t6 = t5 * v1_r;
+            let t7 = t4 * v1_r;
+            let t8 = t5 * v1_p;
+            let t9 = t4 * v1_s;
+            let t10 = cos_3 * cos_3;
+            let t11 = sin_3 * cos_3;
+            let t12 = v2_y - v2_z;
+            let t13 = t10 * t12;
+            let t14 = v2_z + t13;
+            let t15 = v2_y - t13;
+            let t16 = t11 * t12;
+            let t17 = v2_s - v2_r;
+            let t18 = t10 * t17;
+            let t19 = v2_r + t18;
+            let t20 = v2_s - t18;
+            let t21 = t11 * t17;
+            let t22 = cos_2 * cos_2;
+            let t23 = sin_2 * cos_2;
+            let t24 = cos_2 * t16;
+            let t25 = sin_2 * t16;
+            let t26 = t15 - v2_x;
+            let t27 = t22 * t26;
+            let t28 = t15 - t27;
+            let t29 = t23 * t26;
+            let t30 = cos_2 * t21;
+            let t31 = sin_2 * t21;
+            let t32 = t20 - v2_p;
+            let t33 = t22 * t32;
+            let t34 = t20 - t33;
+            let t35 = t23 * t32;
+            let t36 = cos__s * cos__s;
+            let t37 = sin__s * cos__s;
+            let t38 = t36 + t36 - T::constant(1.0);
+            let t39 = t37 + t37;
+            let t40 = cos__s.mul_sub(t29, sin__s * t24);
+            let t41 = sin__s.mul_add(t29, cos__s * t24);
+            let t42 = t28 - t14;
+            let t43 = t36.mul_sub(t42, t25 * t39);
+            let t44 = cos__s.mul_sub(t35, sin__s * t30);
+            let t45 = sin__s.mul_add(t35, cos__s * t30);
+            let t46 = t34 - t19;
+            let t47 = t36.mul_sub(t46, t31 * t39);
+            let t48 = t37.mul_add(t46, t31 * t38);
+            let t49 = t4.neg_mul_add(t6, t37.mul_add(t42, t25 * t38));
+            let t50 = v1_x + t5.mul_add(t6, t14 + t43);
+            let t51 = v1_p + (t19 + t47);
+            let t52 = v1_y + t4.mul_add(t7, t28 - t43);
+            let t53 = v1_s + (t34 - t47);
+            let t54 = v1_z + (v2_x + t27 + t5.mul_add(t8, t4 * t9));
+            let t55 = v1_r + (v2_p + t33);
+            let t56 = cos_r1_11 * cos_r1_11;
+            let t57 = sin_r1_11 * cos_r1_11;
+            let t58 = t56 + t56 - T::constant(1.0);
+            let t59 = t57 + t57;
+            let t60 = sin_r1_11.mul_sub(t40, cos_r1_11 * t49);
+            let t61 = sin_r1_11.mul_add(t49, cos_r1_11 * t40);
+            let t62 = t52 - t54;
+            let t63 = t56.mul_sub(t62, t41 * t59);
+            let t64 = t54 + t63;
+            let t65 = t52 - t63;
+            let t66 = t57.mul_add(t62, t41 * t58);
+            let t67 = sin_r1_11.mul_sub(t44, cos_r1_11 * t48);
+            let t68 = sin_r1_11.mul_add(t48, cos_r1_11 * t44);
+            let t69 = t53 - t55;
+            let t70 = t56.mul_sub(t69, t45 * t59);
+            let t71 = t55 + t70;
+            let t72 = t53 - t70;
+            let t73 = t57.mul_add(t69, t45 * t58);
+            let t74 = cos_r1_11 * t6;
+            let t75 = sin_r1_11 * t6;
+            let t76 = cos_r1_11 * t8;
+            let t77 = sin_r1_11 * t8;
+            let t78 = t7 - t9;
+            let t79 = t57 * t78;
+            let t80 = t56 * t78;
+            let t81 = t9 + t80;
+            let t82 = t80 - t7;
+            let t83 = cos_1 * cos_1;
+            let t84 = sin_1 * cos_1;
+            let t85 = t83 + t83 - T::constant(1.0);
+            let t86 = t84 + t84;
+            let t87 = -cos_1.mul_add(t61, sin_1 * t66);
+            let t88 = cos_1.mul_sub(t66, sin_1 * t61);
+            let t89 = t50 - t64;
+            let t90 = t83.mul_sub(t89, t60 * t86);
+            let t91 = t64 + t90;
+            let t92 = t50 - t90;
+            let t93 = t84.mul_add(t89, t60 * t85);
+            let t94 = -cos_1.mul_add(t68, sin_1 * t73);
+            let t95 = cos_1.mul_sub(t73, sin_1 * t68);
+            let t96 = t51 - t71;
+            let t97 = t83.mul_sub(t96, t67 * t86);
+            let t98 = t71 + t97;
+            let t99 = t51 - t97;
+            let t100 = t84.mul_add(t96, t67 * t85);
+            let t101 = -cos_1.mul_add(t76, sin_1 * t82);
+            let t102 = cos_1.mul_sub(t82, sin_1 * t76);
+            covariance[2] = [t87, t88, t65, t101, t102, t79];
+            let t103 = cos_1.mul_sub(t74, sin_1 * t81);
+            let t104 = sin_1.mul_add(t74, cos_1 * t81);
+            covariance[5] = [t103, t104, t79, t94, t95, t72];
+            let t105 = t77 - t75;
+            let t106 = t79.mul_sub(t83, t84 * t105);
+            let t107 = t79.mul_add(t84, t83 * t105);
+            let t108 = t106 - t79;
+            let t109 = -t106;
+            let t110 = t107 - t77;
+            covariance[0] = [t91, t93, t87, t108, t110, t103];
+            covariance[4] = [t110, t109, t102, t100, t99, t95];
+            let t111 = t75 + t107;
+            covariance[1] = [t93, t92, t88, t111, t109, t104];
+            covariance[3] = [t108, t111, t101, t98, t100, t94];
         }
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -862,6 +863,7 @@ pub mod self_ {
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.
         ///
         /// 31 mul, 9 add, 4 div, 4 sincos, 1 sqrt, 3 other.
+        #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -871,31 +873,33 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, _, T, zero_, t1, r1_11, EI, pose_, _s] = *s;
             let [u_, columns_] = *u;
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let r1_12 = s1 * cos_r1_11;
-            let r1_23 = c1 * sin_r1_11;
-            let (sin__s, cos__s) = _s.sin_cos();
-            let (sin_1, cos_1) = self_.atan2(q_).sin_cos();
-            let r2_11 = s1 * sin_r1_11 * sin_1 + (c1 * cos__s + r1_12 * sin__s) * cos_1;
-            let r2_21 = (s1 * cos__s - c1 * cos_r1_11 * sin__s) * cos_1 - r1_23 * sin_1;
-            let r2_31 = cos_r1_11 * sin_1 - sin_r1_11 * sin__s * cos_1;
-            let t2 = u_ * (q_ * (q_ * q_)) / (T::constant(3.0) * EI) * t1.sqrt();
-            let t3 = t2 / q_ + T::constant(1e-6) * zero_;
-            let t4 = T.tan();
-            let t5 = T::constant(1e-6) * columns_ + T::constant(1e-6) * pose_
-                + (_s / T::constant(2.0)).asin() / (t4 * t4);
-            let t6 = r2_11 * t3;
-            let t7 = r2_21 * t3;
-            let t8 = r2_31 * t3;
-            let t9 = r2_11 * t5;
-            let t10 = r2_21 * t5;
-            let t11 = r2_31 * t5;
-            displacements[0] = [t6, t7, t8, t9, t10, t11];
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s), (sin_2, cos_2),
+            ] = T::sin_cos_each([None_.mul_add(T, Some_), r1_11, _s, self_.atan2(q_)]);
+            let r1_12 = sin_1 * cos_r1_11;
+            let r1_23 = cos_1 * sin_r1_11;
+            let r2_11 = (sin_1 * sin_r1_11)
+                .mul_add(sin_2, cos_1.mul_add(cos__s, r1_12 * sin__s) * cos_2);
+            let r2_21 = sin_1
+                .mul_sub(cos__s, cos_1 * cos_r1_11 * sin__s)
+                .mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, sin_r1_11 * sin__s * cos_2);
+            let t3 = u_ * (q_ * (q_ * q_)) / (T::constant(3.0) * EI) * t1.sqrt();
+            let t4 = zero_.mul_add(T::constant(1e-6), t3 / q_);
+            let t5 = T.tan();
+            let t6 = columns_.mul_add(T::constant(1e-6), T::constant(1e-6) * pose_)
+                + (_s / T::constant(2.0)).asin() / (t5 * t5);
+            let t7 = r2_11 * t4;
+            let t8 = r2_21 * t4;
+            let t9 = r2_31 * t4;
+            let t10 = r2_11 * t6;
+            let t11 = r2_21 * t6;
+            let t12 = r2_31 * t6;
+            displacements[0] = [t7, t8, t9, t10, t11, t12];
         }
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
         ///
         /// 47 mul, 21 add, 5 sincos, 3 other, 2 neg.
+        #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -904,39 +908,42 @@ pub mod self_ {
         ) {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let r1_12 = s1 * cos_r1_11;
-            let t2 = c1 * cos_r1_11;
-            let t3 = s1 * sin_r1_11;
-            let r1_23 = c1 * sin_r1_11;
-            let (sin__s, cos__s) = _s.sin_cos();
-            let t4 = sin_r1_11 * cos__s;
-            let t5 = sin_r1_11 * sin__s;
-            let t6 = c1 * cos__s + r1_12 * sin__s;
-            let t7 = s1 * cos__s - t2 * sin__s;
-            let t8 = r1_12 * cos__s - c1 * sin__s;
-            let t9 = s1 * sin__s + t2 * cos__s;
-            let p2_z = -(t5 * self_);
-            let p2_x = p1_x + t6 * self_;
-            let p2_y = p1_y + t7 * self_;
-            let (sin_10, cos_10) = self_.atan2(q_).sin_cos();
-            let t11 = t6 * sin_10 - t3 * cos_10;
-            let t12 = r1_23 * cos_10 + t7 * sin_10;
-            let t13 = cos_r1_11 * cos_10 + t5 * sin_10;
-            let r2_11 = t3 * sin_10 + t6 * cos_10;
-            let r2_21 = t7 * cos_10 - r1_23 * sin_10;
-            let r2_31 = cos_r1_11 * sin_10 - t5 * cos_10;
-            let (sin_14, cos_14) = Some_.abs().powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t8 * cos_14 + t11 * sin_14;
-            let r2_22 = t12 * sin_14 - t9 * cos_14;
-            let r2_32 = -(t4 * cos_14 + t13 * sin_14);
-            let r2_13 = t11 * cos_14 - t8 * sin_14;
-            let r2_23 = t9 * sin_14 + t12 * cos_14;
-            let r2_33 = t4 * sin_14 - t13 * cos_14;
+            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                Some_.abs().powf(T::constant(2.7)),
+            ]);
+            let t4 = Some_ * ERRORS_;
+            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
+            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
+            let r1_12 = sin_1 * cos_r1_11;
+            let t5 = cos_1 * cos_r1_11;
+            let t6 = sin_1 * sin_r1_11;
+            let r1_23 = cos_1 * sin_r1_11;
+            let t7 = sin_r1_11 * cos__s;
+            let t8 = sin_r1_11 * sin__s;
+            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
+            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
+            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
+            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let p2_z = -(t8 * self_);
+            let p2_x = t9.mul_add(self_, p1_x);
+            let p2_y = t10.mul_add(self_, p1_y);
+            let t13 = t9.mul_sub(sin_2, t6 * cos_2);
+            let t14 = r1_23.mul_add(cos_2, t10 * sin_2);
+            let t15 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
+            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
+            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
+            let r2_12 = t11.mul_add(cos_3, t13 * sin_3);
+            let r2_22 = t14.mul_sub(sin_3, t12 * cos_3);
+            let r2_32 = -t7.mul_add(cos_3, t15 * sin_3);
+            let r2_13 = t13.mul_sub(cos_3, t11 * sin_3);
+            let r2_23 = t12.mul_add(sin_3, t14 * cos_3);
+            let r2_33 = t7.mul_sub(sin_3, t15 * cos_3);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
@@ -947,6 +954,7 @@ pub mod self_ {
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
         ///
         /// 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg.
+        #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
@@ -957,60 +965,63 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let (s1, c1) = (Some_ + None_ * T).sin_cos();
-            let t1_ = Some_ * ERRORS_;
-            let p1_x = c1 * q_ - s1 * t1_;
-            let p1_y = s1 * q_ + c1 * t1_;
-            let (sin_r1_11, cos_r1_11) = r1_11.sin_cos();
-            let r1_12 = s1 * cos_r1_11;
-            let t2 = c1 * cos_r1_11;
-            let t3 = s1 * sin_r1_11;
-            let r1_23 = c1 * sin_r1_11;
-            let (sin__s, cos__s) = _s.sin_cos();
-            let t4 = sin_r1_11 * cos__s;
-            let t5 = sin_r1_11 * sin__s;
-            let t6 = -t5;
-            let t7 = c1 * cos__s + r1_12 * sin__s;
-            let t8 = s1 * cos__s - t2 * sin__s;
-            let t9 = r1_12 * cos__s - c1 * sin__s;
-            let t10 = s1 * sin__s + t2 * cos__s;
-            let p2_z = -(t5 * self_);
-            let p2_x = p1_x + t7 * self_;
-            let p2_y = p1_y + t8 * self_;
-            let (sin_11, cos_11) = self_.atan2(q_).sin_cos();
-            let t12 = t7 * sin_11 - t3 * cos_11;
-            let t13 = r1_23 * cos_11 + t8 * sin_11;
-            let t14 = cos_r1_11 * cos_11 + t5 * sin_11;
-            let r2_11 = t3 * sin_11 + t7 * cos_11;
-            let r2_21 = t8 * cos_11 - r1_23 * sin_11;
-            let r2_31 = cos_r1_11 * sin_11 - t5 * cos_11;
-            let t15 = Some_.abs();
-            let (sin_16, cos_16) = t15.powf(T::constant(2.7)).sin_cos();
-            let r2_12 = t9 * cos_16 + t12 * sin_16;
-            let r2_22 = t13 * sin_16 - t10 * cos_16;
-            let r2_32 = -(t4 * cos_16 + t14 * sin_16);
-            let r2_13 = t12 * cos_16 - t9 * sin_16;
-            let r2_23 = t10 * sin_16 + t13 * cos_16;
-            let r2_33 = t4 * sin_16 - t14 * cos_16;
-            let t17 = -(p2_y + s1 * ERRORS_);
-            let t18 = p2_x + c1 * ERRORS_;
-            let t19 = Some_.sign()
-                * (T::constant(2.7) * t15.powf(T::constant(1.7000000000000002)));
-            let t20 = r2_11 * t19;
-            let t21 = r2_21 * t19;
-            let t22 = T::constant(1.0) + r2_31 * t19;
-            let t23 = q_ / (q_ * q_ + self_ * self_);
-            let t24 = t9 * t23;
-            let t25 = -(t10 * t23);
-            let t26 = -(t4 * t23);
+            let t1_ = Some_.abs();
+            let [(sin_2, cos_2), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
+            (sin_3, cos_3), (sin_4, cos_4)] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                t1_.powf(T::constant(2.7)),
+            ]);
+            let t5 = Some_ * ERRORS_;
+            let p1_x = cos_2.mul_sub(q_, sin_2 * t5);
+            let p1_y = sin_2.mul_add(q_, cos_2 * t5);
+            let r1_12 = sin_2 * cos_r1_11;
+            let t6 = cos_2 * cos_r1_11;
+            let t7 = sin_2 * sin_r1_11;
+            let r1_23 = cos_2 * sin_r1_11;
+            let t8 = sin_r1_11 * cos__s;
+            let t9 = sin_r1_11 * sin__s;
+            let t10 = -t9;
+            let t11 = cos_2.mul_add(cos__s, r1_12 * sin__s);
+            let t12 = sin_2.mul_sub(cos__s, t6 * sin__s);
+            let t13 = r1_12.mul_sub(cos__s, cos_2 * sin__s);
+            let t14 = sin_2.mul_add(sin__s, t6 * cos__s);
+            let p2_z = -(t9 * self_);
+            let p2_x = t11.mul_add(self_, p1_x);
+            let p2_y = t12.mul_add(self_, p1_y);
+            let t15 = t11.mul_sub(sin_3, t7 * cos_3);
+            let t16 = r1_23.mul_add(cos_3, t12 * sin_3);
+            let t17 = cos_r1_11.mul_add(cos_3, t9 * sin_3);
+            let r2_11 = t7.mul_add(sin_3, t11 * cos_3);
+            let r2_21 = t12.mul_sub(cos_3, r1_23 * sin_3);
+            let r2_31 = cos_r1_11.mul_sub(sin_3, t9 * cos_3);
+            let r2_12 = t13.mul_add(cos_4, t15 * sin_4);
+            let r2_22 = t16.mul_sub(sin_4, t14 * cos_4);
+            let r2_32 = -t8.mul_add(cos_4, t17 * sin_4);
+            let r2_13 = t15.mul_sub(cos_4, t13 * sin_4);
+            let r2_23 = t14.mul_add(sin_4, t16 * cos_4);
+            let r2_33 = t8.mul_sub(sin_4, t17 * cos_4);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            columns[0] = [t17, t18, zero, t20, t21, t22];
-            columns[1] = [t7, t8, t6, t24, t25, t26];
+            let t18 = -sin_2.mul_add(ERRORS_, p2_y);
+            let t19 = cos_2.mul_add(ERRORS_, p2_x);
+            let t20 = Some_.sign()
+                * (T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002)));
+            let t21 = r2_11 * t20;
+            let t22 = r2_21 * t20;
+            let t23 = r2_31.mul_add(t20, T::constant(1.0));
+            columns[0] = [t18, t19, zero, t21, t22, t23];
+            let t24 = q_ / q_.mul_add(q_, self_ * self_);
+            let t25 = t13 * t24;
+            let t26 = -(t14 * t24);
+            let t27 = -(t8 * t24);
+            columns[1] = [t11, t12, t10, t25, t26, t27];
         }
     }
 }

@@ -43,8 +43,8 @@ pub mod slide {
     pub const EFFECTS: usize = 0;
     /// How many sources there are.
     pub const SOURCES: usize = 0;
-    /// How many numbers of a frame's six columns of `J_e` are neither zero nor repeated.
-    pub const DISTINCT: usize = 18;
+    /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
+    pub const DISTINCT: usize = 6;
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "slide",
@@ -247,11 +247,12 @@ pub mod slide {
         /// moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
-            distinct: &mut [[T; DISTINCT]; FRAMES],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
         ) {
             let [d1] = *q;
             let zero = T::constant(0.0);
@@ -262,30 +263,17 @@ pub mod slide {
                 [zero, zero, one],
                 [d1, zero, zero],
             ];
-            distinct[0] = [
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                zero,
-                zero,
-                zero,
-                one,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-                zero,
-            ];
+            distinct[0][0] = [one, zero, zero];
+            distinct[0][1] = [zero, one, zero];
+            distinct[0][2] = [zero, zero, one];
+            distinct[0][3] = [zero; 3];
+            distinct[0][4] = [zero; 3];
+            distinct[0][5] = [zero; 3];
         }
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn displacement<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -298,6 +286,7 @@ pub mod slide {
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn covariance<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -316,6 +305,7 @@ pub mod slide {
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -328,6 +318,7 @@ pub mod slide {
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             _q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -337,6 +328,7 @@ pub mod slide {
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],
@@ -356,6 +348,7 @@ pub mod slide {
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
         ///
         /// 0 mul, 0 add.
+        #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
             _s: &[T; PARAMETERS],

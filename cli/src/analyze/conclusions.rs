@@ -18,7 +18,7 @@ pub(super) fn sentences(analysis: &Analysis) -> Vec<String> {
         Some(spheres(analysis)),
         ellipsoid(analysis),
         published_residual(analysis),
-        analysis.compensation.as_ref().map(|compensation| residual(analysis, compensation)),
+        analysis.budget.compensation.as_ref().map(|compensation| residual(analysis, compensation)),
         Some(first_order(analysis)),
     ];
     sentences.into_iter().flatten().collect()

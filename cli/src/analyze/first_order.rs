@@ -1,15 +1,13 @@
 //! What `ΔX ≈ J_e ε` neglects: first order against the exact chain.
 
-use abbe::analysis::Row;
+use abbe::analysis::{Row, Scattered, Unevaluated, Workspace, sweep};
 use abbe::{Class, Error, Manipulator, Pose, deviation, real_pose};
 
 /// The most configurations at which the exact chain is run.
-const CHECKED: u64 = 2000;
-/// `2⁶⁴/φ`: multiples of it modulo 2⁶⁴ are spread evenly, and fall in step with no grid.
-const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+const CHECKED: usize = 2000;
 
-/// The largest distance between first order and the exact chain, over about 2000 configurations of a larger
-/// workspace, spread evenly over it.
+/// The largest distance between first order and the exact chain, over 2000 configurations of a larger workspace,
+/// spread evenly over it.
 ///
 /// Compared are the repeatable sources; if there are none, the random ones at their bounds, all with the same sign.
 pub(super) struct FirstOrder<'a> {
@@ -17,8 +15,6 @@ pub(super) struct FirstOrder<'a> {
     u: &'a [f64],
     /// What the value of every effect is multiplied with.
     factors: Vec<f64>,
-    /// A configuration is checked if its multiple of the golden ratio is at most this.
-    threshold: u64,
     transforms: Vec<Pose>,
     effects: Vec<f64>,
     errors: Vec<[f64; 6]>,
@@ -29,7 +25,12 @@ pub(super) struct FirstOrder<'a> {
 }
 
 impl<'a> FirstOrder<'a> {
-    pub(super) fn new(manipulator: &'a dyn Manipulator, u: &'a [f64], configurations: usize) -> Self {
+    /// Compares over a workspace with inputs `u`. Where the exact chain cannot be had there is nothing to compare.
+    pub(super) fn over(
+        manipulator: &'a dyn Manipulator,
+        workspace: &dyn Workspace,
+        u: &'a [f64],
+    ) -> Result<Self, Unevaluated> {
         let description = manipulator.description();
         let frames = description.frames.len();
         let repeatable = description.sources.iter().any(|source| source.class == Class::Repeatable);
@@ -39,28 +40,23 @@ impl<'a> FirstOrder<'a> {
                 Class::Random(_) if repeatable => 0.0,
                 Class::Random(distribution) => distribution.bound(),
             });
-        let all = configurations as u64 <= CHECKED;
-        Self {
+        let mut compared = Self {
             manipulator,
             u,
             factors: factors.collect(),
-            threshold: if all { u64::MAX } else { u64::MAX / configurations as u64 * CHECKED },
             transforms: vec![Pose::IDENTITY; frames + 1],
             effects: vec![0.0; description.effects.len()],
             errors: vec![[0.0; 6]; frames],
             checked: 0,
             largest: 0.0,
-        }
-    }
-
-    /// Compares at a configuration. Where the exact chain cannot be had there is nothing to compare.
-    pub(super) fn add(&mut self, row: &Row) {
-        if (row.index as u64).wrapping_mul(GOLDEN) <= self.threshold
-            && let Ok(difference) = self.difference(row)
-        {
-            self.checked += 1;
-            self.largest = self.largest.max(difference);
-        }
+        };
+        sweep(manipulator, &Scattered { workspace, count: CHECKED }, u, &mut |row| {
+            if let Ok(difference) = compared.difference(row) {
+                compared.checked += 1;
+                compared.largest = compared.largest.max(difference);
+            }
+        })?;
+        Ok(compared)
     }
 
     fn difference(&mut self, row: &Row) -> Result<f64, Error> {

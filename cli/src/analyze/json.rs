@@ -154,7 +154,7 @@ pub(super) fn of<'a>(analysis: &'a Analysis<'a>) -> Report<'a> {
         not_reproducible: &study.not_reproducible,
         ledger: ledger::of(analysis),
         budget: analysis.admissible.as_ref().map(|admissible| allowed::of(analysis, admissible)),
-        compensation: analysis.compensation.as_ref().map(together::compensated),
+        compensation: analysis.budget.compensation.as_ref().map(together::compensated),
         monte_carlo: analysis.drawn.as_ref().map(|found| drawn::of(analysis, found)),
     }
 }

@@ -16,12 +16,11 @@ mod tables;
 mod text;
 mod unreachable;
 
+use abbe::Description;
 use abbe::analysis::{
-    Admissible, Budget, Compensation, Configuration, MonteCarlo, Unevaluated, Workspace, error_budget,
+    Admissible, Budget, Configuration, MonteCarlo, Row, Unevaluated, Watch, Workspace, error_budget,
     monte_carlo, sampling,
 };
-use abbe::{Description, Manipulator};
-use abbe_interpreter::Interpreter;
 
 use crate::arguments::Analyze;
 use crate::changes::Changes;
@@ -47,11 +46,31 @@ struct Analysis<'a> {
     varying: &'a [usize],
     budget: Budget,
     first_order: FirstOrder<'a>,
-    /// What is left after compensation, if the study says what that leaves of each source.
-    compensation: Option<Compensation>,
     /// What the tolerance of the study allows.
     admissible: Option<Admissible>,
     drawn: Option<Drawn>,
+}
+
+/// Who is shown every configuration, if anybody is, and how far the sweep is.
+struct Watching<'a> {
+    files: Option<Files<'a>>,
+    pictures: Option<Pictures<'a>>,
+    progress: Progress,
+}
+
+impl Watch for Watching<'_> {
+    fn rows(&self) -> bool {
+        self.files.is_some() || self.pictures.is_some()
+    }
+
+    fn row(&mut self, row: &Row) {
+        self.files.iter_mut().for_each(|files| files.configuration(row));
+        self.pictures.iter_mut().for_each(|pictures| pictures.add(row));
+    }
+
+    fn done(&mut self, before: usize) {
+        self.progress.reached(before);
+    }
 }
 
 /// What was drawn at the worst configuration and at home.
@@ -75,27 +94,25 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         pool.build_global().map_err(|error| Failure::of("--threads", error))?;
     }
 
-    let interpreter = Interpreter::new(&found.spec);
-    let description = interpreter.description();
-    let workspace = study.region.workspace(&interpreter, arguments.seed);
+    let changed = !changes.is_empty() || !study.changes.is_empty();
+    let manipulator = found.manipulator(!changed && !arguments.interpret);
+    let manipulator = &*manipulator;
+    let description = manipulator.description();
+    let workspace = study.region.workspace(manipulator, arguments.seed);
     let workspace = workspace.map_err(|error| Failure::of(&found.origin, error))?;
     let varying = study.region.varying(&found.spec);
-    let mut files = match &arguments.out {
-        Some(folder) => Some(Files::create(folder, &description, &varying)?),
-        None => None,
-    };
-    let mut pictures = arguments.out.as_ref().map(|_| Pictures::new(&study, &description));
     let u = sampling::nominal_inputs(&description);
-    let mut first_order = FirstOrder::new(&interpreter, &u, workspace.len());
-    let mut compensation = study.compensation.as_ref().map(|left| Compensation::new(left.of(&description)));
-    let mut progress = Progress::new(workspace.len());
-    let budget = error_budget(&interpreter, &*workspace, &u, &mut |row| {
-        first_order.add(row);
-        compensation.iter_mut().for_each(|compensation| compensation.add(row));
-        files.iter_mut().for_each(|files| files.configuration(row));
-        pictures.iter_mut().for_each(|pictures| pictures.add(row));
-        progress.reached(row.index);
-    });
+    let mut watching = Watching {
+        files: match &arguments.out {
+            Some(folder) => Some(Files::create(folder, &description, &varying)?),
+            None => None,
+        },
+        pictures: arguments.out.as_ref().map(|_| Pictures::new(&study, &description)),
+        progress: Progress::new(workspace.len()),
+    };
+    let residuals = study.compensation.as_ref().map(|left| left.of(&description));
+    let budget = error_budget(manipulator, &*workspace, &u, residuals, &mut watching);
+    let Watching { files, pictures, progress } = watching;
     drop(progress);
     let unevaluated = |refused: &Unevaluated| {
         let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
@@ -111,13 +128,15 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         return Err(Failure::of(&found.origin, message));
     }
 
+    let first_order =
+        FirstOrder::over(manipulator, &*workspace, &u).map_err(|refused| unevaluated(&refused))?;
     let drawn = match arguments.monte_carlo {
         Some(draws) => {
             let seed = arguments.seed.unwrap_or(0);
             let draw = |index: Option<usize>| {
                 let configuration = index.and_then(|index| workspace.configuration(index).ok());
                 let configuration = configuration.unwrap_or_else(|| workspace.home().clone());
-                monte_carlo(&interpreter, &configuration, &u, draws as usize, seed)
+                monte_carlo(manipulator, &configuration, &u, draws as usize, seed)
                     .map_err(|error| unevaluated(&Unevaluated { configuration: index, error }))
             };
             Some(Drawn { seed, worst: draw(budget.combined.radius.configuration)?, home: draw(None)? })
@@ -128,7 +147,6 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         region: study.region.describe(&found.spec),
         workspace: &*workspace,
         varying: &varying,
-        compensation,
         admissible: study.tolerance.map(|tolerance| Admissible::new(&budget, tolerance)),
         description,
         study: &study,

@@ -91,7 +91,7 @@ impl Study {
 
     /// The study of that file, or else the one shipped with the manipulator, or else joint samples.
     pub(crate) fn find(file: Option<&Path>, found: &Found) -> Result<Self, Diagnostics> {
-        match (file, found.study) {
+        match (file, found.shipped.and_then(|shipped| shipped.study)) {
             (Some(path), _) => Self::read(Document::read(path)?, &found.spec),
             (None, Some(text)) => {
                 Self::read(Document::new(format!("studies/{}.toml", found.origin), text), &found.spec)

@@ -52,6 +52,7 @@ pub use joints::{JointGrid, JointSamples, Listed, joint_grid, joint_samples, lis
 pub use monte_carlo::{MonteCarlo, monte_carlo};
 pub use presented::{Presentation, PresentedVolume, presented_volume};
 pub use quantiles::Quantile;
+pub use scattered::Scattered;
 pub use single::{Figures, SourceErrors};
 pub use sweep::{BLOCK, Row, Unevaluated, sweep};
 pub use unreachables::Unreachables;

@@ -6,9 +6,11 @@ use super::{Configuration, Unreached, Workspace};
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// At most `count` configurations of a workspace, spread over its indices; all of a smaller one.
-pub(super) struct Scattered<'a> {
-    pub(super) workspace: &'a dyn Workspace,
-    pub(super) count: usize,
+pub struct Scattered<'a> {
+    /// The workspace.
+    pub workspace: &'a dyn Workspace,
+    /// How many of its configurations at most.
+    pub count: usize,
 }
 
 impl Workspace for Scattered<'_> {
