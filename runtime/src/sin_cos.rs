@@ -112,11 +112,18 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
 /// Sine and cosine of several `f64`, with the bits of [`scalar`]: pairs of angles share SSE2 instructions.
 #[inline(always)]
 pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
-    if angles.iter().fold(true, |all, x| all & (x.abs() <= REACH)) {
-        angles.map(near)
-    } else {
-        angles.map(scalar)
+    let mut all = true;
+    for x in &angles {
+        all &= x.abs() <= REACH;
     }
+    if !all {
+        return angles.map(scalar);
+    }
+    let mut pairs = [(0.0, 0.0); N];
+    for i in 0..N {
+        pairs[i] = near(angles[i]);
+    }
+    pairs
 }
 
 /// Sine and cosine of any `f64` by the library: the platform's, or `libm` without `std`.
@@ -141,7 +148,10 @@ fn reduce<T: Real>(x: T) -> (T, T) {
     let rounded = x.mul_add(T::constant(FRAC_2_PI), round);
     let n = rounded - round;
     let parts: &[f64] = if T::FUSED { &FUSED_PARTS } else { &EXACT_PARTS };
-    let r = parts.iter().fold(x, |r, part| n.neg_mul_add(T::constant(*part), r));
+    let mut r = x;
+    for part in parts {
+        r = n.neg_mul_add(T::constant(*part), r);
+    }
     (r, rounded)
 }
 

@@ -33,8 +33,9 @@ impl<'a> Block<'a> {
         let (given, wanted) = rows(Path::SourceDisplacements);
         let set = InstructionSet::best();
         let mut arguments = Tiles::new(set, given, size);
-        for (input, value) in u.iter().enumerate() {
-            arguments.fill_row(given - u.len() + input, *value);
+        let home = workspace.home();
+        for (row, value) in home.q.iter().chain(&home.s).chain(u).enumerate() {
+            arguments.fill_row(row, *value);
         }
         let bounds = description.sources.iter().map(|source| match source.class {
             Class::Repeatable => 1.0,

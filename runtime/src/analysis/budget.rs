@@ -24,7 +24,7 @@ use crate::{Class, Manipulator, Scalar};
 const SCATTERED: usize = 512;
 /// Into how many parts a workspace is cut at least, and the most blocks of one.
 const CHUNKS: usize = 64;
-const LARGEST_CHUNK: usize = 32;
+const LARGEST_CHUNK: usize = 64;
 
 /// What the sources of a manipulator do over a workspace, to first order.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,6 +6,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::{SplitMix64, Xoshiro256PlusPlus};
 
 use super::workspace::{combinations, combine, in_range};
+use super::sweep::BLOCK;
 use super::{Axis, Configuration, Unreached, Workspace, sampling};
 use crate::lanes::Tiles;
 use crate::{Error, Manipulator, Quantity};
@@ -49,7 +50,7 @@ impl Workspace for JointGrid {
 enum Spread {
     /// The Halton sequence.
     Even,
-    /// Random numbers: a stream for every [`STREAM`] configurations.
+    /// Random numbers: a stream for every variable and [`STREAM`] configurations.
     Random { seed: u64 },
 }
 
@@ -120,10 +121,9 @@ impl Workspace for JointSamples {
                 }
             }
             Spread::Random { seed } => {
-                let mut random = stream(seed, index / STREAM);
-                (0..index % STREAM * self.moved.len()).for_each(|_| _ = random.next_u64());
-                for &(i, range, _) in &self.moved {
-                    q[i] = between(range, &mut random);
+                for (random, &(i, range, _)) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved) {
+                    (0..index % STREAM).for_each(|_| _ = random.next_u64());
+                    q[i] = between(range, random);
                 }
             }
         }
@@ -135,25 +135,29 @@ impl Workspace for JointSamples {
         if !range.start.is_multiple_of(STREAM) {
             return false;
         }
-        for (row, value) in self.home.q.iter().chain(&self.home.s).enumerate() {
-            if !self.moved.iter().any(|moved| moved.0 == row) {
-                rows.fill_row(row, *value);
-            }
-        }
+        let moved = self.moved.iter().map(|moved| moved.0).collect::<Vec<_>>();
         for first in range.clone().step_by(STREAM) {
-            let mut random = stream(seed, first / STREAM);
-            for index in first..range.end.min(first + STREAM) {
-                for &(i, limits, _) in &self.moved {
-                    rows.set_value(i, index - range.start, between(limits, &mut random));
-                }
-            }
+            let mut streams = self.streams(seed, first / STREAM);
+            let count = STREAM.min(range.end - first);
+            rows.set_each(&moved, first - range.start, count, |which| {
+                between(self.moved[which].1, &mut streams[which])
+            });
         }
         true
     }
 }
 
-/// How many configurations take their numbers from one stream, one after the other.
-const STREAM: usize = 128;
+impl JointSamples {
+    /// The streams of all variables that are moved, for so many configurations: made side by side they do not wait
+    /// for each other.
+    fn streams(&self, seed: u64, block: usize) -> Vec<impl Rng> {
+        let moved = self.moved.len();
+        (0..moved).map(|which| stream(seed, block * moved + which)).collect()
+    }
+}
+
+/// How many configurations take the numbers of a variable from one stream, one after the other.
+const STREAM: usize = BLOCK;
 
 /// A random number within limits.
 #[inline]

@@ -8,7 +8,7 @@ use super::{Configuration, Unreachables, Workspace};
 use crate::{Error, Manipulator, Pose, Quantity, checks};
 
 /// How many configurations are evaluated at once: few enough for what the sources do to stay in the cache.
-pub const BLOCK: usize = 128;
+pub const BLOCK: usize = 64;
 
 /// A configuration of the workspace that could not be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]

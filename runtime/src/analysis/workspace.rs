@@ -66,8 +66,8 @@ pub trait Workspace: Sync {
     /// of home. If it cannot be had they hold what was asked for.
     fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached>;
 
-    /// Writes the configurations of a range into rows q, s of `rows`, which has room for them, if all can be had and
-    /// this is quicker than one by one; says whether it did.
+    /// Writes what differs from home in the configurations of a range into rows q, s of `rows`, which hold those of
+    /// home, if all can be had and this is quicker than one by one; says whether it did.
     fn fill_rows(&self, _range: Range<usize>, _rows: &mut Tiles) -> bool {
         false
     }

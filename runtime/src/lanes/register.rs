@@ -251,16 +251,21 @@ impl<R: Register> Scalar for Lanes<R> {
 
     #[inline(always)]
     fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-        let reach = Lanes::constant(sin_cos::REACH);
-        let far = angles.iter().fold(Lanes::constant(0.0), |far: Self, angle| {
+        // Loops, and no closures: those could stay without the instruction set.
+        let (mut far, reach) = (Self::constant(0.0), Self::constant(sin_cos::REACH));
+        for angle in &angles {
             // Bits that differ from those of what is near. What is not a number stays so either way.
             let size = angle.abs();
-            Self(R::or(far.0, R::xor(reach.min(size).0, size.0)))
-        });
-        match Mask(far.0).any() {
-            true => angles.map(Self::far),
-            false => angles.map(sin_cos::near),
+            far = Self(R::or(far.0, R::xor(reach.min(size).0, size.0)));
         }
+        if Mask(far.0).any() {
+            return angles.map(Self::far);
+        }
+        let mut pairs = [(far, far); N];
+        for i in 0..N {
+            pairs[i] = sin_cos::near(angles[i]);
+        }
+        pairs
     }
 
     fn tan(self) -> Self {

@@ -87,6 +87,31 @@ impl Tiles {
         }
     }
 
+    /// Sets some rows of `count` configurations from `first` on, configuration after configuration: `value` is asked
+    /// for each, by its place in `rows`.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such row or configuration, as for a slice.
+    pub fn set_each(
+        &mut self,
+        rows: &[usize],
+        first: usize,
+        count: usize,
+        mut value: impl FnMut(usize) -> f64,
+    ) {
+        assert!(rows.iter().all(|row| *row < self.rows) && first + count <= self.count, "rows or configurations");
+        let (width, height) = (self.set.width(), self.rows);
+        let shift = width.trailing_zeros();
+        let numbers = self.numbers_mut();
+        for configuration in first..first + count {
+            let start = (((configuration >> shift) * height) << shift) + (configuration & (width - 1));
+            for (which, row) in rows.iter().enumerate() {
+                numbers[start + (row << shift)] = value(which);
+            }
+        }
+    }
+
     /// Repeats the last configuration in the lanes behind it.
     pub fn pad(&mut self) {
         let Some(last) = self.count.checked_sub(1) else { return };
@@ -151,7 +176,8 @@ impl Tiles {
 
     #[inline]
     fn place_of_lane(&self, row: usize, lane: usize) -> usize {
-        let width = self.set.width();
-        (lane / width * self.rows + row) * width + lane % width
+        // Widths are powers of two: no division.
+        let (width, shift) = (self.set.width(), self.set.width().trailing_zeros());
+        ((((lane >> shift) * self.rows) + row) << shift) + (lane & (width - 1))
     }
 }
