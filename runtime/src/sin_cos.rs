@@ -5,6 +5,8 @@
 //! Below 1.7 ulp for `|x| ≤` [`REACH`].
 
 use crate::Scalar;
+#[cfg(feature = "lanes")]
+use crate::lanes::{Lanes, Pair};
 
 /// How far from zero [`near`] holds: beyond it `n` has more bits than its products with π/2 leave free.
 pub(crate) const REACH: f64 = 1e5;
@@ -119,11 +121,21 @@ pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
     if !all {
         return angles.map(scalar);
     }
-    let mut pairs = [(0.0, 0.0); N];
-    for i in 0..N {
-        pairs[i] = near(angles[i]);
+    let mut results = [(0.0, 0.0); N];
+    #[cfg(feature = "lanes")]
+    for i in (0..N).step_by(2) {
+        // Two at a time, the last one twice if their number is odd.
+        let j = (i + 1).min(N - 1);
+        let (sines, cosines) = near(Lanes::<Pair>::from_fn(|lane| angles[if lane == 0 { i } else { j }]));
+        for (lane, place) in [(1, j), (0, i)] {
+            results[place] = (sines.to_slice()[lane], cosines.to_slice()[lane]);
+        }
     }
-    pairs
+    #[cfg(not(feature = "lanes"))]
+    for i in 0..N {
+        results[i] = near(angles[i]);
+    }
+    results
 }
 
 /// Sine and cosine of any `f64` by the library: the platform's, or `libm` without `std`.

@@ -6,7 +6,7 @@ use pulp::NullaryFnOnce;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
 
-use super::Register;
+use super::{Pair, Register};
 
 /// Work on lanes, to be compiled for every instruction set.
 ///
@@ -84,7 +84,7 @@ impl InstructionSet {
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Level::Baseline => kernel.run::<[f64; 2]>(),
+            Level::Baseline => kernel.run::<Pair>(),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2(v3) => v3.vectorize(With::<K, super::x86::Avx2>::new(kernel)),
             #[cfg(target_arch = "x86_64")]

@@ -16,6 +16,7 @@ mod function;
 mod instruction_set;
 mod one_by_one;
 mod path;
+#[cfg(not(target_arch = "x86_64"))]
 mod portable;
 mod register;
 mod tiles;
@@ -23,6 +24,12 @@ mod tiles;
 mod x86;
 
 pub use function::{Function, run};
+/// The two lanes that every machine has.
+#[cfg(target_arch = "x86_64")]
+pub(crate) type Pair = x86::Sse2;
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) type Pair = [f64; 2];
+
 #[doc(hidden)]
 pub use function::{Margin, fill, fill_columns, fill_vectors};
 pub use instruction_set::{InstructionSet, Kernel};

@@ -1,4 +1,5 @@
-//! Two lanes in an array: every machine has instructions for pairs (SSE2, NEON), and the compiler finds them.
+//! Two lanes in an array, for machines without a register here: they have instructions for pairs (NEON), and the
+//! compiler finds them.
 
 use super::Register;
 use super::register::by_array;

@@ -1,6 +1,6 @@
-//! The registers of AVX2 and AVX-512: the only `unsafe` of the project.
+//! The registers of SSE2, AVX2 and AVX-512: the only `unsafe` of the project.
 //!
-//! An instruction may be used where the machine has it. These types are named nowhere but in
+//! An instruction may be used where the machine has it. All have SSE2. The other two types are named nowhere but in
 //! [`InstructionSet::run`](super::InstructionSet::run), which has asked the machine; a kernel gets them as a type
 //! parameter and cannot exist without them. Nothing here reads or writes memory: all values come and go in registers.
 #![allow(unsafe_code)]
@@ -11,6 +11,11 @@ use bytemuck::{Pod, Zeroable};
 
 use super::Register;
 use super::register::by_array;
+
+/// Two lanes: SSE2.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(transparent)]
+pub(crate) struct Sse2(__m128d);
 
 /// Four lanes: AVX2 and FMA.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -30,6 +35,41 @@ macro_rules! instructions {
             Self(unsafe { $instruction })
         }
     )+};
+}
+
+impl Register for Sse2 {
+    by_array!(2, fused: false);
+
+    instructions! {
+        add(a, b) _mm_add_pd(a, b);
+        sub(a, b) _mm_sub_pd(a, b);
+        mul(a, b) _mm_mul_pd(a, b);
+        div(a, b) _mm_div_pd(a, b);
+        mul_add(a, b, c) _mm_add_pd(_mm_mul_pd(a, b), c);
+        mul_sub(a, b, c) _mm_sub_pd(_mm_mul_pd(a, b), c);
+        neg_mul_add(a, b, c) _mm_sub_pd(c, _mm_mul_pd(a, b));
+        sqrt(a) _mm_sqrt_pd(a);
+        min(a, b) _mm_min_pd(a, b);
+        max(a, b) _mm_max_pd(a, b);
+        xor(a, b) _mm_xor_pd(a, b);
+        and(a, b) _mm_and_pd(a, b);
+        or(a, b) _mm_or_pd(a, b);
+        and_not(a, b) _mm_andnot_pd(b, a);
+        more_than(a, b) _mm_cmpgt_pd(a, b);
+        odd(a) _mm_castsi128_pd(_mm_sub_epi64(
+            _mm_setzero_si128(),
+            _mm_and_si128(_mm_castpd_si128(a), _mm_set1_epi64x(1)),
+        ));
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
+        // SAFETY: the machine has the instruction, see above.
+        Self(unsafe {
+            let places = _mm_cvtsi32_si128(PLACES as i32);
+            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(a), places))
+        })
+    }
 }
 
 impl Register for Avx2 {
