@@ -78,7 +78,8 @@ impl<'s> Interpreter<'s> {
     /// Runs a tape at one configuration.
     fn run(&self, tape: &Tape, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<f64>, Error> {
         self.check(q, s, u)?;
-        let mut block = Block::<f64, 1>::new(tape);
+        let mut rows = vec![[0.0]; tape.slots];
+        let mut block = Block::new(tape, &mut rows);
         for (slot, value) in q.iter().chain(s).chain(u).enumerate() {
             block.set(slot, 0, *value);
         }

@@ -1,6 +1,8 @@
 //! Evaluates a tape over a block of lanes: each operation for all lanes before the next one, so that choosing
 //! the operation costs next to nothing.
 
+use std::cell::Cell;
+
 use abbe::Scalar;
 use abbe::lanes::{Kernel, Lanes, Register, Tiles};
 use abbe_codegen::expr::Function;
@@ -13,16 +15,16 @@ use crate::tape::{Instruction, Slot, Tape};
 const TILES: usize = 8;
 
 /// The values of a block: a row of numbers, or of lanes of them, for every slot.
-#[derive(Clone, Debug)]
-pub(crate) struct Block<T, const N: usize> {
-    rows: Vec<[T; N]>,
+#[derive(Debug)]
+pub(crate) struct Block<'r, T, const N: usize> {
+    rows: &'r mut [[T; N]],
 }
 
-impl<T: Scalar, const N: usize> Block<T, N> {
-    /// Room for a tape, with its constants in place.
+impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
+    /// Puts the constants of a tape in place. There must be a row for each of its slots; what is in them does not
+    /// matter.
     #[inline(always)]
-    pub(crate) fn new(tape: &Tape) -> Self {
-        let mut rows = vec![[T::constant(0.0); N]; tape.slots];
+    pub(crate) fn new(tape: &Tape, rows: &'r mut [[T; N]]) -> Self {
         for (row, constant) in rows[tape.symbol_slots()..].iter_mut().zip(&tape.constants) {
             *row = [T::constant(*constant); N];
         }
@@ -85,26 +87,25 @@ impl<T: Scalar, const N: usize> Block<T, N> {
     // Loops, and no adapters: those could stay without the instruction set.
     #[inline(always)]
     fn map(&mut self, instruction: &Instruction, f: impl Fn(T, T, T) -> T) {
-        // The result may take the place of an operand: it is put there when it is complete.
-        let Instruction { a, b, c, .. } = *instruction;
-        let (a, b, c) = (&self.rows[a], &self.rows[b], &self.rows[c]);
-        let mut result = *a;
+        // The result may take the place of an operand: each place is read before it is written.
+        let Instruction { a, b, c, result, .. } = *instruction;
         for place in 0..N {
-            result[place] = f(a[place], b[place], c[place]);
+            self.rows[result][place] = f(self.rows[a][place], self.rows[b][place], self.rows[c][place]);
         }
-        self.rows[instruction.result] = result;
     }
 
     #[inline(always)]
     fn sin_cos(&mut self, instruction: &Instruction) {
-        let angles = self.rows[instruction.a];
-        let (mut sines, mut cosines) = (angles, angles);
+        let Instruction { a, result, second, .. } = *instruction;
         for place in 0..N {
-            (sines[place], cosines[place]) = angles[place].sin_cos();
+            (self.rows[result][place], self.rows[second][place]) = self.rows[a][place].sin_cos();
         }
-        self.rows[instruction.result] = sines;
-        self.rows[instruction.second] = cosines;
     }
+}
+
+thread_local! {
+    /// Rows that were used before: making new ones would take as long as a short batch.
+    static ROWS: Cell<Tiles> = Cell::new(Tiles::default());
 }
 
 /// A tape and what it is to be run over.
@@ -120,7 +121,10 @@ impl Kernel for Batch<'_> {
     #[inline(always)]
     fn run<R: Register>(self) {
         let Self { tape, arguments, results } = self;
-        let mut block = Block::<Lanes<R>, TILES>::new(tape);
+        let mut rows = ROWS.take();
+        rows.reshape(arguments.set(), TILES * tape.slots, arguments.set().width());
+        let (slots, _) = rows.tile_mut::<R>(0).as_chunks_mut();
+        let mut block = Block::<Lanes<R>, TILES>::new(tape, slots);
         let tiles = arguments.tiles();
         for first in (0..tiles).step_by(TILES) {
             let here = TILES.min(tiles - first);
@@ -137,5 +141,6 @@ impl Kernel for Batch<'_> {
                 }
             }
         }
+        ROWS.set(rows);
     }
 }

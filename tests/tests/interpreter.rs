@@ -1,6 +1,7 @@
 //! The interpreter and the compiled code give the same numbers.
 
-use abbe::analysis::sampling::{arm_length, joint_sample, nominal_inputs, nominal_parameters};
+use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_inputs, nominal_parameters};
+use abbe::lanes::{InstructionSet, Path, Tiles};
 use abbe::{Error, Manipulator, Pose};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
@@ -74,39 +75,73 @@ fn equal_to_compiled_code_on_a_thousand_configurations() {
     }
 }
 
+/// The arguments of a batch function at spread configurations.
+fn arguments(robot: &dyn Manipulator, path: Path, set: InstructionSet, count: usize) -> Tiles {
+    let description = robot.description();
+    let (s, u) = (nominal_parameters(&description), nominal_inputs(&description));
+    let moved: Vec<usize> = (0..description.variables.len()).collect();
+    let mut arguments = Tiles::new(set, path.arguments(&description), count);
+    for i in 0..count {
+        let q = joint_sample(&description, 1.0, &moved, i);
+        let errors = (0..6 * description.frames.len()).map(|k| 1e-3 * halton(i + 1, k % 30));
+        let given = q.iter().chain(&s).chain(&u).copied().chain(errors);
+        for (row, value) in given.take(arguments.rows()).enumerate() {
+            arguments.set_value(row, i, value);
+        }
+    }
+    arguments.pad();
+    arguments
+}
+
+fn results(robot: &dyn Manipulator, path: Path, arguments: &Tiles) -> Tiles {
+    let rows = path.results(&robot.description());
+    let mut results = Tiles::new(arguments.set(), rows, arguments.count());
+    robot.batch(path, arguments, &mut results).unwrap();
+    results
+}
+
+/// To the last bit where the compiler orders the arithmetic as the program does, else to the last few.
 #[test]
-fn a_block_says_what_single_configurations_say() {
+fn batches_are_those_of_compiled_code_on_every_instruction_set() {
     // More than two blocks of lanes, and a tail.
     let count = 150;
     for shipped in SHIPPED {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
         let robot = Interpreter::new(&spec);
-        let description = robot.description();
-        let (s, u) = (nominal_parameters(&description), nominal_inputs(&description));
-        let moved: Vec<usize> = (0..description.variables.len()).collect();
-        let samples: Vec<Vec<f64>> = (0..count).map(|i| joint_sample(&description, 1.0, &moved, i)).collect();
-        let (columns, effects) = (6 * description.frames.len(), description.effects.len());
-        let mut poses = vec![Pose::IDENTITY; count];
-        let mut all_columns = vec![[0.0; 6]; columns * count];
-        let mut all_effects = vec![0.0; effects * count];
-        robot
-            .error_models(
-                &samples.concat(),
-                &s.repeat(count),
-                &u.repeat(count),
-                &mut poses,
-                &mut all_columns,
-                &mut all_effects,
-            )
-            .unwrap();
-        for (i, q) in samples.iter().enumerate() {
-            let mut one_columns = vec![[0.0; 6]; columns];
-            let mut one_effects = vec![0.0; effects];
-            let pose = robot.error_jacobian(q, &s, &mut one_columns).unwrap();
-            robot.effects(q, &s, &u, &mut one_effects).unwrap();
-            assert_eq!(pose, poses[i]);
-            assert_eq!(one_columns, all_columns[i * columns..][..columns]);
-            assert_eq!(one_effects, all_effects[i * effects..][..effects]);
+        for set in InstructionSet::all() {
+            for path in Path::ALL {
+                let arguments = arguments(&robot, path, set, count);
+                let compiled = results(shipped.compiled, path, &arguments);
+                let interpreted = results(&robot, path, &arguments);
+                for i in 0..count {
+                    for row in 0..compiled.rows() {
+                        let (a, b) = (compiled.get(row, i), interpreted.get(row, i));
+                        assert!(a == b, "{} {path:?} {set:?}: {a} and {b}", shipped.name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A configuration's results do not depend on what stands beside it.
+#[test]
+fn any_split_of_a_batch_gives_the_same_to_the_last_bit() {
+    for shipped in SHIPPED {
+        let robot = shipped.compiled;
+        for set in InstructionSet::all() {
+            for path in Path::ALL {
+                let whole = results(robot, path, &arguments(robot, path, set, 37));
+                for count in [1, 2, 7, 19] {
+                    let part = results(robot, path, &arguments(robot, path, set, count));
+                    for i in 0..count {
+                        for row in 0..part.rows() {
+                            let (a, b) = (whole.get(row, i), part.get(row, i));
+                            assert_eq!(a.to_bits(), b.to_bits(), "{} {path:?} {set:?}", shipped.name);
+                        }
+                    }
+                }
+            }
         }
     }
 }

@@ -5,8 +5,8 @@ use core::ops::Range;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::{SplitMix64, Xoshiro256PlusPlus};
 
-use super::workspace::{combinations, combine, in_range};
 use super::sweep::BLOCK;
+use super::workspace::{combinations, combine, in_range};
 use super::{Axis, Configuration, Unreached, Workspace, sampling};
 use crate::lanes::Tiles;
 use crate::{Error, Manipulator, Quantity};
@@ -121,7 +121,8 @@ impl Workspace for JointSamples {
                 }
             }
             Spread::Random { seed } => {
-                for (random, &(i, range, _)) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved) {
+                for (random, &(i, range, _)) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved)
+                {
                     (0..index % STREAM).for_each(|_| _ = random.next_u64());
                     q[i] = between(range, random);
                 }

@@ -23,6 +23,13 @@ pub struct Tiles {
     lines: Vec<Line>,
 }
 
+/// No rows, no configurations.
+impl Default for Tiles {
+    fn default() -> Self {
+        Self::new(InstructionSet::BASELINE, 0, 0)
+    }
+}
+
 impl Tiles {
     /// Room for `rows` numbers of each of `count` configurations, all 0, for an instruction set.
     pub fn new(set: InstructionSet, rows: usize, count: usize) -> Self {
@@ -36,6 +43,12 @@ impl Tiles {
         self.count = count;
         let numbers = self.tiles() * self.set.width() * self.rows;
         self.lines.resize(numbers.div_ceil(8), Line([0.0; 8]));
+    }
+
+    /// Makes it as if it were new, but for what the numbers are: anything.
+    pub fn reshape(&mut self, set: InstructionSet, rows: usize, count: usize) {
+        (self.set, self.rows) = (set, rows);
+        self.resize(count);
     }
 
     /// The instruction set that it is laid out for.
@@ -100,7 +113,10 @@ impl Tiles {
         count: usize,
         mut value: impl FnMut(usize) -> f64,
     ) {
-        assert!(rows.iter().all(|row| *row < self.rows) && first + count <= self.count, "rows or configurations");
+        assert!(
+            rows.iter().all(|row| *row < self.rows) && first + count <= self.count,
+            "rows or configurations"
+        );
         let (width, height) = (self.set.width(), self.rows);
         let shift = width.trailing_zeros();
         let numbers = self.numbers_mut();
