@@ -10,6 +10,31 @@
 //! assert_eq!(error_jacobian[3][0], 1568.0);
 //! # Ok::<(), abbe::Error>(())
 //! ```
+//!
+//! Many configurations at once, in the widest registers of the machine:
+//!
+//! ```
+//! use abbe::Manipulator;
+//! use abbe::lanes::{InstructionSet, Path, Tiles};
+//! use abbe_manipulators::pps::{self, Pps};
+//!
+//! let (set, count) = (InstructionSet::best(), 1000);
+//! let path = Path::PredictedDisplacement;
+//! let mut arguments = Tiles::new(set, path.arguments(&pps::DESCRIPTION), count); // rows q, s, u
+//! for (row, value) in [1128.0, 280.0, 0.0, 0.0, 0.0, 0.0, 0.0, 100.0, 850.0].into_iter().enumerate() {
+//!     arguments.fill_row(row, value);
+//! }
+//! for i in 0..count {
+//!     arguments.set_value(0, i, 2.256 * i as f64); // along the rail
+//! }
+//! let mut results = Tiles::new(set, path.results(&pps::DESCRIPTION), count);
+//! Pps.batch(path, &arguments, &mut results)?;
+//!
+//! let q = [1128.0, 280.0, 0.0, 0.0, 0.0, 0.0];
+//! let one = pps::predicted_displacement(&q, &pps::Parameters::NOMINAL, &pps::Inputs::NOMINAL)?;
+//! assert!((results.get(2, 500) - one[2]).abs() < 1e-12);
+//! # Ok::<(), abbe::Error>(())
+//! ```
 
 abbe::include_manipulators!();
 
