@@ -6,8 +6,8 @@
 //! the exact chain to check them against, and the analysis of a machine's errors over its workspace.
 //!
 //! The core is `no_std` and never allocates. Features, all on by default: `std` (the platform's own sine and
-//! cosine), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `parallel`
-//! (sweeps on all cores).
+//! cosine), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `identify` (the
+//! module [`identify`]: errors from measurements), `parallel` (sweeps on all cores).
 //!
 //! | convention | here |
 //! |---|---|
@@ -33,6 +33,8 @@ mod scalar;
 
 #[cfg(feature = "analysis")]
 pub mod analysis;
+#[cfg(feature = "identify")]
+pub mod identify;
 #[cfg(feature = "analysis")]
 pub mod laws;
 
