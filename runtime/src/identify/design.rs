@@ -32,6 +32,21 @@ pub fn d_optimal(
     known: &Known,
     count: usize,
 ) -> Result<Option<Design>, Failure> {
+    designed(model, candidates, known, count, 20 * count.max(10))
+}
+
+/// A list as it is: every pose once.
+pub fn whole(model: &Model, list: &[Observation], known: &Known) -> Result<Option<Design>, Failure> {
+    designed(model, list, known, list.len(), 0)
+}
+
+fn designed(
+    model: &Model,
+    candidates: &[Observation],
+    known: &Known,
+    count: usize,
+    most: usize,
+) -> Result<Option<Design>, Failure> {
     let kept = model.with(known.kept.iter().map(|k| model.unknowns[*k]).collect());
     let p = kept.unknowns.len();
     let mut rows = jacobians(&kept, candidates)?;
@@ -50,7 +65,7 @@ pub fn d_optimal(
     let ridge = DMatrix::<f64>::identity(p, p) * 1e-9;
     let sum = |chosen: &[usize]| chosen.iter().fold(ridge.clone(), |sum, i| sum + rows[*i].tr_mul(&rows[*i]));
     let mut exchanges = 0;
-    for _ in 0..20 * count.max(10) {
+    for _ in 0..most {
         let Some(inverse) = sum(&chosen).cholesky().map(|c| c.inverse()) else { return Ok(None) };
         // det(M + JᵀJ) = det M · det(1 + J M⁻¹ Jᵀ).
         let gain = |i: usize, sign: f64, inverse: &DMatrix<f64>| {

@@ -86,7 +86,7 @@ impl<'a> Model<'a> {
     /// The unknowns of base and tool alone; `pose` where whole poses are measured.
     pub fn base_and_tool(&self, pose: bool) -> Vec<Unknown> {
         let base = Component::ALL.map(Unknown::Base);
-        base.into_iter().chain(self.tool(pose)).collect()
+        base.into_iter().chain(self.tool_unknowns(pose)).collect()
     }
 
     /// The base, all six errors of every frame, and the tool, in this order.
@@ -94,10 +94,10 @@ impl<'a> Model<'a> {
         let frames = 0..self.manipulator.description().frames.len();
         let errors =
             frames.flat_map(|frame| Component::ALL.map(|component| Unknown::Error(frame, component)));
-        Component::ALL.map(Unknown::Base).into_iter().chain(errors).chain(self.tool(pose)).collect()
+        Component::ALL.map(Unknown::Base).into_iter().chain(errors).chain(self.tool_unknowns(pose)).collect()
     }
 
-    fn tool(&self, pose: bool) -> Vec<Unknown> {
+    fn tool_unknowns(&self, pose: bool) -> Vec<Unknown> {
         if pose {
             return Component::ALL.map(Unknown::Tool).to_vec();
         }
@@ -286,6 +286,18 @@ impl<'a> Model<'a> {
             values.truncate(3);
         }
         Ok(values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect())
+    }
+
+    /// The pose of the tool, and how its point moves per unit of every unknown.
+    pub fn tool(
+        &self,
+        room: &mut Room,
+        asked: &Observation,
+        x: &[f64],
+    ) -> Result<(Pose, Vec<[f64; 3]>), Error> {
+        let pose = self.pose(room, asked, x)?;
+        let moves = (0..self.unknowns.len()).map(|k| self.point(room, k, usize::MAX, pose.position()));
+        Ok((pose, moves.collect()))
     }
 
     /// What an unknown is called: `e_x1`, of the base `e_x0`, a source by its name.

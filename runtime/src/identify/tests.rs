@@ -319,7 +319,7 @@ fn exchange_beats_an_even_spread() {
     assert_eq!(found.chosen.len(), 30);
     let deviation = |chosen: &[usize]| {
         let part: Vec<Observation> = chosen.iter().map(|i| list[*i].clone()).collect();
-        let only = d_optimal(&model, &part, &known, part.len()).unwrap().unwrap();
+        let only = whole(&model, &part, &known).unwrap().unwrap();
         let all = predicted(&model, &known, &only.covariance, &list).unwrap();
         all.iter().sum::<f64>() / all.len() as f64
     };
