@@ -87,6 +87,14 @@ impl Data {
         Ok(data)
     }
 
+    /// The rows but those, by index.
+    pub(crate) fn without(&self, leave: impl Fn(usize) -> bool) -> Self {
+        let kept = |i: &usize| !leave(*i);
+        let rows = (0..self.lines.len()).filter(kept);
+        let (observations, lines) = rows.map(|i| (self.observations[i].clone(), self.lines[i])).unzip();
+        Self { file: self.file.clone(), observations, lines, unusable: self.unusable.clone() }
+    }
+
     /// Notes a row that was left out after all.
     pub(crate) fn leave_out(&mut self, line: u64, reason: &str) {
         let place = self.unusable.partition_point(|row| row.line < line);

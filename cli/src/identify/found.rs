@@ -232,7 +232,8 @@ pub(super) fn report(
             .collect(),
         uncertainty_factor: fit.sigma,
         base: setup.ideal.base.rows().map(|row| row.map(|entry| entry + 0.0)),
-        fit: compared(data)?,
+        // What was left out does not count.
+        fit: compared(&data.without(|row| fit.rejects(row)))?,
         test: test.map(compared).transpose()?,
         cross_validation: Crossed {
             folds: solved.folds,

@@ -99,7 +99,10 @@ fn parameters(spec: &Spec, report: &Report) -> String {
             "" => ("", 1.0, 4),
             unit => (unit, 1.0, decimals),
         };
-        let show = |value: f64| fixed(value * factor, decimals);
+        let show = |value: f64| match parameter.unit {
+            "" => digits(value, 4),
+            _ => fixed(value * factor, decimals),
+        };
         let remark = if parameter.hardly_known { "hardly known" } else { "" };
         table.row(vec![
             parameter.name.clone(),
@@ -184,7 +187,7 @@ fn errors(spec: &Spec, report: &Report) -> String {
 
 fn terms(spec: &Spec, report: &Report) -> String {
     if report.terms.is_empty() {
-        return "No richer term earns its place: none makes rows that are left out fit better by 1 %.\n"
+        return "No richer term earns its place: none makes rows that are left out fit better by 1 % and beyond chance.\n"
             .to_owned();
     }
     let decimals = number::error_decimals(abbe_length(spec));
@@ -197,7 +200,7 @@ fn terms(spec: &Spec, report: &Report) -> String {
     let unit = spec.length.symbol();
     let line = format!(
         "Before and after: root mean square of a coordinate on rows left out in turn, {unit}. A term is taken in if \
-         that falls; p is how likely its gain on all rows would be by chance."
+         that falls, and if p is small, how likely its gain on all rows would be by chance."
     );
     let constant = report.cross_validation.constant.map_or(String::new(), |sizes| {
         format!(

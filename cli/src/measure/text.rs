@@ -92,10 +92,11 @@ pub(super) fn sentences(report: &Report) -> Vec<String> {
         );
     }
     let verdict = if explained.inside >= 0.95 { "at least 95 %, as it should be" } else { "fewer than 95 %" };
-    all.push(format!(
-        "{} of the rows are within what its {} random sources and the instrument allow about that: {verdict}.",
-        percent(explained.inside, 1.0),
-        explained.random
-    ));
+    let allow = match explained.random {
+        0 => "what the instrument allows".to_owned(),
+        random => format!("what its {random} random sources and the instrument allow"),
+    };
+    let inside = percent(explained.inside, 1.0);
+    all.push(format!("{inside} of the rows are within {allow} about that: {verdict}."));
     all
 }

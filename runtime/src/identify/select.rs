@@ -30,10 +30,14 @@ pub struct Selection {
 /// By how much, as a share, the squared error on left-out data must fall for a group to be taken in.
 const GAIN: f64 = 0.01;
 
+/// How likely it may be that the best of all candidates is taken in by chance.
+const CHANCE: f64 = 0.05;
+
 /// Rows that are gathered before they are summed.
 const BLOCK: usize = 256;
 
-/// Chooses forward: always the candidate that helps most on left-out data, until none helps by one percent.
+/// Chooses forward: always the candidate that helps most on left-out data, until none helps by one percent, or what it
+/// explains of all data could be chance.
 ///
 /// `model` has the unknowns of all candidates besides those of `fit`, whose model it extends: its unknowns come
 /// first. Everything is linear about that fit, so one pass over the data decides all of it.
@@ -64,6 +68,10 @@ pub fn select(
         let (all, terms) = (with(best), candidates[best].unknowns.len());
         let freedom = sums.rows.saturating_sub(all.len());
         let test = f_test(sums.cost(&chosen), sums.cost(&all), terms, freedom);
+        // The best of many looks good by chance: each of them has had its try (Bonferroni).
+        if test.p * candidates.len() as f64 > CHANCE {
+            break;
+        }
         let rms = |square: f64| (square / sums.rows.max(1) as f64).sqrt();
         found.push(Selection { candidate: best, before: rms(before), after: rms(after), test });
         (chosen, before) = (all, after);
