@@ -24,6 +24,7 @@ use crate::output::{Outcome, json, note};
 
 pub(crate) use readings::check_readings;
 pub(crate) use setup::{Counts, Setup};
+pub(crate) use words::table as alike_table;
 
 pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     let mut found = manipulator::find(&arguments.spec)?;

@@ -47,13 +47,7 @@ fn known(setup: &Setup, data: &Data, solved: &Solved, report: &Report) -> String
     );
     let moved = setup.moved(&data.observations);
     let alike = groups(&solved.model, &data.observations[0].q, &moved, setup.pose).unwrap_or_default();
-    let mut table = Table::new(&["because", "these cannot be told apart"]);
-    for sentence in words::sentences(&alike, &solved.model, &setup.description) {
-        table.row(vec![wrapped_at(&sentence.reason, 38), sentence.groups.join("\n")]);
-    }
-    if !alike.is_empty() {
-        text += &table.to_string();
-    }
+    text += &words::table(&alike, &solved.model, &setup.description);
     if report.unexplained > 0 {
         let line = format!(
             "{} more combinations make no difference at these configurations: other ones would show them.",
@@ -72,22 +66,6 @@ fn known(setup: &Setup, data: &Data, solved: &Solved, report: &Report) -> String
         digits(o.o5, 3)
     );
     text + &format!("{}\n", wrapped(&line, 0))
-}
-
-/// Lines of at most so many characters.
-fn wrapped_at(text: &str, width: usize) -> String {
-    let mut lines = vec![String::new()];
-    for word in text.split(' ') {
-        let last = lines
-            .last_mut()
-            .filter(|last| last.is_empty() || last.chars().count() + word.chars().count() < width);
-        match last {
-            Some(last) if last.is_empty() => *last = word.to_owned(),
-            Some(last) => *last += &format!(" {word}"),
-            None => lines.push(word.to_owned()),
-        }
-    }
-    lines.join("\n")
 }
 
 fn parameters(spec: &Spec, report: &Report) -> String {

@@ -4,16 +4,41 @@ use abbe::identify::{Group, Model, Reason, Unknown};
 use abbe::{Description, VariableKind};
 
 use crate::number;
+use crate::table::Table;
 
 /// Groups that have the same reason.
-pub(super) struct Sentence {
-    pub(super) reason: String,
+struct Sentence {
+    reason: String,
     /// `e_z1 acts as e_z2`.
-    pub(super) groups: Vec<String>,
+    groups: Vec<String>,
+}
+
+/// What cannot be told apart, and why; nothing if all can.
+pub(crate) fn table(groups: &[Group], model: &Model, description: &Description) -> String {
+    let mut table = Table::new(&["because", "these cannot be told apart"]);
+    for sentence in sentences(groups, model, description) {
+        table.row(vec![wrapped_at(&sentence.reason, 38), sentence.groups.join("\n")]);
+    }
+    if groups.is_empty() { String::new() } else { table.to_string() }
+}
+
+/// Lines of at most so many characters.
+fn wrapped_at(text: &str, width: usize) -> String {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let fits =
+            |last: &&mut String| last.is_empty() || last.chars().count() + word.chars().count() < width;
+        match lines.last_mut().filter(fits) {
+            Some(last) if last.is_empty() => *last = word.to_owned(),
+            Some(last) => *last += &format!(" {word}"),
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n")
 }
 
 /// One sentence for every reason.
-pub(super) fn sentences(groups: &[Group], model: &Model, description: &Description) -> Vec<Sentence> {
+fn sentences(groups: &[Group], model: &Model, description: &Description) -> Vec<Sentence> {
     let mut sentences: Vec<Sentence> = Vec::new();
     for group in groups {
         let reason = reason(group.reason, description);

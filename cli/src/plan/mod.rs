@@ -4,7 +4,8 @@ mod sets;
 
 use abbe::analysis::{Workspace, joint_samples};
 use abbe::identify::{
-    Design, Figures, Known, Model, Observation, Seen, Unknown, d_optimal, predicted, what_can_be_known, whole,
+    Design, Figures, Known, Model, Observation, Seen, Unknown, d_optimal, groups, predicted,
+    what_can_be_known, whole,
 };
 use abbe::{Description, Manipulator};
 use abbe_interpreter::Interpreter;
@@ -14,7 +15,7 @@ use crate::arguments::Plan;
 use crate::changes::Changes;
 use crate::data::Map;
 use crate::failure::Failure;
-use crate::identify::{Counts, Setup};
+use crate::identify::{Counts, Setup, alike_table};
 use crate::manipulator::{self, Found};
 use crate::number::{self, digits};
 use crate::output::{Outcome, json};
@@ -122,7 +123,11 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
         let numbers: Vec<_> = rows.iter().map(|row| map.numbers(row, [0.0; 3], false)).collect();
         write(file, &csv(&map.heading(false), &numbers))?;
     }
-    let text = if arguments.json { json(&report)? } else { text(&found, &map, &report, arguments) };
+    let moved = setup.moved(&rows);
+    let alike = rows.first().map_or(Ok(Vec::new()), |row| groups(&model, &row.q, &moved, setup.pose));
+    let alike = alike.map_err(|error| Failure::of(&arguments.spec, error))?;
+    let alike = alike_table(&alike, &model, &description);
+    let text = if arguments.json { json(&report)? } else { text(&found, &map, &report, &alike, arguments) };
     Ok(Outcome::passed(text))
 }
 
@@ -174,7 +179,7 @@ fn at_the_tool(
     predicted(&model, known, &design.covariance, &list)
 }
 
-fn text(found: &Found, map: &Map, report: &Report, arguments: &Plan) -> String {
+fn text(found: &Found, map: &Map, report: &Report, alike: &str, arguments: &Plan) -> String {
     let unit = found.spec.length.symbol();
     let mut text = format!("{}: where to measure\n\n{}\n", found.spec.title, wrapped(&report.title, 0));
     text += &format!("{} rows", report.rows);
@@ -188,6 +193,7 @@ fn text(found: &Found, map: &Map, report: &Report, arguments: &Plan) -> String {
         digits(report.condition, 3)
     );
     text += &format!("{}\n", wrapped(&sentence, 0));
+    text += &format!("\n{alike}\n");
     let fine = |value: f64| format!("{} {unit}", number::digits(value, 3));
     let sentence = format!(
         "With an instrument of {} {unit} the tool point of the identified machine will then have a standard deviation of \
