@@ -310,6 +310,26 @@ fn manipulators_map(name: &str) -> String {
     std::fs::read_to_string(map(name)).unwrap()
 }
 
+/// What the spec knows already stays: nothing is found beside it, and nothing that cannot be known.
+#[test]
+fn known_sources_are_taken_as_known() {
+    let folder = tempdir().unwrap();
+    let nominal = manipulators_map("pps");
+    let text = nominal.replace("q5 = { value = 0 }", "q5 = { column = \"q5\", unit = \"deg\" }");
+    let text = text.replace("q6 = { value = 0 }", "q6 = { column = \"q6\", unit = \"deg\" }");
+    let text = format!("{}{POINT}", &text[..text.find("[[target]]").unwrap()]);
+    let map = write(folder.path(), "map.toml", &text);
+    let data = folder.path().join("data.csv");
+    prints(&["simulate", "pps", "--map", path(&map), "--samples", "400", "--out", path(&data)]);
+    let report = json(&["identify", "pps", path(&data), "--map", path(&map), "--json"]);
+    assert_eq!(report["machine"]["rank"], 21);
+    assert!((number(&report, &["fit", "after", "rms"]) - 0.04 * 3f64.sqrt()).abs() < 0.004);
+    for parameter in report["parameters"].as_array().unwrap() {
+        let off = number(parameter, &["value"]).abs() / number(parameter, &["standard_deviation"]);
+        assert!(off < 4.0, "{parameter}");
+    }
+}
+
 #[test]
 fn missing_columns_are_all_named() {
     let bench = Bench::new(POINT);

@@ -83,6 +83,12 @@ impl<'a> Model<'a> {
         Self { unknowns, roles, ..self.clone() }
     }
 
+    /// The same without those sources that are there as the spec has them.
+    pub(super) fn without_known_sources(&self) -> Self {
+        let off = |role: &Role| if *role == Role::Known { Role::Off } else { *role };
+        Self { roles: self.roles.iter().map(off).collect(), ..self.clone() }
+    }
+
     /// The unknowns of base and tool alone; `pose` where whole poses are measured.
     pub fn base_and_tool(&self, pose: bool) -> Vec<Unknown> {
         let base = Component::ALL.map(Unknown::Base);

@@ -23,6 +23,9 @@ pub struct Chance {
     pub seed: u64,
 }
 
+/// Keeps these numbers apart from those of configurations that were drawn from the same seed.
+const APART: u64 = 0x6d65_6173_7572_6564;
+
 /// What would be seen at the configurations of `list`, on the exact chain with the known sources of `model`.
 ///
 /// Row i follows from the seed and i alone. What `list` has seen says which targets there are, or that poses are.
@@ -42,7 +45,7 @@ pub fn simulate(
     let model = model.with(random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect());
     let mut room = model.room();
     let one = |(i, asked): (usize, &Observation)| {
-        let mut numbers = ChaCha8Rng::seed_from_u64(chance.seed);
+        let mut numbers = ChaCha8Rng::seed_from_u64(chance.seed ^ APART);
         numbers.set_stream(i as u64);
         let x: Vec<f64> = random
             .iter()

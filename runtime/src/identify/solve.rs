@@ -167,11 +167,12 @@ pub(super) fn linearize(
 
 /// The unknowns that explain the measurements best.
 ///
-/// What cannot be known is held at zero; see [`what_can_be_known`].
+/// What cannot be known is held at zero; see [`what_can_be_known`]. Known sources do not count there: an error that
+/// changes from place to place makes groups differ by a little of a little, which no data of a real machine tell.
 pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit, Failure> {
     let mut at = options.at.clone();
     at.resize(model.unknowns.len(), 0.0);
-    let known = what_can_be_known(model, data, &at)?;
+    let known = what_can_be_known(&model.without_known_sources(), data, &at)?;
     let numbers = data.iter().map(Observation::count).sum();
     if numbers <= known.rank {
         return Err(Failure::TooFew { numbers, rank: known.rank });
