@@ -1,7 +1,7 @@
 //! Measurements of a machine whose errors are known: for tests, for teaching, for planning.
 
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_distr::{Normal, StandardNormal};
 
 use super::{Model, Observation, Seen, Unknown};
@@ -45,7 +45,7 @@ pub fn simulate(
     let model = model.with(random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect());
     let mut room = model.room();
     let one = |(i, asked): (usize, &Observation)| {
-        let mut numbers = ChaCha8Rng::seed_from_u64(chance.seed ^ APART);
+        let mut numbers = Xoshiro256PlusPlus::seed_from_u64(chance.seed ^ APART);
         numbers.set_stream(i as u64);
         let x: Vec<f64> = random
             .iter()
