@@ -1,10 +1,10 @@
 //! Measurements of a machine whose errors are known: for tests, for teaching, for planning.
 
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
+use rand::RngExt;
 use rand_distr::{Normal, StandardNormal};
 
 use super::{Model, Observation, Seen, Unknown};
+use crate::analysis::stream;
 use crate::chain::displacement;
 use crate::{Class, Distribution, Error};
 
@@ -45,8 +45,7 @@ pub fn simulate(
     let model = model.with(random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect());
     let mut room = model.room();
     let one = |(i, asked): (usize, &Observation)| {
-        let mut numbers = Xoshiro256PlusPlus::seed_from_u64(chance.seed ^ APART);
-        numbers.set_stream(i as u64);
+        let mut numbers = stream(chance.seed ^ APART, i);
         let x: Vec<f64> = random
             .iter()
             .map(|(_, distribution)| match distribution {
