@@ -34,6 +34,14 @@ pub(crate) enum Command {
     Jacobian(Jacobian),
     /// What every error source does over a workspace, alone and together
     Analyze(Analyze),
+    /// How good a machine is, from measurements: accuracy, repeatability, and what its sources explain
+    Measure(Measure),
+    /// The errors of the real machine, from measurements
+    Identify(Identify),
+    /// Where to measure: sets of configurations, or the best of many
+    Plan(Plan),
+    /// Measurements of a machine whose errors are known
+    Simulate(Simulate),
 }
 
 #[derive(Args, Debug)]
@@ -114,6 +122,150 @@ pub(crate) struct Analyze {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Identify {
+    /// Spec file, or shipped name
+    pub(crate) spec: String,
+    /// Measurements: a CSV file
+    pub(crate) data: PathBuf,
+    /// What the columns are: a map (TOML), or the name of a shipped one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) map: PathBuf,
+    /// Measurements to judge by; nothing is chosen after them
+    #[arg(long, value_name = "FILE")]
+    pub(crate) test: Option<PathBuf>,
+    /// Richer terms to try beside constant errors; those stay that help on rows left out in turn
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "FAMILY,…")]
+    pub(crate) terms: Vec<Terms>,
+    /// A loss that gross errors cannot pull at
+    #[arg(long, value_enum, default_value_t = Robust::None)]
+    pub(crate) robust: Robust,
+    /// How large errors are expected to be, as a share of the arm's length and in rad; 0 for no expectation
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01, value_parser = share)]
+    pub(crate) prior: f64,
+    /// Into how many parts the rows are dealt, each left out in turn
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
+    pub(crate) folds: usize,
+    /// Write the spec with the errors found, as repeatable sources
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Measure {
+    /// Spec file, or shipped name
+    pub(crate) spec: String,
+    /// Measurements: a CSV file
+    pub(crate) data: PathBuf,
+    /// What the columns are: a map (TOML), or the name of a shipped one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) map: PathBuf,
+    /// Write into this folder: report.html, and errors.csv with ΔX of every row
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Plan {
+    /// Spec file, or shipped name
+    pub(crate) spec: String,
+    /// What the columns will be: a map (TOML), or the name of a shipped one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) map: PathBuf,
+    /// Sets of configurations: a plan file (TOML), or the name of a shipped one
+    #[arg(long, value_name = "FILE", conflicts_with = "optimal")]
+    pub(crate) sets: Option<PathBuf>,
+    /// The N configurations that tell most, D-optimal
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=5000))]
+    pub(crate) optimal: Option<u16>,
+    /// From how many samples within the limits these are chosen
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u16).range(1..=20000))]
+    pub(crate) candidates: u16,
+    /// Where the machine is to be used: the workspace of this study. If not given, that of the study shipped with the
+    /// manipulator, or else joint samples
+    #[arg(long, value_name = "FILE")]
+    pub(crate) study: Option<PathBuf>,
+    /// Write the configurations: a CSV file to be completed by measuring
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Simulate {
+    /// Spec file, or shipped name: its repeatable sources are the errors of the machine
+    pub(crate) spec: String,
+    /// What the columns are to be: a map (TOML), or the name of a shipped one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) map: PathBuf,
+    /// Configurations: a CSV file with the joints and inputs of the map
+    #[arg(long, value_name = "FILE")]
+    pub(crate) at: Option<PathBuf>,
+    /// How many random configurations within the limits, if no file says which
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000_000))]
+    pub(crate) samples: usize,
+    /// One standard deviation of a coordinate: `0.04mm`. That of the map if not given
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub(crate) noise: Option<String>,
+    /// Which share of the rows is grossly wrong
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    pub(crate) outliers: f64,
+    /// Draw the random sources of the spec too, anew in every row
+    #[arg(long)]
+    pub(crate) random: bool,
+    /// Seed of everything random
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Write to this file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Terms {
+    /// All that follow
+    Auto,
+    /// Errors that change with a frame's own joint
+    Joint,
+    /// Errors in proportion to an input
+    Load,
+    /// Turns in proportion to the moment of weights
+    Elastic,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Robust {
+    None,
+    Huber,
+    Tukey,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().map_err(|error| error.to_string())?;
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share is from 0 to 1".to_owned()) }
+}
+
+fn folds(text: &str) -> Result<usize, String> {
+    let value = text.parse::<usize>().map_err(|error| error.to_string())?;
+    if (2..=1000).contains(&value) { Ok(value) } else { Err("from 2 to 1000 parts".to_owned()) }
 }
 
 #[derive(Args, Debug)]

@@ -8,16 +8,21 @@ mod analyze;
 mod arguments;
 mod changes;
 mod check;
+mod data;
 mod failure;
 mod generate;
+mod identify;
 mod interrupt;
 mod jacobian;
 mod list;
 mod manipulator;
+mod measure;
 mod number;
 mod output;
+mod plan;
 mod progress;
 mod report;
+mod simulate;
 mod study;
 mod table;
 
@@ -46,5 +51,9 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Generate(arguments)) => generate::run(arguments),
         Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
+        Some(Command::Measure(arguments)) => measure::run(arguments),
+        Some(Command::Identify(arguments)) => identify::run(arguments),
+        Some(Command::Plan(arguments)) => plan::run(arguments),
+        Some(Command::Simulate(arguments)) => simulate::run(arguments),
     }
 }

@@ -49,6 +49,17 @@ impl<'s> Deref for Runnable<'s> {
     }
 }
 
+impl Found {
+    /// The text of the spec.
+    pub(crate) fn text(&self) -> Result<String, Failure> {
+        match SHIPPED.iter().find(|shipped| shipped.name == self.origin && !Path::new(&self.origin).is_file())
+        {
+            Some(shipped) => Ok(shipped.spec.to_owned()),
+            None => Ok(Document::read(Path::new(&self.origin))?.text.to_string()),
+        }
+    }
+}
+
 /// Reads the spec that an argument names.
 ///
 /// A file that exists, and whatever looks like a path, is a file; all else must be a shipped name.

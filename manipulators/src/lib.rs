@@ -41,4 +41,4 @@ abbe::include_manipulators!();
 
 mod shipped;
 
-pub use shipped::{SHIPPED, Shipped};
+pub use shipped::{MAPS, PLANS, SHIPPED, Shipped};

@@ -45,3 +45,14 @@ shipped! {
     ur5: Ur5,
     wam: Wam,
 }
+
+/// Maps of data files to the manipulators of the same name: what their columns are. Of `ur5` and `wam` for a public
+/// data set, of `pps` for the measurements that the paper describes.
+pub const MAPS: &[(&str, &str)] = &[
+    ("pps", include_str!("../maps/pps.toml")),
+    ("ur5", include_str!("../maps/ur5.toml")),
+    ("wam", include_str!("../maps/wam.toml")),
+];
+
+/// Plans of measurements of the manipulators of the same name: sets of configurations.
+pub const PLANS: &[(&str, &str)] = &[("pps", include_str!("../plans/pps.toml"))];

@@ -25,7 +25,7 @@ pub fn real_pose(transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
 }
 
 /// `E_i`: translation `(e_x, e_y, e_z)` and `R = R_y(e_s) R_z(e_r) R_x(e_p)`.
-fn displacement(e: &[f64; 6]) -> Pose {
+pub(crate) fn displacement(e: &[f64; 6]) -> Pose {
     let (ss, cs) = Scalar::sin_cos(e[Component::Spin.index()]);
     let (sr, cr) = Scalar::sin_cos(e[Component::Roll.index()]);
     let (sp, cp) = Scalar::sin_cos(e[Component::Pitch.index()]);
@@ -73,7 +73,7 @@ fn euler_yzx(pose: &Pose) -> [f64; 3] {
 }
 
 /// The rotation vector of a rotation: its axis times its angle.
-fn rotation_vector(pose: &Pose) -> [f64; 3] {
+pub(crate) fn rotation_vector(pose: &Pose) -> [f64; 3] {
     let [x, y, z, _] = pose.0;
     let v = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
     let twice_sine = Scalar::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);

@@ -6,7 +6,8 @@
 //! the exact chain to check them against, and the analysis of a machine's errors over its workspace.
 //!
 //! The core is `no_std` and never allocates. Features, all on by default: `std` (the platform's own functions, and
-//! `mul_add`), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `parallel`
+//! `mul_add`), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `identify` (the
+//! module [`identify`]: errors from measurements), `lanes` (the module [`lanes`]: many configurations at once), `parallel`
 //! (sweeps on all cores).
 //!
 //! | convention | here |
@@ -35,6 +36,8 @@ mod sin_cos;
 
 #[cfg(feature = "analysis")]
 pub mod analysis;
+#[cfg(feature = "identify")]
+pub mod identify;
 #[cfg(feature = "lanes")]
 pub mod lanes;
 #[cfg(not(feature = "lanes"))]

@@ -15,5 +15,7 @@ mod stick;
 mod subject;
 mod svg;
 
+pub(crate) use axis::{BAR, INK, XYZ, css};
+pub(crate) use html::{document, escaped, section, style};
 pub(crate) use pictures::Pictures;
 pub(crate) use subject::{Compared, Subject};

@@ -14,7 +14,7 @@ const VALUES: usize = 10_000_000;
 pub(super) const LARGEST: usize = 1_000_000_000;
 
 /// What can be an axis, with its dimensions.
-pub(super) struct Candidates<'a> {
+pub(crate) struct Candidates<'a> {
     /// `variable` or `parameter`.
     pub(super) what: &'static str,
     names: Vec<&'a str>,
@@ -22,7 +22,7 @@ pub(super) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    pub(super) fn variables(spec: &'a Spec) -> Self {
+    pub(crate) fn variables(spec: &'a Spec) -> Self {
         let dimension = |kind| match kind {
             VariableKind::Revolute => Dimension::NONE,
             VariableKind::Prismatic => Dimension::LENGTH,
@@ -42,8 +42,16 @@ impl<'a> Candidates<'a> {
         }
     }
 
+    pub(crate) fn inputs(spec: &'a Spec) -> Self {
+        Self {
+            what: "input",
+            names: spec.inputs.iter().map(|input| input.name.as_str()).collect(),
+            dimensions: spec.inputs.iter().map(|input| input.dimension).collect(),
+        }
+    }
+
     /// A table of axes, `NAME = VALUES` each.
-    pub(super) fn axes(&self, item: &Item<'_>, document: &mut Document, spec: &Spec) -> Vec<Axis> {
+    pub(crate) fn axes(&self, item: &Item<'_>, document: &mut Document, spec: &Spec) -> Vec<Axis> {
         let Some(section) = document.section(item) else { return Vec::new() };
         let mut axes = Vec::new();
         for item in section.items() {
@@ -120,7 +128,7 @@ pub(super) fn values(
 }
 
 /// A whole number of things, at least one.
-pub(super) fn count(item: &Item<'_>, largest: usize, document: &mut Document, spec: &Spec) -> Option<usize> {
+pub(crate) fn count(item: &Item<'_>, largest: usize, document: &mut Document, spec: &Spec) -> Option<usize> {
     whole(item, [1, largest], document, spec)
 }
 

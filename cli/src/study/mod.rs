@@ -54,6 +54,7 @@ use abbe_codegen::spec::Spec;
 use crate::changes::Changes;
 use crate::manipulator::Found;
 
+pub(crate) use axis::{Candidates, count};
 pub(crate) use compensation::Compensated;
 pub(crate) use figure::{Content, Figure, Over};
 pub(crate) use published::{CombinedFigure, Metric, Published, PublishedResidual, Subject};

@@ -39,7 +39,7 @@ impl Region {
     }
 
     /// `[workspace]`: one of the forms.
-    pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Self> {
+    pub(crate) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Self> {
         let mut section = document.section(item)?;
         section.name = "[workspace]".to_owned();
         section.check_keys(&FORMS, document);

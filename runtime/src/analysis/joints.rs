@@ -168,7 +168,7 @@ fn between([lower, upper]: [f64; 2], random: &mut impl Rng) -> f64 {
 
 /// Random numbers that follow from a seed and the number of the stream: xoshiro256++, whose state is the SplitMix64
 /// sequence from both.
-pub(super) fn stream(seed: u64, number: usize) -> impl Rng {
+pub(crate) fn stream(seed: u64, number: usize) -> impl Rng {
     Xoshiro256PlusPlus::seed_from_u64(seed ^ SplitMix64::seed_from_u64(number as u64).next_u64())
 }
 

@@ -48,6 +48,8 @@ pub use covariance::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use enclosing::Sphere;
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
 pub use inverse::{Target, inverse};
+#[cfg(feature = "identify")]
+pub(crate) use joints::stream;
 pub use joints::{JointGrid, JointSamples, Listed, joint_grid, joint_samples, listed, random_joint_samples};
 pub use monte_carlo::{MonteCarlo, monte_carlo};
 pub use presented::{Presentation, PresentedVolume, presented_volume};

@@ -8,9 +8,11 @@ mod page;
 mod plots;
 
 pub(super) use page::page;
+pub(crate) use page::{document, section};
+pub(crate) use plots::style;
 
 /// Text as HTML has it.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;")
 }

@@ -16,7 +16,6 @@ pub(in crate::report) fn page(
     left_out: &[&str],
     subject: &Subject,
 ) -> String {
-    let title = escaped(subject.description.title);
     let parts = [
         heading(subject),
         summary(subject),
@@ -30,14 +29,19 @@ pub(in crate::report) fn page(
         notes(subject),
         section("Input files", &facts::inputs(subject)),
     ];
+    document(&format!("{}: error analysis", subject.description.title), &parts.concat())
+}
+
+/// A page with its script and style in it.
+pub(crate) fn document(title: &str, body: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}: error analysis</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n\
+         <title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n\
          <noscript><style>.plots {{ display: none !important; }} .drawing {{ display: block !important; }}</style></noscript>\n{}\n\
-         </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+         </head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
+        escaped(title),
         script(),
-        parts.concat()
     )
 }
 
@@ -56,7 +60,8 @@ fn script() -> String {
     scripts.find(end).map_or_else(String::new, |at| scripts[..at + end.len()].to_owned())
 }
 
-fn section(title: &str, body: &str) -> String {
+/// A part of a page.
+pub(crate) fn section(title: &str, body: &str) -> String {
     format!("<section>\n<h2>{title}</h2>\n{body}</section>\n")
 }
 

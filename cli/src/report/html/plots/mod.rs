@@ -4,7 +4,7 @@ mod cloud;
 mod histogram;
 mod manipulator;
 mod pareto;
-mod style;
+pub(crate) mod style;
 mod surface;
 mod travel;
 

@@ -1,0 +1,191 @@
+//! What comes out, for people.
+
+use abbe::identify::groups;
+use abbe_codegen::spec::Spec;
+
+use super::found::{Report, Sizes};
+use super::setup::Setup;
+use super::solved::{Solved, some};
+use super::words;
+use crate::data::Data;
+use crate::number::{self, digits, fixed};
+use crate::table::{Table, wrapped};
+
+pub(super) fn of(
+    spec: &Spec,
+    setup: &Setup,
+    data: &Data,
+    test: Option<&Data>,
+    solved: &Solved,
+    report: &Report,
+    written: Option<&str>,
+) -> String {
+    let mut parts = vec![format!("{}: errors from measurements\n\n", spec.title)];
+    for line in data.describe().into_iter().chain(test.map(Data::describe).into_iter().flatten()) {
+        parts[0] += &format!("{}\n", wrapped(&line, 2));
+    }
+    parts.push(known(setup, data, solved, report));
+    parts.push(parameters(spec, report));
+    parts.push(errors(spec, report));
+    if !report.terms.is_empty() || report.cross_validation.constant.is_some() {
+        parts.push(terms(spec, report));
+    }
+    let notes = solved.notes.iter().map(|note| wrapped(note, 0) + "\n").collect::<String>();
+    if !notes.is_empty() {
+        parts.push(notes);
+    }
+    if let Some(written) = written {
+        parts.push(written.to_owned());
+    }
+    parts.join("\n")
+}
+
+fn known(setup: &Setup, data: &Data, solved: &Solved, report: &Report) -> String {
+    let mut text = format!(
+        "What can be known: {} combinations of {} unknowns, {}\n",
+        report.rank, report.unknowns, report.machine
+    );
+    let moved = setup.moved(&data.observations);
+    let alike = groups(&solved.model, &data.observations[0].q, &moved, setup.pose).unwrap_or_default();
+    text += &words::table(&alike, &solved.model, &setup.description);
+    if report.unexplained > 0 {
+        let line = format!(
+            "{} more combinations make no difference at these configurations: other ones would show them.",
+            report.unexplained
+        );
+        text += &format!("{}\n", wrapped(&line, 0));
+    }
+    let o = solved.fit.known.observability;
+    let line = format!(
+        "Condition number {}; observability O1 {}, O2 {}, O3 {}, O4 {}, O5 {} (columns of unit length).",
+        digits(o.condition, 3),
+        digits(o.o1, 3),
+        digits(o.o2, 3),
+        digits(o.o3, 3),
+        digits(o.o4, 3),
+        digits(o.o5, 3)
+    );
+    text + &format!("{}\n", wrapped(&line, 0))
+}
+
+fn parameters(spec: &Spec, report: &Report) -> String {
+    let mut table = Table::new(&["error", "of", "value", "standard deviation", "", ""]);
+    let decimals = number::error_decimals(abbe_length(spec));
+    for parameter in &report.parameters {
+        let (unit, factor, decimals) = match parameter.unit {
+            "rad" => ("mrad", 1e3, 4),
+            "" => ("", 1.0, 4),
+            unit => (unit, 1.0, decimals),
+        };
+        let show = |value: f64| match parameter.unit {
+            "" => digits(value, 4),
+            _ => fixed(value * factor, decimals),
+        };
+        let remark = if parameter.hardly_known { "hardly known" } else { "" };
+        table.row(vec![
+            parameter.name.clone(),
+            parameter.frame_name.clone().unwrap_or_default(),
+            show(parameter.value),
+            show(parameter.standard_deviation),
+            unit.to_owned(),
+            remark.to_owned(),
+        ]);
+    }
+    let mut text = format!("Errors of the machine, all others held at zero\n{}", table.right(&[2, 3]));
+    if report.parameters.iter().any(|parameter| parameter.hardly_known) {
+        let line = "Hardly known: the data say less of it than that it is small; `--prior` says how small.";
+        text += &format!("{line}\n");
+    }
+    if !report.correlations.is_empty() {
+        let shown = report.correlations.iter().take(8);
+        let pairs: Vec<String> = shown
+            .map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)))
+            .collect();
+        let more = report.correlations.len().saturating_sub(8);
+        let more = if more > 0 { format!("; {more} more pairs") } else { String::new() };
+        text += &format!(
+            "{}\n",
+            wrapped(&format!("Correlated by more than 0.9: {}{more}.", pairs.join(", ")), 0)
+        );
+    }
+    text
+}
+
+fn abbe_length(spec: &Spec) -> abbe::LengthUnit {
+    if spec.length.symbol() == "m" { abbe::LengthUnit::Metre } else { abbe::LengthUnit::Millimetre }
+}
+
+fn errors(spec: &Spec, report: &Report) -> String {
+    let decimals = number::error_decimals(abbe_length(spec));
+    let mut table = Table::new(&["position error", "rows", "mean", "rms", "95 %", "max"]);
+    let mut row = |name: &str, rows: usize, sizes: &Sizes| {
+        let numbers = [sizes.mean, sizes.rms, sizes.p95, sizes.max].map(|value| fixed(value, decimals));
+        table.row([&[name.to_owned(), rows.to_string()][..], &numbers].concat());
+    };
+    for (set, compared) in [("fit", Some(&report.fit)), ("test", report.test.as_ref())] {
+        let Some(compared) = compared else { continue };
+        row(&format!("{set}: as delivered"), compared.rows, &compared.before);
+        row(&format!("{set}: base and tool fitted"), compared.rows, &compared.base_and_tool);
+        row(&format!("{set}: identified"), compared.rows, &compared.after);
+        if set == "fit" {
+            let name = format!("left out in turn, {} parts", report.cross_validation.folds);
+            row(&name, compared.rows, &report.cross_validation.after);
+        }
+    }
+    let mut text = format!("How good it is, {}\n{}", spec.length.symbol(), table.right(&[1, 2, 3, 4, 5]));
+    let line = if report.test.is_some() {
+        "Nothing of the test rows was used to find or to choose anything."
+    } else {
+        "On data it has not seen: the rows left out in turn; `--test FILE` judges on a file of its own."
+    };
+    text += &format!("{line}\n");
+    let factor = report.uncertainty_factor;
+    let line = match factor {
+        _ if factor > 1.5 => format!(
+            "What is left is {} times what the instrument explains: the machine has errors that this model has not.",
+            digits(factor, 3)
+        ),
+        _ if factor < 0.67 => format!(
+            "What is left is {} times what the instrument's uncertainty in the map says: it is better than stated.",
+            digits(factor, 3)
+        ),
+        _ => "What is left is what the instrument explains.".to_owned(),
+    };
+    text += &format!("{}\n", wrapped(&line, 0));
+    if !report.rejected.is_empty() {
+        let line = format!(
+            "Left out as gross errors: {} rows, lines {}.",
+            report.rejected.len(),
+            some(&report.rejected)
+        );
+        text += &format!("{}\n", wrapped(&line, 0));
+    }
+    text
+}
+
+fn terms(spec: &Spec, report: &Report) -> String {
+    if report.terms.is_empty() {
+        return "No richer term earns its place: none makes rows that are left out fit better by 1 % and beyond chance.\n"
+            .to_owned();
+    }
+    let decimals = number::error_decimals(abbe_length(spec));
+    let mut table =
+        Table::new(&["richer terms, in the order of their gain", "before", "after", "p of the F-test"]);
+    for term in &report.terms {
+        let p = if term.p < 1e-12 { "below 1e-12".to_owned() } else { digits(term.p, 2) };
+        table.row(vec![term.name.clone(), fixed(term.before, decimals), fixed(term.after, decimals), p]);
+    }
+    let unit = spec.length.symbol();
+    let line = format!(
+        "Before and after: root mean square of a coordinate on rows left out in turn, {unit}. A term is taken in if \
+         that falls, and if p is small, how likely its gain on all rows would be by chance."
+    );
+    let constant = report.cross_validation.constant.map_or(String::new(), |sizes| {
+        format!(
+            "Left out in turn, constants alone: mean {} {unit}; with these terms {} {unit}.\n",
+            fixed(sizes.mean, decimals),
+            fixed(report.cross_validation.after.mean, decimals)
+        )
+    });
+    format!("{}{}\n{constant}", table.right(&[1, 2, 3]), wrapped(&line, 0))
+}

@@ -1,0 +1,476 @@
+//! `abbe identify`: real measurements of others where they are, simulated ones everywhere.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use tempfile::{TempDir, tempdir};
+
+use crate::running::{abbe, json, narrow, prints, shipped, write};
+
+fn path(path: &Path) -> &str {
+    path.to_str().expect("a path is text")
+}
+
+/// A file of the public data set, if it stands beside the repository.
+fn real(file: &str) -> Option<PathBuf> {
+    let found = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/ur5_wam_jacobi").join(file);
+    if !found.exists() {
+        println!("skipped: {file} is not here");
+        return None;
+    }
+    Some(found)
+}
+
+/// The shipped map, as a file.
+fn map(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../manipulators/maps").join(format!("{name}.toml"))
+}
+
+fn number(report: &Value, keys: &[&str]) -> f64 {
+    keys.iter().fold(report, |value, key| &value[key]).as_f64().unwrap_or_else(|| panic!("{keys:?}"))
+}
+
+fn real_report(robot: &str, more: &[&str]) -> Option<Value> {
+    let name = robot.to_uppercase();
+    let grid = real(&format!("3D_{name}_uncalibrated_grid_cleaned.csv"))?;
+    let random = real(&format!("3D_{name}_uncalibrated_random_cleaned.csv"))?;
+    let map = map(robot);
+    let arguments = ["identify", robot, path(&grid), "--map", path(&map), "--test", path(&random), "--json"];
+    Some(json(&[&arguments[..], more].concat()))
+}
+
+#[test]
+fn ur5_is_as_good_as_measured() {
+    let Some(report) = real_report("ur5", &[]) else { return };
+    assert_eq!((&report["rank"], &report["unknowns"]), (&27.into(), &45.into()));
+    for key in ["condition", "groups", "parameters", "fit", "test"] {
+        assert!(!report[key].is_null(), "{key}");
+    }
+    assert_eq!(report["parameters"].as_array().map(Vec::len), Some(27));
+    assert!((number(&report, &["test", "before", "mean"]) - 2.565).abs() < 5e-4);
+    assert!((number(&report, &["test", "base_and_tool", "mean"]) - 0.488).abs() < 1e-3);
+    assert!(number(&report, &["test", "after", "mean"]) <= 0.102);
+    assert!(number(&report, &["test", "after", "max"]) <= 0.160);
+    // As the README has it.
+    assert!((number(&report, &["test", "after", "mean"]) - 0.1005).abs() < 5e-5);
+    let richer = real_report("ur5", &["--terms", "auto"]).expect("the data are here");
+    assert!((number(&richer, &["test", "after", "mean"]) - 0.0905).abs() < 5e-5);
+    // Two directions are known only because the target is a little off the last axis: that is said.
+    let hardly = report["parameters"].as_array().unwrap().iter().filter(|p| p["hardly_known"] == true);
+    assert_eq!(hardly.map(|p| p["name"].as_str().unwrap()).collect::<Vec<_>>(), ["e_s5", "e_p5"]);
+}
+
+#[test]
+fn wam_gains_by_terms_that_the_grid_alone_chooses() {
+    let Some(report) = real_report("wam", &[]) else { return };
+    assert_eq!(report["rank"], 31);
+    assert!(number(&report, &["test", "after", "mean"]) <= 3.10);
+    let Some(richer) = real_report("wam", &["--terms", "auto"]) else { return };
+    let crossed = ["cross_validation", "after", "mean"];
+    assert!(number(&richer, &crossed) < number(&report, &crossed));
+    // The data's author published 2.9178.
+    assert!((number(&richer, &["test", "after", "mean"]) - 2.845).abs() < 5e-4);
+}
+
+#[test]
+fn elastic_terms_are_written_with_their_weight() {
+    let Some(grid) = real("3D_WAM_uncalibrated_grid_cleaned.csv") else { return };
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("found.toml");
+    let map = map("wam");
+    let identify = ["identify", "wam", path(&grid), "--map", path(&map), "--terms", "elastic", "--json"];
+    let report = json(&[&identify[..], &["--out", path(&out)]].concat());
+    assert!(!report["terms"].as_array().unwrap().is_empty());
+    let text = std::fs::read_to_string(&out).unwrap();
+    assert!(text.contains("[[load]]") && text.contains("compliance = ") && text.starts_with("gravity = "));
+    // The spec computes what was fitted: the model with all of it, base and tool included.
+    let joints: String =
+        (1..=7).map(|i| format!("q{i} = {{ column = \"joint_{i}\", unit = \"deg\" }}\n")).collect();
+    let exact = format!(
+        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\n\n[joints]\n{joints}\n[difference]\ntarget = [\"x_t\", \"y_t\", \"z_t\"]\ndifference = [\"x_dif\", \"y_dif\", \"z_dif\"]\nunit = \"mm\"\n"
+    );
+    let exact = write(folder.path(), "exact.toml", &exact);
+    let measured = json(&["measure", path(&out), path(&grid), "--map", path(&exact), "--json"]);
+    let left = number(&measured, &["explained", "left_rms"]);
+    assert!((left - number(&report, &["fit", "after", "rms"])).abs() < 1e-4, "{left}");
+}
+
+/// A machine with errors of its own.
+const ERRORS: &str = r#"
+[[source]]
+name = "truth"
+class = "repeatable"
+
+[[source.effect]]
+frame = "shoulder"
+e_x = "0.6 mm"
+e_s = "0.8 mrad"
+
+[[source.effect]]
+frame = "elbow"
+e_y = "-0.5 mm"
+e_p = "-1.1 mrad"
+
+[[source.effect]]
+frame = "wrist 3"
+e_x = "1.5 mm"
+e_z = "0.7 mm"
+"#;
+
+const POINT: &str = r#"
+[point]
+columns = ["x", "y", "z"]
+unit = "mm"
+"#;
+
+/// A UR5 with errors, a map, and measurements of it.
+struct Bench {
+    folder: TempDir,
+    spec: PathBuf,
+    map: PathBuf,
+}
+
+impl Bench {
+    fn new(layout: &str) -> Self {
+        let folder = tempdir().unwrap();
+        let joints: String =
+            (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+        let map = format!(
+            "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.05 mrad\"\n\n[joints]\n{joints}{layout}"
+        );
+        let spec = write(folder.path(), "real.toml", &format!("{}{ERRORS}", shipped("ur5")));
+        let map = write(folder.path(), "map.toml", &map);
+        Self { folder, spec, map }
+    }
+
+    fn simulated(&self, more: &[&str]) -> String {
+        prints(&[&["simulate", path(&self.spec), "--map", path(&self.map)][..], more].concat())
+    }
+
+    fn file(&self, name: &str, text: &str) -> PathBuf {
+        write(self.folder.path(), name, text)
+    }
+
+    fn identify(&self, data: &Path, more: &[&str]) -> Value {
+        json(&[&["identify", "ur5", path(data), "--map", path(&self.map), "--json"][..], more].concat())
+    }
+
+    /// What is said of data that cannot be used.
+    fn refused(&self, data: &Path, expected: &[&str]) {
+        let run = abbe(&["identify", "ur5", path(data), "--map", path(&self.map), "--json"]);
+        assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{}", run.stderr);
+        let stderr = run.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        expected.iter().for_each(|expected| assert!(stderr.contains(expected), "{expected}\n{stderr}"));
+    }
+}
+
+/// The lines of a file, each changed.
+fn changed(text: &str, mut change: impl FnMut(usize, &mut Vec<String>)) -> String {
+    let lines = text.lines().enumerate().map(|(i, line)| {
+        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if i > 0 {
+            change(i - 1, &mut fields);
+        }
+        fields.join(",") + "\n"
+    });
+    lines.collect()
+}
+
+fn times(field: &mut String, factor: f64) {
+    *field = format!("{}", field.parse::<f64>().unwrap() * factor);
+}
+
+#[test]
+fn what_is_found_is_the_machine() {
+    let bench = Bench::new(POINT);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "300", "--seed", "1"]));
+    let unseen = bench.file("unseen.csv", &bench.simulated(&["--samples", "50", "--seed", "2"]));
+    let report = bench.identify(&data, &["--test", path(&unseen)]);
+    assert_eq!(report["rank"], 27);
+    // Nothing but the instrument's noise is left: √3 σ of a point.
+    assert!((number(&report, &["test", "after", "rms"]) - 0.02 * 3f64.sqrt()).abs() < 0.004);
+    assert!((number(&report, &["uncertainty_factor"]) - 1.0).abs() < 0.06);
+    assert!(number(&report, &["test", "base_and_tool", "mean"]) > 0.3);
+}
+
+#[test]
+fn the_test_file_decides_nothing() {
+    let bench = Bench::new(POINT);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "120", "--seed", "1"]));
+    let one = bench.file("one.csv", &bench.simulated(&["--samples", "30", "--seed", "2"]));
+    let other =
+        bench.file("other.csv", &bench.simulated(&["--samples", "9", "--seed", "3", "--noise", "5mm"]));
+    let run = |test: Option<&Path>| {
+        let out = bench.folder.path().join("found.toml");
+        let more = test.map_or(Vec::new(), |test| vec!["--test", path(test)]);
+        let mut report =
+            bench.identify(&data, &[&["--terms", "joint", "--out", path(&out)][..], &more].concat());
+        report.as_object_mut().unwrap().remove("test");
+        (report, std::fs::read_to_string(out).unwrap())
+    };
+    let alone = run(None);
+    assert_eq!(run(Some(&one)), alone);
+    assert_eq!(run(Some(&other)), alone);
+    // It is opened when all is chosen: a file that is not there stops nothing before that, and writes nothing.
+    let run = abbe(&["identify", "ur5", path(&data), "--map", path(&bench.map), "--test", "nowhere.csv"]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("nowhere.csv"));
+}
+
+#[test]
+fn the_result_is_a_spec() {
+    let bench = Bench::new(POINT);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "200", "--seed", "4"]));
+    let out = bench.folder.path().join("found.toml");
+    let text = prints(&["identify", "ur5", path(&data), "--map", path(&bench.map), "--out", path(&out)]);
+    let found = std::fs::read_to_string(&out).unwrap();
+    // Every line of the nominal spec is still there, in order; every other one is shown as added.
+    let mut rest = found.lines();
+    for line in shipped("ur5").lines() {
+        assert!(rest.any(|found| found == line), "{line}");
+    }
+    for line in found.lines().filter(|line| !shipped("ur5").lines().any(|nominal| nominal == *line)) {
+        assert!(text.contains(&format!("+ {line}\n")), "{line}");
+    }
+    assert!(found.contains("name = \"identified: elbow\"") && found.contains("200 rows of data.csv"));
+    let check = json(&["check", path(&out), "--json"]);
+    assert!(check["laws"].as_array().unwrap().iter().all(|law| law["holds"] == true));
+    assert!(prints(&["generate", path(&out)]).contains("pub mod raw"));
+    json(&["analyze", path(&out), "--json"]);
+
+    // It predicts what was measured: the same chain, so the same errors to the digits that are written.
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let exact = format!("[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\n\n[joints]\n{joints}{POINT}");
+    let exact = bench.file("exact.toml", &exact);
+    let measured = json(&["measure", path(&out), path(&data), "--map", path(&exact), "--json"]);
+    let fitted = bench.identify(&data, &[]);
+    let left = number(&measured, &["explained", "left_rms"]);
+    assert!((left - number(&fitted, &["fit", "after", "rms"])).abs() < 1e-5);
+    assert!(number(&measured, &["explained", "share"]) > 0.99);
+}
+
+#[test]
+fn what_is_grouped_with_what_is_said() {
+    let bench = Bench::new(POINT);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "200", "--seed", "4"]));
+    let text = prints(&["identify", "ur5", path(&data), "--map", path(&bench.map)]);
+    // Before anything is measured it is known already.
+    assert!(prints(&["plan", "ur5", "--map", path(&bench.map)]).contains("e_r1 acts as −425 e_y2 + e_r2"));
+    for expected in [
+        "What can be known: 27 combinations of 45 unknowns, 27 of the 42 errors of frames and base",
+        "q2 turns: turns about its axis and       e_z1 acts as e_z2",
+        "e_r1 acts as −425 e_y2 + e_r2",
+        "e_p6 cannot be seen",
+        "Nothing of the test rows",
+    ] {
+        assert_eq!(text.contains(expected), expected != "Nothing of the test rows", "{expected}\n{text}");
+    }
+    narrow(&text);
+    // Two joints that stay as they are: nothing fails, and it is said.
+    let still = format!(
+        "[data]\nuncertainty = \"0.02 mm\"\n\n[joints]\nq1 = {{ column = \"j1\", unit = \"deg\" }}\nq2 = {{ column = \"j2\", unit = \"deg\" }}\nq3 = {{ column = \"j3\", unit = \"deg\" }}\nq4 = {{ value = 0.3 }}\nq5 = {{ value = 0.2 }}\nq6 = {{ value = 0 }}\n{POINT}"
+    );
+    let map = bench.file("still.toml", &still);
+    let simulated = prints(&["simulate", path(&bench.spec), "--map", path(&map), "--samples", "100"]);
+    let data = bench.file("still.csv", &simulated);
+    let text = prints(&["identify", "ur5", path(&data), "--map", path(&map)]);
+    assert!(text.contains("q5 is not moved in these data"), "{text}");
+    assert!(!text.contains("e9") && !text.contains("NaN") && !text.contains("inf"), "{text}");
+}
+
+#[test]
+fn counts_of_the_paper() {
+    let folder = tempdir().unwrap();
+    let nominal = manipulators_map("pps");
+    let free = nominal
+        .replace("q5 = { value = 0 }", "q5 = { column = \"q5\", unit = \"deg\" }")
+        .replace("q6 = { value = 0 }", "q6 = { column = \"q6\", unit = \"deg\" }");
+    let point = |text: &str| {
+        let at = text.find("[[target]]").unwrap();
+        format!("{}{POINT}", &text[..at])
+    };
+    let exact = |text: &str| text.replace("[data]", "[data]\nbase = \"exact\"");
+    for (map, expected) in [
+        (exact(&nominal), "14 of the 36 errors of frames)"),
+        (nominal.clone(), "16 of the 42 errors of frames and base)"),
+        (exact(&point(&nominal)), "11 of the 36 errors of frames)"),
+        (point(&nominal), "13 of the 42 errors of frames and base)"),
+        (exact(&free), "22 of the 36 errors of frames)"),
+        (free, "24 of the 42 errors of frames and base)"),
+    ] {
+        let map = write(folder.path(), "map.toml", &map);
+        let text = prints(&["plan", "pps", "--map", path(&map), "--optimal", "60"]);
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+}
+
+fn manipulators_map(name: &str) -> String {
+    std::fs::read_to_string(map(name)).unwrap()
+}
+
+/// What the spec knows already stays: nothing is found beside it, and nothing that cannot be known.
+#[test]
+fn known_sources_are_taken_as_known() {
+    let folder = tempdir().unwrap();
+    let nominal = manipulators_map("pps");
+    let text = nominal.replace("q5 = { value = 0 }", "q5 = { column = \"q5\", unit = \"deg\" }");
+    let text = text.replace("q6 = { value = 0 }", "q6 = { column = \"q6\", unit = \"deg\" }");
+    let text = format!("{}{POINT}", &text[..text.find("[[target]]").unwrap()]);
+    let map = write(folder.path(), "map.toml", &text);
+    let data = folder.path().join("data.csv");
+    prints(&["simulate", "pps", "--map", path(&map), "--samples", "400", "--out", path(&data)]);
+    let report = json(&["identify", "pps", path(&data), "--map", path(&map), "--json"]);
+    assert_eq!(report["machine"]["rank"], 21);
+    assert!((number(&report, &["fit", "after", "rms"]) - 0.04 * 3f64.sqrt()).abs() < 0.004);
+    for parameter in report["parameters"].as_array().unwrap() {
+        let off = number(parameter, &["value"]).abs() / number(parameter, &["standard_deviation"]);
+        assert!(off < 4.0, "{parameter}");
+    }
+}
+
+#[test]
+fn missing_columns_are_all_named() {
+    let bench = Bench::new(POINT);
+    let data = bench.simulated(&["--samples", "60"]).replace("j3", "joint3").replace(",y,", ",why,");
+    let data = bench.file("data.csv", &data);
+    bench.refused(
+        &data,
+        &[
+            "there is no column `j3`",
+            "there is no column `y`",
+            "map.toml",
+            "did you mean `joint3`?",
+            "did you mean `why`?",
+        ],
+    );
+}
+
+#[test]
+fn rows_that_cannot_be_used_are_listed() {
+    let bench = Bench::new(POINT);
+    let text = changed(&bench.simulated(&["--samples", "80"]), |row, fields| match row {
+        3 => fields[7] = String::new(),
+        5 => fields[2] = "n/a".to_owned(),
+        6 => fields[8] = "1e999".to_owned(),
+        9 => fields.truncate(5),
+        _ => {}
+    });
+    let twice = text.lines().nth(20).unwrap().to_owned();
+    let data = bench.file("data.csv", &format!("{text}{twice}\n"));
+    let report = bench.identify(&data, &[]);
+    let found: Vec<(i64, &str)> = report["unusable"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| (row["line"].as_i64().unwrap(), row["reason"].as_str().unwrap()))
+        .collect();
+    let expected = [
+        (5, "`y` is missing"),
+        (7, "`j3` is `n/a`, not a number"),
+        (8, "`z` is `1e999`"),
+        (11, "it ends before `j6`"),
+        (82, "the same as a row before it, digit by digit"),
+    ];
+    assert_eq!(found, expected);
+    assert_eq!(report["fit"]["rows"], 76);
+}
+
+#[test]
+fn units_and_signs_that_would_fit_are_named() {
+    let bench = Bench::new(POINT);
+    let good = bench.simulated(&["--samples", "80"]);
+    let file = |change: &dyn Fn(&mut Vec<String>)| {
+        bench.file("bad.csv", &changed(&good, |_, fields| change(fields)))
+    };
+    let metres = file(&|fields| fields[6..9].iter_mut().for_each(|field| times(field, 1e-3)));
+    bench.refused(&metres, &["are the measured lengths in m, not mm?"]);
+    let radians = file(&|fields| fields[..6].iter_mut().for_each(|field| times(field, 1f64.to_radians())));
+    bench.refused(&radians, &["are the joint angles in rad, not deg?"]);
+    for joint in [0, 2, 4] {
+        let turned = file(&|fields| times(&mut fields[joint], -1.0));
+        bench.refused(
+            &turned,
+            &[&format!("does `q{}` count the other way round? set `sign = -1`", joint + 1)],
+        );
+    }
+    // What helps is done: with the sign in the map the data fit.
+    let turned = file(&|fields| times(&mut fields[2], -1.0));
+    let map =
+        std::fs::read_to_string(&bench.map).unwrap().replace("column = \"j3\"", "column = \"j3\", sign = -1");
+    let map = bench.file("turned.toml", &map);
+    let report = json(&["identify", "ur5", path(&turned), "--map", path(&map), "--json"]);
+    assert!(number(&report, &["fit", "after", "rms"]) < 0.04);
+}
+
+#[test]
+fn quaternions_in_the_other_order_are_noticed() {
+    let pose = |order: &str| {
+        format!(
+            "\n[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nquaternion = {{ columns = [\"a\", \"b\", \"c\", \"d\"], order = \"{order}\" }}\n"
+        )
+    };
+    let bench = Bench::new(&pose("wxyz"));
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "80"]));
+    let report = bench.identify(&data, &[]);
+    assert_eq!((&report["rank"], &report["unknowns"]), (&30.into(), &48.into()));
+    assert!(number(&report, &["fit", "after", "rms"]) < 0.04);
+    let other = std::fs::read_to_string(&bench.map).unwrap().replace("wxyz", "xyzw");
+    let other = bench.file("other.toml", &other);
+    let run = abbe(&["identify", "ur5", path(&data), "--map", path(&other)]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("is the quaternion in the order `wxyz`?"), "{}", run.stderr);
+}
+
+#[test]
+fn gross_errors_are_named_and_left_out() {
+    let bench = Bench::new(POINT);
+    let data = bench.simulated(&["--samples", "300", "--outliers", "0.1", "--seed", "8"]);
+    let data = bench.file("data.csv", &data);
+    let run = abbe(&["identify", "ur5", path(&data), "--map", path(&bench.map), "--json"]);
+    assert!(run.stderr.contains("of 300 rows lie more than ten standard deviations"), "{}", run.stderr);
+    assert!(run.stderr.contains("--robust tukey"));
+    let report = bench.identify(&data, &["--robust", "tukey"]);
+    let rejected = report["rejected"].as_array().unwrap().len();
+    assert!((20..=40).contains(&rejected), "{rejected}");
+    assert!((0.8..1.2).contains(&number(&report, &["uncertainty_factor"])));
+}
+
+#[test]
+fn too_few_rows() {
+    let bench = Bench::new(POINT);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "8"]));
+    bench
+        .refused(&data, &["24 numbers were measured for 24 or more unknowns", "measure more configurations"]);
+}
+
+#[test]
+fn targets_in_line() {
+    let targets: String = (0..3)
+        .map(|i| format!("\n[[target]]\ncolumns = [\"x{i}\", \"y{i}\", \"z{i}\"]\nunit = \"mm\"\nposition = [\"{i}0 mm\", \"{i}0 mm\", 0]\n"))
+        .collect();
+    let bench = Bench::new("");
+    let text = std::fs::read_to_string(&bench.map).unwrap() + &targets;
+    let map = bench.file("line.toml", &text);
+    let run = abbe(&["simulate", "ur5", "--map", path(&map)]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("these targets are in line"), "{}", run.stderr);
+    assert!(run.stderr.contains("line.toml"));
+}
+
+#[test]
+fn an_instrument_that_stands_anywhere() {
+    let bench = Bench::new(POINT);
+    // Seen from half a metre away, a quarter turn about z.
+    let moved = changed(&bench.simulated(&["--samples", "150"]), |_, fields| {
+        let [x, y] = [6, 7].map(|i| fields[i].parse::<f64>().unwrap());
+        (fields[6], fields[7]) = (format!("{}", 500.0 - y), format!("{}", x + 20.0));
+    });
+    let data = bench.file("data.csv", &moved);
+    let map = std::fs::read_to_string(&bench.map).unwrap().replace("[data]", "[data]\nbase = \"unknown\"");
+    let map = bench.file("anywhere.toml", &map);
+    let report = json(&["identify", "ur5", path(&data), "--map", path(&map), "--json"]);
+    assert!(number(&report, &["fit", "after", "rms"]) < 0.04);
+    assert!((report["base"][0][1].as_f64().unwrap() + 1.0).abs() < 0.01);
+}

@@ -1,0 +1,148 @@
+//! `abbe measure`, `abbe plan` and `abbe simulate`.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::tempdir;
+
+use crate::running::{abbe, json, narrow, prints, write};
+
+fn path(path: &Path) -> &str {
+    path.to_str().expect("a path is text")
+}
+
+#[test]
+fn the_papers_plan_has_450_rows() {
+    let folder = tempdir().unwrap();
+    let plan = folder.path().join("plan.csv");
+    let report = json(&["plan", "pps", "--map", "pps", "--sets", "pps", "--out", path(&plan), "--json"]);
+    assert_eq!(report["rows"], 450);
+    assert_eq!((&report["sets"][0]["rows"], &report["sets"][1]["rows"]), (&112.into(), &338.into()));
+    let text = fs::read_to_string(&plan).unwrap();
+    assert_eq!((text.lines().next(), text.lines().count()), (Some("d1,d2,d3,q4"), 451));
+    narrow(&prints(&["plan", "pps", "--map", "pps", "--sets", "pps"]));
+}
+
+#[test]
+fn chosen_poses_tell_more_than_as_many_others() {
+    let folder = tempdir().unwrap();
+    let best = json(&["plan", "ur5", "--map", "ur5", "--optimal", "30", "--json"]);
+    let sets =
+        "[plan]\ntitle = \"any\"\n\n[[set]]\nname = \"samples\"\nworkspace.joints = { samples = 30 }\n";
+    let sets = write(folder.path(), "sets.toml", sets);
+    let any = json(&["plan", "ur5", "--map", "ur5", "--sets", path(&sets), "--json"]);
+    let mean = |report: &serde_json::Value| report["predicted"]["mean"].as_f64().unwrap();
+    assert_eq!(best["rows"], 30);
+    assert!(mean(&best) < mean(&any));
+    let run = abbe(&["plan", "ur5", "--map", "ur5", "--optimal", "5"]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("so few configurations"), "{}", run.stderr);
+}
+
+#[test]
+fn simulated_rows_are_the_same_every_time() {
+    let run = |seed: &str| prints(&["simulate", "pps", "--map", "pps", "--samples", "20", "--seed", seed]);
+    assert_eq!(run("3"), run("3"));
+    assert_ne!(run("3"), run("4"));
+    assert_eq!(run("3").lines().count(), 21);
+}
+
+#[test]
+fn accuracy_and_repeatability_are_those_put_in() {
+    let folder = tempdir().unwrap();
+    let plan = folder.path().join("plan.csv");
+    // Ten configurations, thirty visits each.
+    let configurations = prints(&["simulate", "pps", "--map", "pps", "--samples", "10"]);
+    let commanded = |line: &str| line.split(',').take(4).collect::<Vec<_>>().join(",") + "\n";
+    let mut lines = configurations.lines().map(commanded);
+    let heading = lines.next().unwrap();
+    fs::write(&plan, heading + &lines.collect::<String>().repeat(30)).unwrap();
+    let data = folder.path().join("data.csv");
+    let simulate = [
+        "simulate",
+        "pps",
+        "--map",
+        "pps",
+        "--at",
+        path(&plan),
+        "--out",
+        path(&data),
+        "--random",
+        "--seed",
+        "2",
+    ];
+    prints(&simulate);
+    let report = json(&["measure", "pps", path(&data), "--map", "pps", "--json"]);
+    let repeated = &report["repeated"];
+    assert_eq!(
+        (&repeated["configurations"], &repeated["visits"], &repeated["fewest"]),
+        (&10.into(), &300.into(), &30.into())
+    );
+    // The repeatable sources are all there is beside chance; chance stays within its bounds.
+    assert!(report["explained"]["share"].as_f64().unwrap() > 0.99);
+    assert!(report["explained"]["inside"].as_f64().unwrap() >= 0.95);
+    // Random sources alone: 0.0992 mm at most; noise of the targets on top.
+    let rp = repeated["rp"]["max"].as_f64().unwrap();
+    assert!((0.05..0.35).contains(&rp), "{rp}");
+    // ΔX by hand, of the first row of errors.csv.
+    let out = folder.path().join("out");
+    let text = prints(&["measure", "pps", path(&data), "--map", "pps", "--out", path(&out)]);
+    narrow(&text);
+    assert!(text.contains("ISO 9283"));
+    assert_eq!(fs::read_to_string(out.join("errors.csv")).unwrap().lines().count(), 301);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    for expected in ["cf. Figure 13", "cf. Figure 14", "Repeatability: how often"] {
+        assert!(page.contains(expected), "{expected}");
+    }
+    // Without noise and chance the sources explain everything.
+    let exact =
+        ["simulate", "pps", "--map", "pps", "--at", path(&plan), "--out", path(&data), "--noise", "0"];
+    prints(&exact);
+    let report = json(&["measure", "pps", path(&data), "--map", "pps", "--json"]);
+    assert!(report["explained"]["left_max"].as_f64().unwrap() < 1e-5);
+    assert!(report["repeated"]["rp"].is_null(), "rows that are the same digit by digit are no visits");
+}
+
+#[test]
+fn maps_and_plans_with_mistakes() {
+    let folder = tempdir().unwrap();
+    let refused = |command: &[&str], expected: &[&str]| {
+        let run = abbe(command);
+        assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{}", run.stderr);
+        expected
+            .iter()
+            .for_each(|expected| assert!(run.stderr.contains(expected), "{expected}\n{}", run.stderr));
+    };
+    let map = |text: &str, expected: &[&str]| {
+        let file = write(folder.path(), "map.toml", text);
+        refused(&["simulate", "scara", "--map", path(&file)], expected);
+    };
+    map("", &["`data` is missing"]);
+    map(
+        "[data]\nuncertanty = 1\n[joints]",
+        &["no key `uncertanty`", "did you mean `uncertainty`?", "map.toml:2:1"],
+    );
+    map(
+        "[data]\nuncertainty = \"0 mm\"\n[joints]\n[point]",
+        &["`uncertainty` must be more than zero", "has no column", "`unit` is missing"],
+    );
+    map(
+        "[data]\nuncertainty = \"1 deg\"\n[joints]\nq9 = { column = \"a\", unit = \"deg\" }",
+        &["must be a length", "no variable `q9`", "once what was measured"],
+    );
+    map(
+        "[data]\n[joints]\nq1 = { column = \"a\", unit = \"mm\", sign = 2 }\n[point]\ncolumns = [\"x\"]\nunit = \"degg\"",
+        &["must be a pure number", "a sign is 1 or -1", "expected 3 entries, found 1", "`degg`"],
+    );
+    let plan = write(folder.path(), "plan.toml", "[plan]\nrepeat = 0\n[[set]]\naxes = { d9 = [1] }");
+    refused(
+        &["plan", "pps", "--map", "pps", "--sets", path(&plan)],
+        &["whole number from 1", "no variable `d9`"],
+    );
+    refused(&["measure", "pps", "nowhere.csv", "--map", "pps"], &["nowhere.csv"]);
+    let empty =
+        write(folder.path(), "empty.csv", "d1,d2,d3,q4,p1_x,p1_y,p1_z,p2_x,p2_y,p2_z,p3_x,p3_y,p3_z\n");
+    refused(&["measure", "pps", path(&empty), "--map", "pps"], &["no row in it that can be used"]);
+    refused(&["simulate", "pps", "--map", "pps", "--noise", "-1mm"], &["not negative"]);
+    refused(&["simulate", "pps", "--map", "pps", "--outliers", "2"], &["a share is from 0 to 1"]);
+}

@@ -1,0 +1,92 @@
+//! Data left out in turn: how good the model is on what it has not seen.
+
+use nalgebra::DVector;
+
+use super::model::Model;
+use super::solve::{Failure, Fit, REJECTED, with_priors};
+use super::triangle::{Problem, Triangle};
+use super::{Figures, Observation};
+use crate::analysis::sampling::halton;
+
+/// The part that each row is left out with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Folds {
+    /// How many there are.
+    pub count: usize,
+    /// By row.
+    pub of: Vec<usize>,
+}
+
+impl Folds {
+    /// `rows` dealt to `count` folds of the same size, in an order without rhyme: neighbours do not stay together,
+    /// and the same every time.
+    pub fn new(rows: usize, count: usize) -> Self {
+        let count = count.clamp(2, rows.max(2));
+        let mut order: Vec<usize> = (0..rows).collect();
+        let key = |i: &usize| (halton(i + 1, 1) * 1e3).fract();
+        order.sort_by(|a, b| key(a).total_cmp(&key(b)));
+        let mut of = vec![0; rows];
+        order.iter().enumerate().for_each(|(place, i)| of[*i] = place % count);
+        Self { count, of }
+    }
+}
+
+/// The triangle of each fold, at `x`.
+fn triangles(
+    model: &Model,
+    data: &[Observation],
+    x: &[f64],
+    weights: &[f64],
+    folds: &Folds,
+) -> Result<Vec<Triangle>, Failure> {
+    let p = model.unknowns.len();
+    let mut triangles = vec![Triangle::new(p); folds.count];
+    let mut room = model.room();
+    for (i, seen) in data.iter().enumerate() {
+        let triangle = &mut triangles[folds.of[i]];
+        let take = |residual: f64, derivative: &mut dyn FnMut(usize) -> f64| {
+            triangle.push((0..p).map(derivative).chain([-residual]), weights[i].sqrt());
+        };
+        model.rows(&mut room, seen, x, take).map_err(|error| Failure::Row(i, error))?;
+    }
+    Ok(triangles)
+}
+
+/// Position errors of every fold under the fit of all others, with the exact model; rejected rows do not count.
+///
+/// The other folds' fit is one step from the fit of all data, which has converged: what that leaves is of second
+/// order in a difference that is small already.
+pub fn cross_validate(
+    model: &Model,
+    data: &[Observation],
+    fit: &Fit,
+    count: usize,
+) -> Result<Figures, Failure> {
+    let folds = Folds::new(data.len(), count);
+    let kept = model.with(fit.known.kept.iter().map(|k| model.unknowns[*k]).collect());
+    let x: Vec<f64> = fit.known.kept.iter().map(|k| fit.x[*k]).collect();
+    let priors: Vec<Option<f64>> =
+        fit.known.kept.iter().map(|k| fit.priors.get(*k).copied().flatten()).collect();
+    let parts = triangles(&kept, data, &x, &fit.weights, &folds)?;
+    let solve = |left_out: usize| {
+        let step =
+            others(&parts, left_out, &priors, &x).solve(0.0).unwrap_or_else(|| DVector::zeros(x.len()));
+        x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()
+    };
+    let solutions: Vec<Vec<f64>> = (0..folds.count).map(solve).collect();
+    let mut room = kept.room();
+    let mut norms = Vec::new();
+    for (i, seen) in data.iter().enumerate().filter(|(i, _)| fit.weights[*i] >= REJECTED) {
+        let left = kept.deviations(&mut room, seen, &solutions[folds.of[i]]);
+        let left = left.map_err(|error| Failure::Row(i, error))?;
+        norms.extend(left.into_iter().map(crate::analysis::sampling::norm));
+    }
+    Ok(Figures::of(norms))
+}
+
+/// All folds but one.
+fn others(parts: &[Triangle], left_out: usize, priors: &[Option<f64>], x: &[f64]) -> Problem {
+    let rest = parts.iter().enumerate().filter(|(fold, _)| *fold != left_out);
+    let all = rest.map(|(_, part)| part.clone()).reduce(Triangle::merged);
+    with_priors(all.unwrap_or_else(|| Triangle::new(x.len())), priors, x)
+}

@@ -1,0 +1,53 @@
+//! The rigid motion that brings points onto others best: three targets make a frame, and more than three do too.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::Pose;
+
+/// A motion and how well it fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Registration {
+    /// `to ≈ pose · from`.
+    pub pose: Pose,
+    /// Root mean square distance that remains, per point.
+    pub rms: f64,
+    /// How far the points are from a line, as a share of how far they are spread: 0 if they are in line.
+    pub breadth: f64,
+}
+
+/// Least squares over all rotations: with `H = Σ (from − mean)(to − mean)ᵀ = U Σ Vᵀ`, `R = V diag(1, 1, det) Uᵀ`.
+///
+/// None for fewer than three pairs. Where the points are in line ([`Registration::breadth`] 0) the turn about that
+/// line is arbitrary.
+pub fn register(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Registration> {
+    let n = from.len().min(to.len());
+    if n < 3 {
+        return None;
+    }
+    let mean = |points: &[[f64; 3]]| {
+        points[..n].iter().fold(Vector3::zeros(), |sum, p| sum + Vector3::from(*p)) / n as f64
+    };
+    let (a, b) = (mean(from), mean(to));
+    let (mut h, mut spread) = (Matrix3::zeros(), Matrix3::zeros());
+    for (p, q) in from.iter().zip(to) {
+        let p = Vector3::from(*p) - a;
+        h += p * (Vector3::from(*q) - b).transpose();
+        spread += p * p.transpose();
+    }
+    let mut sizes: Vec<f64> = spread.symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    let breadth = if sizes[0] > 0.0 { sizes[1] / sizes[0] } else { 0.0 };
+    let svd = h.svd(true, true);
+    let (u, v) = (svd.u?, svd.v_t?.transpose());
+    // The last singular value is the smallest only if they are sorted: nalgebra sorts those of `svd`.
+    let sign = (v * u.transpose()).determinant().signum();
+    let r = v * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * u.transpose();
+    let t = b - r * a;
+    let pose = Pose([r.column(0).into(), r.column(1).into(), r.column(2).into(), t.into()]);
+    let square = |(p, q): (&[f64; 3], &[f64; 3])| {
+        let p = pose.apply(*p);
+        (0..3).map(|i| (p[i] - q[i]).powi(2)).sum::<f64>()
+    };
+    let rms = (from.iter().zip(to).map(square).sum::<f64>() / n as f64).sqrt();
+    Some(Registration { pose, rms, breadth })
+}

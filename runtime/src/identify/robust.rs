@@ -1,0 +1,41 @@
+//! Losses that gross errors cannot pull at: weights for iteratively reweighted least squares.
+
+/// What a residual costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Loss {
+    /// Its square.
+    #[default]
+    Squares,
+    /// Its square up to 1.345 scales, linear beyond: Huber.
+    Huber,
+    /// Nothing more beyond 4.685 scales: Tukey's biweight.
+    Tukey,
+}
+
+impl Loss {
+    /// The weight of a residual, in scales; 0 if it is rejected.
+    ///
+    /// For a vector of `d` residuals the bounds grow with `√d`, so that as many good rows keep their weight.
+    pub fn weight(self, norm: f64, d: usize) -> f64 {
+        let stretch = (d.max(1) as f64).sqrt();
+        match self {
+            Self::Squares => 1.0,
+            Self::Huber => (1.345 * stretch / norm.max(1e-300)).min(1.0),
+            Self::Tukey => {
+                let share = norm / (4.685 * stretch);
+                if share < 1.0 { (1.0 - share * share).powi(2) } else { 0.0 }
+            }
+        }
+    }
+}
+
+/// A standard deviation that half of the values cannot spoil: the median of the absolute values / 0.6745.
+pub fn robust_scale(residuals: &mut [f64]) -> f64 {
+    if residuals.is_empty() {
+        return 0.0;
+    }
+    residuals.iter_mut().for_each(|r| *r = r.abs());
+    let middle = residuals.len() / 2;
+    let (_, median, _) = residuals.select_nth_unstable_by(middle, f64::total_cmp);
+    *median / 0.674_489_750_196_082
+}

@@ -1,0 +1,82 @@
+//! Measurements of a machine whose errors are known: for tests, for teaching, for planning.
+
+use rand::RngExt;
+use rand_distr::{Normal, StandardNormal};
+
+use super::{Model, Observation, Seen, Unknown};
+use crate::analysis::stream;
+use crate::chain::displacement;
+use crate::{Class, Distribution, Error};
+
+/// What an instrument and chance add to the errors of the machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chance {
+    /// One standard deviation of a coordinate, and of an angle of a pose.
+    pub noise: super::Uncertainty,
+    /// Which share of the rows is grossly wrong.
+    pub outliers: f64,
+    /// By how much: up to this in each coordinate.
+    pub gross: f64,
+    /// Whether the random sources of the spec are drawn, anew in every row.
+    pub random_sources: bool,
+    /// Where the random numbers begin.
+    pub seed: u64,
+}
+
+/// Keeps these numbers apart from those of configurations that were drawn from the same seed.
+const APART: u64 = 0x6d65_6173_7572_6564;
+
+/// What would be seen at the configurations of `list`, on the exact chain with the known sources of `model`.
+///
+/// Row i follows from the seed and i alone. What `list` has seen says which targets there are, or that poses are.
+pub fn simulate(
+    model: &Model,
+    list: &[Observation],
+    chance: &Chance,
+) -> Result<Vec<Observation>, (usize, Error)> {
+    let description = model.manipulator.description();
+    let sources = description.sources.iter().enumerate();
+    let random: Vec<(usize, Distribution)> = sources
+        .filter_map(|(i, source)| match source.class {
+            Class::Random(distribution) if chance.random_sources => Some((i, distribution)),
+            _ => None,
+        })
+        .collect();
+    let model = model.with(random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect());
+    let mut room = model.room();
+    let one = |(i, asked): (usize, &Observation)| {
+        let mut numbers = stream(chance.seed ^ APART, i);
+        let x: Vec<f64> = random
+            .iter()
+            .map(|(_, distribution)| match distribution {
+                Distribution::Uniform => numbers.random_range(-1.0..=1.0),
+                Distribution::Normal => numbers.sample(StandardNormal),
+            })
+            .collect();
+        let pose = model.pose(&mut room, asked, &x).map_err(|error| (i, error))?;
+        let gross = numbers.random::<f64>() < chance.outliers;
+        let mut wrong = || if gross { numbers.random_range(-chance.gross..=chance.gross) } else { 0.0 };
+        let shift = [wrong(), wrong(), wrong()];
+        let mut noise = |sigma: f64| Normal::new(0.0, sigma).map_or(0.0, |normal| numbers.sample(normal));
+        let seen = match &asked.seen {
+            Seen::Points(points) => {
+                let targets = points.iter().zip(&model.targets).enumerate().map(|(j, (point, target))| {
+                    let at = pose.apply(*target);
+                    // One target of a row is taken for another thing.
+                    let shift = if j == 0 { shift } else { [0.0; 3] };
+                    let seen = core::array::from_fn(|k| at[k] + shift[k] + noise(chance.noise.length));
+                    point.map(|_| seen)
+                });
+                Seen::Points(targets.collect())
+            }
+            Seen::Pose(_) => {
+                let turn = [0; 3].map(|_| noise(chance.noise.angle));
+                let mut seen = pose.then(&displacement(&[0.0, 0.0, 0.0, turn[0], turn[1], turn[2]]));
+                seen.0[3] = core::array::from_fn(|k| pose.0[3][k] + shift[k] + noise(chance.noise.length));
+                Seen::Pose(seen)
+            }
+        };
+        Ok(Observation { seen, ..asked.clone() })
+    };
+    list.iter().enumerate().map(one).collect()
+}

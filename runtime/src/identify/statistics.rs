@@ -1,0 +1,111 @@
+//! How well data determine what they determine, and whether more terms are worth their number.
+
+/// Indices of observability of singular values `σ_1 ≥ … ≥ σ_r` of columns of unit length, and `m` rows.
+///
+/// Sun and Hollerbach, *Observability index selection for robot calibration*, 2008.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Observability {
+    /// `σ_1 / σ_r`.
+    pub condition: f64,
+    /// `O1 = (σ_1 ⋯ σ_r)^(1/r) / √m`.
+    pub o1: f64,
+    /// `O2 = σ_r / σ_1`.
+    pub o2: f64,
+    /// `O3 = σ_r`.
+    pub o3: f64,
+    /// `O4 = σ_r² / σ_1`.
+    pub o4: f64,
+    /// `O5 = 1 / Σ 1/σ_i`.
+    pub o5: f64,
+}
+
+impl Observability {
+    /// All 0 if there is nothing.
+    pub(super) fn of(values: &[f64], rows: usize) -> Self {
+        let (Some(first), Some(last)) = (values.first(), values.last()) else { return Self::default() };
+        let r = values.len() as f64;
+        Self {
+            condition: first / last,
+            o1: (values.iter().map(|v| v.ln()).sum::<f64>() / r).exp() / (rows.max(1) as f64).sqrt(),
+            o2: last / first,
+            o3: *last,
+            o4: last * last / first,
+            o5: 1.0 / values.iter().map(|v| 1.0 / v).sum::<f64>(),
+        }
+    }
+}
+
+/// The F-test of a richer model against one that it contains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FTest {
+    /// `F = ((c_0 − c_1)/k) / (c_1/f)`.
+    pub f: f64,
+    /// How many terms are new: `k`.
+    pub terms: usize,
+    /// Degrees of freedom that are left: `f`.
+    pub freedom: usize,
+    /// How likely so large an `F` is if the new terms mean nothing.
+    pub p: f64,
+}
+
+/// From the sums of squared residuals before and after `terms` more, `freedom` numbers being left over after.
+pub fn f_test(before: f64, after: f64, terms: usize, freedom: usize) -> FTest {
+    let (k, n) = (terms.max(1) as f64, freedom.max(1) as f64);
+    let f = ((before - after).max(0.0) / k) / (after / n).max(1e-300);
+    // P(F > f) = I_{n/(n + k f)}(n/2, k/2).
+    FTest { f, terms, freedom, p: incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f)) }
+}
+
+/// The regularized incomplete beta function `I_x(a, b)`, by its continued fraction (Abramowitz and Stegun 26.5.8).
+fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
+    if x <= 0.0 || x >= 1.0 {
+        return x.clamp(0.0, 1.0);
+    }
+    if x > (a + 1.0) / (a + b + 2.0) {
+        return 1.0 - incomplete_beta(b, a, 1.0 - x);
+    }
+    let front =
+        (libm::lgamma(a + b) - libm::lgamma(a) - libm::lgamma(b) + a * x.ln() + b * (1.0 - x).ln()).exp() / a;
+    // Lentz's way.
+    let (mut c, mut d) = (1.0, 1.0 / (1.0 - (a + b) * x / (a + 1.0)));
+    let mut fraction = d;
+    for i in 1..300 {
+        let m = f64::from(i);
+        let even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
+        d = 1.0 / (1.0 + even * d);
+        c = 1.0 + even / c;
+        fraction *= c * d;
+        let odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+        d = 1.0 / (1.0 + odd * d);
+        c = 1.0 + odd / c;
+        let factor = c * d;
+        fraction *= factor;
+        if (factor - 1.0).abs() < 1e-14 {
+            break;
+        }
+    }
+    front * fraction
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Observability, f_test};
+
+    #[test]
+    fn probabilities_are_those_of_the_tables() {
+        // Upper 5 % points of F: 4.96 for (1, 10), 3.33 for (5, 10), 2.21 for (4, 1000 is 2.38).
+        for (k, n, f) in [(1, 10, 4.9646), (5, 10, 3.3258), (4, 60, 2.5252), (10, 20, 2.3479)] {
+            let before = 1.0 + f * k as f64 / n as f64;
+            let found = f_test(before, 1.0, k, n);
+            assert!((found.p - 0.05).abs() < 1e-4, "{k} {n}: {}", found.p);
+        }
+        assert_eq!(f_test(1.0, 1.0, 3, 30).p, 1.0);
+    }
+
+    #[test]
+    fn indices_of_known_values() {
+        let found = Observability::of(&[2.0, 0.5], 4);
+        assert_eq!((found.condition, found.o2, found.o3, found.o4, found.o5), (4.0, 0.25, 0.5, 0.125, 0.4));
+        assert!((found.o1 - 0.5).abs() < 1e-15);
+    }
+}

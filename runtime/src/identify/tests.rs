@@ -1,0 +1,329 @@
+//! The model against differences of itself, the ranks against theory, the statistics against many draws.
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::*;
+use crate::analysis::pps_by_hand::Pps;
+use crate::analysis::puma_by_hand::Puma;
+use crate::analysis::{Workspace, joint_samples};
+use crate::chain::real_pose;
+use crate::{Manipulator, Pose};
+
+const EXACT: Uncertainty = Uncertainty { length: 1.0, angle: 1.0 };
+
+fn observation(q: &[f64], points: usize) -> Observation {
+    let seen = match points {
+        0 => Seen::Pose(Pose::IDENTITY),
+        _ => Seen::Points(vec![Some([0.0; 3]); points]),
+    };
+    Observation { q: q.to_vec(), u: Vec::new(), seen }
+}
+
+/// Samples of the joints that are moved.
+fn sampled(robot: &dyn Manipulator, moved: &[usize], count: usize, points: usize) -> Vec<Observation> {
+    let samples = joint_samples(robot, moved, count).unwrap().reached();
+    samples.iter().map(|sample| observation(&sample.q, points)).collect()
+}
+
+/// A machine with errors everywhere, base, targets and tool included.
+fn disturbed(model: &Model) -> Vec<f64> {
+    let value = |(k, unknown): (usize, &Unknown)| {
+        let size = match unknown {
+            Unknown::Base(component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
+                if component.is_rotation() { 0.02 } else { 5.0 }
+            }
+            Unknown::Target(..) => 3.0,
+            Unknown::Magnitude(_) => 2.0,
+        };
+        size * (1.0 + k as f64 * 2.3).sin()
+    };
+    model.unknowns.iter().enumerate().map(value).collect()
+}
+
+fn residuals(model: &Model, seen: &Observation, x: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let (mut values, mut rows) = (Vec::new(), Vec::new());
+    let take = |residual: f64, derivative: &mut dyn FnMut(usize) -> f64| {
+        values.push(residual);
+        rows.push((0..x.len()).map(derivative).collect());
+    };
+    model.rows(&mut model.room(), seen, x, take).unwrap();
+    (values, rows)
+}
+
+/// Analytic derivatives against central differences, far from ε = 0.
+fn differences(model: &Model, seen: &Observation) {
+    let x = disturbed(model);
+    let (_, rows) = residuals(model, seen, &x);
+    for k in 0..x.len() {
+        let step = if x[k].abs() > 0.1 { 1e-3 } else { 1e-5 };
+        let at = |sign: f64| {
+            let mut x = x.clone();
+            x[k] += sign * step;
+            residuals(model, seen, &x).0
+        };
+        let (above, below) = (at(1.0), at(-1.0));
+        for (row, (a, b)) in rows.iter().zip(above.iter().zip(&below)) {
+            let expected = (a - b) / (2.0 * step);
+            let scale = expected.abs().max(1.0);
+            assert!(
+                (row[k] - expected).abs() < 2e-6 * scale,
+                "{}: {} {expected}",
+                model.name(model.unknowns[k]),
+                row[k]
+            );
+        }
+    }
+}
+
+#[test]
+fn derivatives_are_those_of_the_exact_chain() {
+    let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];
+    let targets = vec![[100.0, 20.0, -30.0], [-80.0, 10.0, 50.0], [10.0, 90.0, 5.0]];
+    let points = Model::ideal(&Pps, targets, EXACT);
+    let sources = points.repeatable().into_iter().map(Unknown::Magnitude);
+    let points = points.with(points.constants(false).into_iter().chain(sources).collect());
+    differences(&points, &observation(&q, 3));
+    let pose = Model::ideal(&Pps, vec![[0.0; 3]], EXACT);
+    let pose = pose.with(pose.constants(true));
+    // The pose that would be seen is about where it should be, not half a turn away.
+    let near = pose.pose(&mut pose.room(), &observation(&q, 0), &vec![0.0; pose.unknowns.len()]).unwrap();
+    differences(&pose, &Observation { seen: Seen::Pose(near), ..observation(&q, 0) });
+}
+
+#[test]
+fn the_chain_is_that_of_equation_6() {
+    let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];
+    let model = Model::ideal(&Pps, vec![[0.0; 3]], EXACT);
+    let errors = model.constants(false).into_iter().filter(|unknown| matches!(unknown, Unknown::Error(..)));
+    let model = model.with(errors.collect());
+    let x = disturbed(&model);
+    let errors: Vec<[f64; 6]> = x.chunks_exact(6).map(|e| e.try_into().unwrap()).collect();
+    let mut transforms = vec![Pose::IDENTITY; 7];
+    Pps.transforms(&q, &model.s, &mut transforms).unwrap();
+    let Pose(expected) = real_pose(&transforms, &errors);
+    let Pose(found) = model.pose(&mut model.room(), &observation(&q, 1), &x).unwrap();
+    for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+        assert!((found - expected).abs() < 1e-10);
+    }
+}
+
+const TARGETS: [[f64; 3]; 3] = [[-200.0, 10.0, 150.0], [250.0, 0.0, -100.0], [30.0, 40.0, 300.0]];
+
+/// Rank, and groups by the twists, which must say the same.
+fn counted(robot: &dyn Manipulator, moved: &[usize], points: usize, base: bool) -> usize {
+    let (targets, pose) = match points {
+        0 => (vec![[0.0; 3]], true),
+        1 => (vec![[0.0; 3]], false),
+        _ => (TARGETS.to_vec(), false),
+    };
+    let data = sampled(robot, moved, 80, points);
+    let model = Model::ideal(robot, targets, Uncertainty { length: 1.0, angle: 1e-3 });
+    let kept = |unknown: &Unknown| match unknown {
+        Unknown::Error(..) => true,
+        Unknown::Base(_) => base,
+        _ => false,
+    };
+    let model = model.with(model.constants(pose).into_iter().filter(kept).collect());
+    let zero = vec![0.0; model.unknowns.len()];
+    let known = what_can_be_known(&model, &data, &zero).unwrap();
+    assert!(known.gap > 1e6, "{}", known.gap);
+    let found = groups(&model, &data[0].q, moved, pose).unwrap();
+    assert_eq!(known.rank + found.len(), model.unknowns.len());
+    // Each group says the truth: its errors move everything as those it names do.
+    for group in found {
+        let mut x = zero.clone();
+        let place = |unknown| model.unknowns.iter().position(|u| *u == unknown).unwrap();
+        group.these.iter().for_each(|(unknown, factor)| x[place(*unknown)] += factor);
+        group.act_as.iter().for_each(|(unknown, factor)| x[place(*unknown)] -= factor);
+        for seen in &data {
+            let (_, rows) = residuals(&model, seen, &zero);
+            for row in rows {
+                let sum: f64 = row.iter().zip(&x).map(|(a, b)| a * b).sum();
+                assert!(sum.abs() < 1e-6, "{group:?} {sum}");
+            }
+        }
+    }
+    // What is held at zero acts as the kept ones that it names.
+    for (k, act_as) in &known.held {
+        let (_, rows) = residuals(&model, &data[7], &zero);
+        for row in rows {
+            let sum: f64 = act_as.iter().map(|(j, factor)| row[*j] * factor).sum();
+            assert!((sum - row[*k]).abs() < 1e-5 * row[*k].abs().max(1.0));
+        }
+    }
+    known.rank
+}
+
+#[test]
+fn counts_are_those_of_theory() {
+    let four = &[0, 1, 2, 3][..];
+    let six = &[0, 1, 2, 3, 4, 5][..];
+    for (moved, points, base, expected) in [
+        (six, 0, false, 22),
+        (six, 0, true, 24),
+        (six, 3, false, 22),
+        (six, 3, true, 24),
+        (six, 1, false, 19),
+        (six, 1, true, 21),
+        (four, 0, false, 14),
+        (four, 3, true, 16),
+        (four, 1, false, 11),
+        (four, 1, true, 13),
+    ] {
+        assert_eq!(counted(&Pps, moved, points, base), expected, "{moved:?} {points} {base}");
+    }
+    assert_eq!(counted(&Puma, six, 0, false), 26);
+    assert_eq!(counted(&Puma, six, 0, true), 30);
+}
+
+/// A machine whose errors are drawn, as an instrument with that noise sees it.
+fn measured(
+    model: &Model,
+    x: &[f64],
+    list: &[Observation],
+    noise: f64,
+    random: &mut Xoshiro256PlusPlus,
+) -> Vec<Observation> {
+    let normal = rand_distr::Normal::new(0.0, noise).unwrap();
+    let mut room = model.room();
+    let see = |asked: &Observation| {
+        let pose = model.pose(&mut room, asked, x).unwrap();
+        let point = |target: &[f64; 3]| {
+            let at = pose.apply(*target);
+            Some(at.map(|coordinate| coordinate + random.sample(normal)))
+        };
+        Observation { seen: Seen::Points(model.targets.iter().map(point).collect()), ..asked.clone() }
+    };
+    list.iter().map(see).collect()
+}
+
+/// The paper's two sets with two payloads: 450 rows.
+fn planned() -> Vec<Observation> {
+    let mut list: Vec<[f64; 4]> = Vec::new();
+    for spin in (-3..=3).map(|i| f64::from(i) * 30f64.to_radians()) {
+        for corner in 0..8 {
+            let at = |bit: usize, low: f64, high: f64| if corner >> bit & 1 == 0 { low } else { high };
+            let (x, y, z) = (at(0, -250.0, 250.0), at(1, -100.0, 300.0), at(2, 600.0, 1100.0));
+            let (s, c) = spin.sin_cos();
+            list.push([1128.0 - (x * c + z * s), 380.0 - y, 1128.0 - (z * c - x * s), spin]);
+        }
+    }
+    let axis = |list: &mut Vec<[f64; 4]>, i: usize, values: &mut dyn Iterator<Item = f64>| {
+        for value in values {
+            let mut q = [1128.0, 280.0, 0.0, 0.0];
+            q[i] = value;
+            list.push(q);
+        }
+    };
+    axis(&mut list, 0, &mut (-22..=22).map(|i| 1128.0 + 50.0 * f64::from(i)));
+    axis(&mut list, 1, &mut (0..=28).map(|i| 20.0 * f64::from(i)));
+    axis(&mut list, 2, &mut (1..=58).map(|i| 25.0 * f64::from(i)));
+    axis(&mut list, 3, &mut (-18..=18).map(|i| (5.0 * f64::from(i)).to_radians()));
+    let list = list.iter().chain(&list).map(|q| [q[0], q[1], q[2], q[3], 0.0, 0.0]);
+    list.map(|q| observation(&q, 3)).collect()
+}
+
+/// Over 200 machines: what can be known is found to within its standard deviations.
+#[test]
+fn stated_deviations_are_true() {
+    let list = planned();
+    assert_eq!(list.len(), 450);
+    let model = Model::ideal(&Pps, TARGETS.to_vec(), Uncertainty { length: 0.04, angle: 1.0 });
+    let errors = model.constants(false).into_iter().filter(|unknown| !matches!(unknown, Unknown::Target(..)));
+    let model = model.with(errors.collect());
+    let (mut within, mut all, mut three) = (0, 0, 0);
+    for seed in 0..200 {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let draw = |unknown: &Unknown| match unknown {
+            Unknown::Error(_, component) if component.is_rotation() => random.random_range(-1e-4..1e-4),
+            Unknown::Error(..) => random.random_range(-0.1..0.1),
+            _ => 0.0,
+        };
+        let truth: Vec<f64> = model.unknowns.iter().map(draw).collect();
+        let data = measured(&model, &truth, &list, 0.04, &mut random);
+        let found = fit(&model, &data, &Options::default()).unwrap();
+        assert_eq!(found.known.rank, 16);
+        // All 36 are wrong; what the kept ones must be is what all of them act as.
+        let mut expected = truth.clone();
+        for (k, act_as) in &found.known.held {
+            act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
+        }
+        for (k, deviation) in found.standard_deviations().iter().enumerate() {
+            let Some(deviation) = deviation else { continue };
+            let off = (found.x[k] - expected[k]).abs() / deviation;
+            all += 1;
+            within += usize::from(off <= 1.0);
+            three += usize::from(off <= 3.0);
+        }
+    }
+    let share = |count: usize| count as f64 / f64::from(all);
+    println!("within one: {:.4}, within three: {:.4} of {all}", share(within), share(three));
+    assert!((share(within) - 0.68).abs() <= 0.04);
+    assert!(share(three) >= 0.99);
+}
+
+#[test]
+fn gross_errors_are_rejected_and_named() {
+    let model = Model::ideal(&Pps, vec![[0.0; 3]], Uncertainty { length: 0.04, angle: 1.0 });
+    let model = model.with(model.constants(false));
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(7);
+    let list = sampled(&Pps, &[0, 1, 2, 3, 4, 5], 400, 1);
+    let truth: Vec<f64> = disturbed(&model).iter().map(|x| x * 0.05).collect();
+    let mut data = measured(&model, &truth, &list, 0.04, &mut random);
+    let wrong: Vec<usize> = (0..400).filter(|i| i % 10 == 3).collect();
+    for i in &wrong {
+        let Seen::Points(points) = &mut data[*i].seen else { unreachable!() };
+        points[0].as_mut().unwrap()[i % 3] += 5.0 + *i as f64;
+    }
+    for loss in [Loss::Tukey, Loss::Huber] {
+        let options = Options { loss, priors: model.priors(0.01).unwrap(), ..Options::default() };
+        let found = fit(&model, &data, &options).unwrap();
+        if loss == Loss::Tukey {
+            assert_eq!(found.rejected(), wrong);
+        }
+        assert!((0.8..1.25).contains(&found.sigma), "{loss:?} {}", found.sigma);
+    }
+}
+
+#[test]
+fn too_little_is_said() {
+    let model = Model::ideal(&Pps, vec![[0.0; 3]], EXACT);
+    let model = model.with(model.constants(false));
+    let data = sampled(&Pps, &[0, 1, 2, 3, 4, 5], 7, 1);
+    assert!(matches!(fit(&model, &data, &Options::default()), Err(Failure::TooFew { numbers: 21, .. })));
+    assert!(matches!(fit(&model, &[], &Options::default()), Err(Failure::TooFew { numbers: 0, rank: 0 })));
+}
+
+#[test]
+fn registration_undoes_a_motion() {
+    let motion = real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[5.0, -3.0, 800.0, 0.4, -1.9, 2.5]]);
+    let moved: Vec<[f64; 3]> = TARGETS.iter().map(|p| motion.apply(*p)).collect();
+    let found = register(&TARGETS, &moved).unwrap();
+    for (a, b) in found.pose.0.as_flattened().iter().zip(motion.0.as_flattened()) {
+        assert!((a - b).abs() < 1e-10);
+    }
+    assert!(found.rms < 1e-10 && found.breadth > 0.1);
+    let line = [[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]];
+    assert!(register(&line, &line).unwrap().breadth < 1e-6);
+    assert!(register(&line[..2], &line[..2]).is_none());
+}
+
+#[test]
+fn exchange_beats_an_even_spread() {
+    let model = Model::ideal(&Puma, vec![[0.0; 3]], Uncertainty { length: 1e-4, angle: 1.0 });
+    let model = model.with(model.constants(false));
+    let list = sampled(&Puma, &[0, 1, 2, 3, 4, 5], 300, 1);
+    let known = what_can_be_known(&model, &list, &vec![0.0; model.unknowns.len()]).unwrap();
+    let found = d_optimal(&model, &list, &known, 30).unwrap().unwrap();
+    assert_eq!(found.chosen.len(), 30);
+    let deviation = |chosen: &[usize]| {
+        let part: Vec<Observation> = chosen.iter().map(|i| list[*i].clone()).collect();
+        let only = whole(&model, &part, &known).unwrap().unwrap();
+        let all = predicted(&model, &known, &only.covariance, &list).unwrap();
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    let even: Vec<usize> = (0..30).map(|i| 10 * i).collect();
+    assert!(deviation(&found.chosen) < deviation(&even));
+    assert!(d_optimal(&model, &list, &known, 3).unwrap().is_none());
+}

@@ -1,0 +1,135 @@
+//! A tall least-squares problem, taken in row by row and kept as a triangle.
+//!
+//! Of the stack `[J | r]` only the factor `R` of its QR decomposition is kept: `‖J x − r‖` follows from it for every
+//! `x`, and memory does not grow with the number of rows.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Rows that are gathered before they are folded in.
+const BLOCK: usize = 256;
+
+/// The triangle of a stack of rows.
+#[derive(Clone, Debug)]
+pub(super) struct Triangle {
+    /// `R`, and below it the rows that wait.
+    rows: DMatrix<f64>,
+    filled: usize,
+    above: usize,
+}
+
+impl Triangle {
+    /// Of no rows; `unknowns` columns and one for the right side.
+    pub(super) fn new(unknowns: usize) -> Self {
+        let width = unknowns + 1;
+        Self { rows: DMatrix::zeros(width + BLOCK.max(width), width), filled: 0, above: 0 }
+    }
+
+    /// Takes in a row: the derivatives, then the right side, all times `weight`.
+    pub(super) fn push(&mut self, row: impl Iterator<Item = f64>, weight: f64) {
+        if self.filled == self.rows.nrows() {
+            self.fold();
+        }
+        for (j, value) in row.enumerate() {
+            self.rows[(self.filled, j)] = value * weight;
+        }
+        self.filled += 1;
+    }
+
+    /// Of the rows of both; they have the same width.
+    pub(super) fn merged(mut self, mut other: Self) -> Self {
+        other.fold();
+        for row in other.rows.rows(0, other.filled).row_iter() {
+            self.push(row.iter().copied(), 1.0);
+        }
+        self
+    }
+
+    fn fold(&mut self) {
+        if self.filled > self.above {
+            let r = self.rows.rows(0, self.filled).into_owned().qr().unpack_r();
+            self.filled = r.nrows();
+            self.rows.rows_mut(0, self.filled).copy_from(&r);
+        }
+        self.above = self.filled;
+    }
+
+    /// `R` of the unknowns and of the right side, `width` columns, at most as many rows.
+    pub(super) fn finish(mut self) -> DMatrix<f64> {
+        self.fold();
+        self.rows.rows(0, self.filled).into_owned()
+    }
+}
+
+/// A linear least-squares problem `min ‖A x − b‖`, small.
+#[derive(Clone, Debug)]
+pub(super) struct Problem {
+    pub(super) a: DMatrix<f64>,
+    pub(super) b: DVector<f64>,
+}
+
+impl Problem {
+    /// Some columns of a finished triangle, as often as they are named.
+    pub(super) fn of(triangle: &DMatrix<f64>, columns: &[usize]) -> Self {
+        let last = triangle.ncols() - 1;
+        let columns_and_right: Vec<usize> = columns.iter().copied().chain([last]).collect();
+        let full = triangle.select_columns(&columns_and_right);
+        let r = full.qr().unpack_r();
+        let p = columns.len();
+        Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
+    }
+
+    /// `min ‖A x − b‖² + λ ‖D x‖²` with `D` the lengths of the columns; none if it is singular.
+    pub(super) fn solve(&self, damping: f64) -> Option<DVector<f64>> {
+        let p = self.a.ncols();
+        let rows = self.a.nrows();
+        let scale = self.lengths();
+        let mut stack = DMatrix::zeros(rows + p, p);
+        let mut right = DVector::zeros(rows + p);
+        right.rows_mut(0, rows).copy_from(&self.b);
+        for j in 0..p {
+            for i in 0..rows {
+                stack[(i, j)] = self.a[(i, j)] / scale[j];
+            }
+            stack[(rows + j, j)] = damping.sqrt();
+        }
+        let qr = stack.qr();
+        qr.q_tr_mul(&mut right);
+        let solution = qr.r().solve_upper_triangular(&right.rows(0, p))?;
+        let x = DVector::from_fn(p, |j, _| solution[j] / scale[j]);
+        x.iter().all(|value| value.is_finite()).then_some(x)
+    }
+
+    /// The lengths of the columns; 1 where there is nothing.
+    pub(super) fn lengths(&self) -> Vec<f64> {
+        let length = |column: nalgebra::DVectorView<'_, f64>| column.norm();
+        self.a.column_iter().map(|c| Some(length(c)).filter(|l| *l > 0.0).unwrap_or(1.0)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::{Problem, Triangle};
+
+    #[test]
+    fn it_keeps_what_least_squares_need() {
+        let value =
+            |i: usize, j: usize| ((i * 7 + j * 13) as f64 * 0.71).sin() + f64::from(u8::from(i % 5 == j));
+        let (m, p) = (1003, 5);
+        let mut triangle = Triangle::new(p);
+        let mut half = Triangle::new(p);
+        for i in 0..m {
+            let row = (0..=p).map(|j| value(i, j));
+            if i < 400 { triangle.push(row, 1.0) } else { half.push(row, 1.0) }
+        }
+        let r = triangle.merged(half).finish();
+        let x = Problem::of(&r, &[0, 1, 2, 3, 4]).solve(0.0).unwrap();
+        let a = DMatrix::from_fn(m, p, value);
+        let b = DVector::from_fn(m, |i, _| value(i, p));
+        let expected = (a.transpose() * &a).cholesky().unwrap().solve(&(a.transpose() * &b));
+        assert!((&x - expected).norm() < 1e-12);
+        let problem = Problem::of(&r, &[0, 1, 2, 3, 4]);
+        assert!(((&problem.a * &x - &problem.b).norm_squared() - (a * x - b).norm_squared()).abs() < 1e-9);
+    }
+}
