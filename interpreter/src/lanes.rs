@@ -1,8 +1,6 @@
 //! Evaluates a tape over a block of lanes: each operation for all lanes before the next one, so that choosing
 //! the operation costs next to nothing.
 
-use std::array;
-
 use abbe::Scalar;
 use abbe::lanes::{Kernel, Lanes, Register, Tiles};
 use abbe_codegen::expr::Function;
@@ -89,15 +87,22 @@ impl<T: Scalar, const N: usize> Block<T, N> {
         // The result may take the place of an operand: it is put there when it is complete.
         let Instruction { a, b, c, .. } = *instruction;
         let (a, b, c) = (&self.rows[a], &self.rows[b], &self.rows[c]);
-        let result = array::from_fn(|place| f(a[place], b[place], c[place]));
+        let mut result = *a;
+        for (place, result) in result.iter_mut().enumerate() {
+            *result = f(a[place], b[place], c[place]);
+        }
         self.rows[instruction.result] = result;
     }
 
     #[inline(always)]
     fn sin_cos(&mut self, instruction: &Instruction) {
-        let pairs = self.rows[instruction.a].map(Scalar::sin_cos);
-        self.rows[instruction.result] = pairs.map(|(sine, _)| sine);
-        self.rows[instruction.second] = pairs.map(|(_, cosine)| cosine);
+        let angles = self.rows[instruction.a];
+        let (mut sines, mut cosines) = (angles, angles);
+        for (place, angle) in angles.into_iter().enumerate() {
+            (sines[place], cosines[place]) = angle.sin_cos();
+        }
+        self.rows[instruction.result] = sines;
+        self.rows[instruction.second] = cosines;
     }
 }
 

@@ -113,7 +113,22 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
 #[inline(always)]
 pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
     if angles.iter().fold(true, |all, x| all & (x.abs() <= REACH)) {
-        angles.map(near)
+        let mut pairs = [(0.0, 0.0); N];
+        if N.is_multiple_of(2) {
+            for (pair, angle) in pairs.iter_mut().zip(angles) {
+                *pair = near(angle);
+            }
+            return pairs;
+        }
+        // Of an odd count the compiler finds the pairs only if they are shown: 76 ns instead of 99 for J_e of the iiwa.
+        let ((twos, last), (angles, single)) = (pairs.as_chunks_mut::<2>(), angles.as_chunks::<2>());
+        for (pairs, [a, b]) in twos.iter_mut().zip(angles) {
+            *pairs = [near(*a), near(*b)];
+        }
+        for (pair, angle) in last.iter_mut().zip(single) {
+            *pair = near(*angle);
+        }
+        pairs
     } else {
         angles.map(scalar)
     }
@@ -140,8 +155,19 @@ fn reduce<T: Real>(x: T) -> (T, T) {
     let round = T::constant(ROUND);
     let rounded = x.mul_add(T::constant(FRAC_2_PI), round);
     let n = rounded - round;
-    let parts: &[f64] = if T::FUSED { &FUSED_PARTS } else { &EXACT_PARTS };
-    let r = parts.iter().fold(x, |r, part| n.neg_mul_add(T::constant(*part), r));
+    // Written out: closures are not always inlined, and then they are compiled for the oldest machine.
+    let r = if T::FUSED {
+        let [a, b, c] = FUSED_PARTS;
+        let r = n.neg_mul_add(T::constant(a), x);
+        let r = n.neg_mul_add(T::constant(b), r);
+        n.neg_mul_add(T::constant(c), r)
+    } else {
+        let [a, b, c, d] = EXACT_PARTS;
+        let r = n.neg_mul_add(T::constant(a), x);
+        let r = n.neg_mul_add(T::constant(b), r);
+        let r = n.neg_mul_add(T::constant(c), r);
+        n.neg_mul_add(T::constant(d), r)
+    };
     (r, rounded)
 }
 

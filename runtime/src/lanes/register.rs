@@ -252,15 +252,21 @@ impl<R: Register> Scalar for Lanes<R> {
     #[inline(always)]
     fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         let reach = Lanes::constant(sin_cos::REACH);
-        let far = angles.iter().fold(Lanes::constant(0.0), |far: Self, angle| {
+        // Loops, not closures: a closure that is not inlined is compiled for the oldest machine.
+        let mut far = R::splat(0.0);
+        for angle in angles {
             // Bits that differ from those of what is near. What is not a number stays so either way.
             let size = angle.abs();
-            Self(R::or(far.0, R::xor(reach.min(size).0, size.0)))
-        });
-        match Mask(far.0).any() {
-            true => angles.map(Self::far),
-            false => angles.map(sin_cos::near),
+            far = R::or(far, R::xor(reach.min(size).0, size.0));
         }
+        if Mask(far).any() {
+            return angles.map(Self::far);
+        }
+        let mut pairs = [(reach, reach); N];
+        for (pair, angle) in pairs.iter_mut().zip(angles) {
+            *pair = sin_cos::near(angle);
+        }
+        pairs
     }
 
     fn tan(self) -> Self {
