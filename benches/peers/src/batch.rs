@@ -8,19 +8,28 @@ use abbe::lanes::{InstructionSet, Path, Tiles};
 
 use crate::row::{Inputs, Kind, Output, Row, Run, Side};
 
-/// How many configurations go into a call: what they take and give stays in the nearest caches.
-pub const BLOCK: usize = 16;
+/// So few configurations in a call that all they take and give stays in the L1 cache.
+pub const FEW: usize = 16;
 
-/// A row for every kind and every instruction set of this machine.
-pub fn rows(name: &str, side: Side, robot: &'static dyn Manipulator, inputs: &Inputs) -> Vec<Row> {
+/// As many as the interpreter evaluates together at the widest.
+pub const MANY: usize = 64;
+
+/// A row for every kind and every instruction set of this machine, for calls with `block` configurations.
+pub fn rows(
+    name: &str,
+    side: Side,
+    robot: &'static dyn Manipulator,
+    block: usize,
+    inputs: &Inputs,
+) -> Vec<Row> {
     InstructionSet::all()
         .flat_map(|set| Kind::ALL.map(|kind| (set, kind)))
         .map(|(set, kind)| Row {
-            name: format!("{name}, batch, {}", set.name()),
+            name: format!("{name}, {block} at once, {}", set.name()),
             side,
             kind,
-            batch: true,
-            run: Box::new(Batch::new(robot, set, kind, inputs)),
+            block,
+            run: Box::new(Batch::new(robot, set, kind, block, inputs)),
         })
         .collect()
 }
@@ -30,12 +39,19 @@ struct Batch {
     robot: &'static dyn Manipulator,
     path: Path,
     has_pose: bool,
+    size: usize,
     blocks: Vec<Tiles>,
     results: Tiles,
 }
 
 impl Batch {
-    fn new(robot: &'static dyn Manipulator, set: InstructionSet, kind: Kind, inputs: &Inputs) -> Self {
+    fn new(
+        robot: &'static dyn Manipulator,
+        set: InstructionSet,
+        kind: Kind,
+        size: usize,
+        inputs: &Inputs,
+    ) -> Self {
         let path = match kind {
             Kind::Dense => Path::ErrorJacobian,
             Kind::Distinct => Path::DistinctErrorJacobian,
@@ -54,25 +70,25 @@ impl Batch {
             tiles.pad();
             tiles
         };
-        let blocks = indices.chunks(BLOCK).map(block).collect();
-        let mut results = Tiles::new(set, path.results(&description), BLOCK);
+        let blocks = indices.chunks(size).map(block).collect();
+        let mut results = Tiles::new(set, path.results(&description), size);
         (0..results.rows()).for_each(|row| results.fill_row(row, f64::NAN));
-        Self { robot, path, has_pose: kind.has_pose(), blocks, results }
+        Self { robot, path, has_pose: kind.has_pose(), size, blocks, results }
     }
 }
 
 impl Run for Batch {
     /// The first block of the range, as often as there are blocks in it: there is nothing to be guessed or learned.
     fn run(&mut self, _: &Inputs, range: Range<usize>, _: &mut Output) {
-        let arguments = &self.blocks[range.start / BLOCK];
-        for _ in 0..range.len().div_ceil(BLOCK) {
+        let arguments = &self.blocks[range.start / self.size];
+        for _ in 0..range.len().div_ceil(self.size) {
             self.robot.batch(self.path, black_box(arguments), &mut self.results).expect("the right counts");
             black_box(&mut self.results);
         }
     }
 
     fn show(&self, index: usize, output: &mut Output) {
-        let (rows, configuration) = (self.results.rows(), index % BLOCK);
+        let (rows, configuration) = (self.results.rows(), index % self.size);
         let pose = if self.has_pose { 12 } else { 0 };
         self.results.copy_rows(0..pose, configuration, &mut output.pose);
         self.results.copy_rows(pose..rows, configuration, &mut output.result);

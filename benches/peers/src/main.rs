@@ -35,8 +35,11 @@ fn main() {
     let mut report = Report::new(rounds, angles);
     let mut compare = |name: &str, spec: &str, robot: &'static dyn Manipulator, mut rows: Vec<Row>| {
         let answers = Answers::new(robot, angles);
-        rows.extend(batch::rows("abbe", Side::Ours, robot, &answers.inputs));
-        rows.extend(batch::rows("interpreter", Side::Interpreter, interpreter(name, spec), &answers.inputs));
+        for block in [batch::FEW, batch::MANY] {
+            rows.extend(batch::rows("abbe", Side::Ours, robot, block, &answers.inputs));
+        }
+        let interpreted = interpreter(name, spec);
+        rows.extend(batch::rows("interpreter", Side::Interpreter, interpreted, batch::MANY, &answers.inputs));
         rows.extend(pinocchio::rows(robot));
         rows.extend(peers::rows(name));
         let deviations = rows.iter_mut().map(|row| answers.deviation(row)).collect();

@@ -1,5 +1,6 @@
 //! How we stand, in ratios: more than 1 is in our favour.
 
+use crate::batch::MANY;
 use crate::measure::Times;
 use crate::row::{Kind, Row, Side};
 
@@ -16,8 +17,9 @@ pub fn lines(robot: &str, rows: &[Row], times: &[Times]) -> Vec<String> {
         let cells = Kind::ALL.map(|kind| of(kind).map_or(String::new(), |ratio| format!("{ratio:.2}")));
         format!("| {robot} | {title} | {} |", cells.join(" | "))
     };
-    let single = |row: &Row| row.side == Side::Ours && !row.batch;
-    let batch = |row: &Row| row.side == Side::Ours && row.batch;
+    let single = |row: &Row| row.side == Side::Ours && row.block == 1;
+    let batch = |row: &Row| row.side == Side::Ours && row.block > 1;
+    let many = |row: &Row| row.side == Side::Ours && row.block == MANY;
     let interpreted = |row: &Row| row.side == Side::Interpreter;
     let generator = |row: &Row| row.side == Side::Generator;
     let library = |row: &Row| row.side == Side::Library;
@@ -26,7 +28,7 @@ pub fn lines(robot: &str, rows: &[Row], times: &[Times]) -> Vec<String> {
         line("Pinocchio / ours, one by one", &|kind| ratios.of(kind, library, single)),
         line("best generator / our best batch", &|kind| ratios.of(kind, generator, batch)),
         line("Pinocchio / our best batch", &|kind| ratios.of(kind, library, batch)),
-        line("interpreter / compiled, best batches", &|kind| ratios.of(kind, interpreted, batch)),
+        line(&format!("interpreter / compiled, {MANY} at once"), &|kind| ratios.of(kind, interpreted, many)),
     ]
 }
 

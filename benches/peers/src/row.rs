@@ -124,8 +124,8 @@ pub struct Row {
     pub name: String,
     pub side: Side,
     pub kind: Kind,
-    /// Whether it takes many configurations at once.
-    pub batch: bool,
+    /// How many configurations it takes at once.
+    pub block: usize,
     pub run: Box<dyn Run>,
 }
 
@@ -143,7 +143,7 @@ impl Row {
                 black_box(&mut *output);
             }
         };
-        Self { name: name.to_owned(), side, kind, batch: false, run: Box::new(run) }
+        Self { name: name.to_owned(), side, kind, block: 1, run: Box::new(run) }
     }
 
     /// One that takes them one by one, and ε or σ² with them: `(q, ε, ΔX)`, `(q, σ², covariance)`.
@@ -159,6 +159,6 @@ impl Row {
                 black_box(&mut *output);
             }
         };
-        Self { name: name.to_owned(), side, kind, batch: false, run: Box::new(run) }
+        Self { name: name.to_owned(), side, kind, block: 1, run: Box::new(run) }
     }
 }
