@@ -163,9 +163,9 @@ impl<R: Register> Lane<R> {
     pub(super) fn add(&mut self, deviation: &[Lanes<R>], place: Lanes<R>, weight: Lanes<R>) {
         let &[x, y, z, four, five, six] = deviation else { return };
         let here = [x, y, z];
-        for i in 0..3 {
-            self.least[i] = here[i].min(self.least[i]);
-            self.largest[i] = here[i].max(self.largest[i]);
+        for (row, (least, largest)) in here.iter().zip(self.least.iter_mut().zip(&mut self.largest)) {
+            *least = row.min(*least);
+            *largest = row.max(*largest);
         }
         let square = peak::square(here);
         self.least_square = square.min(self.least_square);

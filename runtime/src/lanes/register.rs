@@ -4,7 +4,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use bytemuck::{Pod, TransparentWrapper, Zeroable};
+use bytemuck::{Pod, Zeroable};
 
 use crate::Scalar;
 use crate::sin_cos::{self, Real};
@@ -118,7 +118,7 @@ macro_rules! by_array {
 pub(super) use by_array;
 
 /// A number per lane: the [`Scalar`] of a batch.
-#[derive(Clone, Copy, Debug, Pod, Zeroable, TransparentWrapper)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
 pub struct Lanes<R: Register>(R);
 

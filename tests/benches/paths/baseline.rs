@@ -21,7 +21,7 @@ pub(crate) fn bench(criterion: &mut Criterion, subject: &Subject) {
         (Path::Covariance, covariance),
     ];
     for (path, finish) in finishes {
-        let mut group = subject.group(criterion, path);
+        let mut group = subject.group(criterion, path.name());
         let mut poses = vec![Frame::default(); subject.errors.len() / 6 + 1];
         let mut columns = vec![[0.0; 6]; subject.errors.len()];
         group.bench_function("nalgebra loop, matrices given", |bencher| {

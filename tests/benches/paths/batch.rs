@@ -10,7 +10,7 @@ use crate::subject::{COUNT, Subject};
 
 pub(crate) fn bench(criterion: &mut Criterion, subject: &Subject) {
     for path in Path::ALL {
-        let mut group = subject.group(criterion, path);
+        let mut group = subject.group(criterion, path.name());
         for set in InstructionSet::all() {
             let mut results = Tiles::new(set, path.results(&subject.compiled.description()), COUNT);
             let arguments = arguments(subject, path, set);
