@@ -120,7 +120,9 @@ pub(super) use by_array;
 /// A number per lane: the [`Scalar`] of a batch.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
-pub struct Lanes<R: Register>(R);
+pub struct Lanes<R>(R)
+where
+    R: Register;
 
 /// A truth per lane: all bits of the lane, or none.
 #[derive(Clone, Copy, Debug)]
