@@ -38,6 +38,8 @@ pub(crate) enum Command {
     Measure(Measure),
     /// The errors of the real machine, from measurements
     Identify(Identify),
+    /// Joint commands that put the real tool where the ideal one should be
+    Compensate(Compensate),
     /// Where to measure: sets of configurations, or the best of many
     Plan(Plan),
     /// Measurements of a machine whose errors are known
@@ -169,6 +171,33 @@ pub(crate) struct Measure {
     pub(crate) map: PathBuf,
     /// Write into this folder: report.html, and errors.csv with ΔX of every row
     #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Compensate {
+    /// Spec file, or shipped name: its repeatable sources are the errors of the machine
+    pub(crate) spec: String,
+    /// Configurations: a CSV file with the joints and inputs of the map
+    #[arg(long, value_name = "FILE")]
+    pub(crate) data: PathBuf,
+    /// What the columns are: a map (TOML), or the name of a shipped one. If not given, they are named as the variables and
+    /// inputs of the spec, in its length unit and in rad
+    #[arg(long, value_name = "FILE")]
+    pub(crate) map: Option<PathBuf>,
+    /// Bring the tool to the poses of the map's `[pose]` columns, from the joints of the row on
+    #[arg(long, requires = "map")]
+    pub(crate) poses: bool,
+    /// What may be left at the tool point; of an angle, 1 rad counts as 1 m
+    #[arg(long, value_name = "LENGTH", default_value = "0.001mm", allow_hyphen_values = true)]
+    pub(crate) tolerance: String,
+    /// Write the corrected commands and what they leave: a CSV file
+    #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) changes: Changes,

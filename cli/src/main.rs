@@ -8,6 +8,7 @@ mod analyze;
 mod arguments;
 mod changes;
 mod check;
+mod compensate;
 mod data;
 mod failure;
 mod generate;
@@ -53,6 +54,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
         Some(Command::Measure(arguments)) => measure::run(arguments),
         Some(Command::Identify(arguments)) => identify::run(arguments),
+        Some(Command::Compensate(arguments)) => compensate::run(arguments),
         Some(Command::Plan(arguments)) => plan::run(arguments),
         Some(Command::Simulate(arguments)) => simulate::run(arguments),
     }

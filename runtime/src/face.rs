@@ -147,6 +147,41 @@ macro_rules! checked_face {
             Ok(($crate::Pose(pose), columns))
         }
 
+        /// Joint commands that put the real tool where the ideal one is at `q`, within the limits of the variables.
+        ///
+        /// The commands, and ΔX at `q` and at them; see [`compensate`](::abbe::compensator::compensate). An error if an input
+        /// is outside its range or a number is not finite.
+        pub fn compensated(
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+        ) -> Result<$crate::compensator::Compensated<[f64; VARIABLES]>, $crate::Error> {
+            compensated_to(&pose(q, s)?, q, s, u)
+        }
+
+        /// The same for a pose of the tool in `F_0`, which the commands are sought for from `q` on.
+        ///
+        /// `q` must be close: where the ideal tool is at `target`, or in the cycle before. Errors as before, and if the target
+        /// is not finite.
+        pub fn compensated_to(
+            target: &$crate::Pose,
+            q: &[f64; VARIABLES],
+            s: &Parameters,
+            u: &Inputs,
+        ) -> Result<$crate::compensator::Compensated<[f64; VARIABLES]>, $crate::Error> {
+            let (s, u) = (&s.to_array(), &u.to_array());
+            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            $crate::checks::finite($crate::Quantity::Pose, target.0.as_flattened())?;
+            let columns = [[0.0; 6]; VARIABLES];
+            $crate::compensator::compensate(&DESCRIPTION, target, q, columns, |q, columns| {
+                let mut pose = [[0.0; 3]; 4];
+                raw::compensator_step(q, s, u, &mut pose, columns);
+                $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
+                $crate::checks::finite($crate::Quantity::Jacobian, columns.as_flattened())?;
+                Ok($crate::Pose(pose))
+            })
+        }
+
         impl $crate::Manipulator for $name {
             fn description(&self) -> $crate::Description<'_> {
                 DESCRIPTION

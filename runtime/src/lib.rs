@@ -22,6 +22,7 @@
 
 mod chain;
 pub mod checks;
+pub mod compensator;
 mod component;
 mod description;
 pub mod distinct;

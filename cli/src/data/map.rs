@@ -8,6 +8,7 @@ use abbe::identify::{Observation, Seen, Uncertainty};
 use abbe::{Description, Pose};
 use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, Span};
 use abbe_codegen::document::Document;
+use abbe_codegen::spec::VariableKind;
 
 use super::seen::Turn;
 
@@ -77,6 +78,26 @@ impl Map {
             _ => Document::read(argument)?,
         };
         super::read::map(document, spec)
+    }
+
+    /// The map of a file whose columns are named as the spec names its variables and inputs: in its length unit and in rad.
+    /// What has no column among the inputs is nominal.
+    pub(crate) fn of_names(header: &[String], spec: &abbe_codegen::spec::Spec) -> Result<Self, Diagnostics> {
+        let column =
+            |name: &str, unit: &str| format!("{name} = {{ column = \"{name}\", unit = \"{unit}\" }}\n");
+        let length = spec.length.symbol();
+        let joints = spec.variables.iter().map(|variable| match variable.kind {
+            VariableKind::Revolute => column(&variable.name, "rad"),
+            VariableKind::Prismatic => column(&variable.name, length),
+        });
+        let inputs = spec.inputs.iter().filter(|input| header.contains(&input.name));
+        let inputs = inputs.map(|input| column(&input.name, &input.unit));
+        let text = format!(
+            "[data]\nuncertainty = \"1 mm\"\n\n[joints]\n{}\n[inputs]\n{}\n[point]\ncolumns = [\"\", \"\", \"\"]\nunit = \"mm\"\n",
+            joints.collect::<String>(),
+            inputs.collect::<String>()
+        );
+        super::read::map(Document::new("the spec's own names, as there is no --map", text), spec)
     }
 
     /// Whether whole poses are measured.

@@ -45,5 +45,5 @@ mod seen;
 mod write;
 
 pub(crate) use map::{Layout, Map};
-pub(crate) use rows::Data;
+pub(crate) use rows::{Data, Unusable};
 pub(crate) use seen::{Order, Turn};

@@ -1,11 +1,12 @@
 //! Rows of a data file: what can be used, and what cannot and why.
 
 use std::collections::HashSet;
+use std::fs::File;
 use std::path::Path;
 
 use abbe::Pose;
 use abbe::identify::{Observation, Seen};
-use csv::{ReaderBuilder, StringRecord, Trim};
+use csv::{Reader, ReaderBuilder, StringRecord, Trim};
 use serde::Serialize;
 
 use super::map::{Channel, Column, Layout, Map};
@@ -32,21 +33,27 @@ pub(crate) struct Data {
 impl Data {
     /// Reads what was commanded and what was measured.
     pub(crate) fn read(file: &Path, map: &Map) -> Result<Self, Failure> {
-        Self::rows(file, map, true)
+        Self::rows(file, map, true, true)
+    }
+
+    /// The names of the columns of a file.
+    pub(crate) fn heading(file: &Path) -> Result<Vec<String>, Failure> {
+        open(file).map(|(_, header)| header)
+    }
+
+    /// Reads where the tool is wanted: what is measured elsewhere; the same place may be wanted again.
+    pub(crate) fn read_wanted(file: &Path, map: &Map) -> Result<Self, Failure> {
+        Self::rows(file, map, true, false)
     }
 
     /// Reads what was commanded alone: a plan.
     pub(crate) fn read_commanded(file: &Path, map: &Map) -> Result<Self, Failure> {
-        Self::rows(file, map, false)
+        Self::rows(file, map, false, false)
     }
 
-    fn rows(file: &Path, map: &Map, measured: bool) -> Result<Self, Failure> {
-        let fail = |error: csv::Error| {
-            Failure::of(file.display(), error).help("a CSV file with a heading in its first line")
-        };
-        let reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).flexible(true).from_path(file);
-        let mut reader = reader.map_err(fail)?;
-        let header: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
+    fn rows(file: &Path, map: &Map, measured: bool, once: bool) -> Result<Self, Failure> {
+        let (mut reader, header) = open(file)?;
+        let fail = |error| unreadable(file, error);
         let commanded: Vec<&Column> = map.commanded().collect();
         let seen = if measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
@@ -63,7 +70,7 @@ impl Data {
             let record = record.map_err(fail)?;
             let line = record.position().map_or(i as u64 + 2, csv::Position::line);
             let row = row(&record, &header, &commanded, &seen, map, measured).and_then(|(bits, row)| {
-                if !measured || known.insert(bits) {
+                if !once || known.insert(bits) {
                     Ok(row)
                 } else {
                     Err("the same as a row before it, digit by digit".to_owned())
@@ -80,9 +87,8 @@ impl Data {
         if data.observations.is_empty() {
             let why = data.unusable.first().map(|row| format!(": line {}: {}", row.line, row.reason));
             let message = format!("there is no row in it that can be used{}", why.unwrap_or_default());
-            return Err(
-                Failure::of(file.display(), message).help("one measurement in every line below the heading")
-            );
+            return Err(Failure::of(file.display(), message)
+                .help("one row of numbers in every line below the heading"));
         }
         Ok(data)
     }
@@ -116,6 +122,19 @@ impl Data {
         }
         lines
     }
+}
+
+/// A CSV file and its heading.
+fn open(file: &Path) -> Result<(Reader<File>, Vec<String>), Failure> {
+    let fail = |error| unreadable(file, error);
+    let reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).flexible(true).from_path(file);
+    let mut reader = reader.map_err(fail)?;
+    let header = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
+    Ok((reader, header))
+}
+
+fn unreadable(file: &Path, error: csv::Error) -> Failure {
+    Failure::of(file.display(), error).help("a CSV file with a heading in its first line")
 }
 
 /// The digits of a row, by which it is known again.

@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &Simulate) -> Result<Outcome, Failure> {
     Changes::from_arguments(&arguments.changes, &found.spec)?.apply(&mut found.spec);
     let map = Map::find(&arguments.map, &found.spec)?;
     let noise = match &arguments.noise {
-        Some(text) => length(text, &found.spec)?,
+        Some(text) => length("--noise", text, &found.spec)?,
         None => map.uncertainty.length,
     };
     let interpreter = Interpreter::new(&found.spec);
@@ -81,14 +81,13 @@ fn sampled(
     })
 }
 
-fn length(text: &str, spec: &Spec) -> Result<f64, Failure> {
-    let mut document = Document::new("--noise", text);
-    let value = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "the noise");
+/// A length that an option gives; it is not negative.
+pub(crate) fn length(option: &str, text: &str, spec: &Spec) -> Result<f64, Failure> {
+    let mut document = Document::new(option, text);
+    let value = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
     match document.finish(value)? {
         value if value >= 0.0 => Ok(value),
-        _ => {
-            Err(Failure::of("--noise", "a standard deviation is not negative").help("write `--noise 0.04mm`"))
-        }
+        _ => Err(Failure::of(option, "this is not negative").help(format!("write `{option} 0.04mm`"))),
     }
 }
 

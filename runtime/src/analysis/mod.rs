@@ -4,7 +4,7 @@
 //! [`inverse()`], a list. [`sweep`] evaluates it block by block, in parallel, and shows every [`Row`] in order;
 //! nothing is stored. [`error_budget`] gathers what every source does alone ([`SourceErrors`]) and what they do
 //! together ([`Combined`]), [`Compensation`] what is left, [`Admissible`] what a tolerance allows. [`monte_carlo`]
-//! draws errors on the exact chain. [`identifiable()`] counts which generalized errors measurements can tell apart.
+//! draws errors on the exact chain, [`corrected()`] commands compensate them. [`identifiable()`] counts which generalized errors measurements can tell apart.
 
 mod admissible;
 mod base_box;
@@ -12,6 +12,7 @@ mod block;
 mod budget;
 mod combined;
 mod compensation;
+mod corrected;
 mod covariance;
 mod enclosing;
 mod identifiable;
@@ -44,6 +45,7 @@ pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
 pub use budget::{Budget, Watch, error_budget};
 pub use combined::{Combined, Extreme};
 pub use compensation::{Compensation, Residual};
+pub use corrected::corrected;
 pub use covariance::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use enclosing::Sphere;
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};

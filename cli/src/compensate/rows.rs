@@ -1,0 +1,159 @@
+//! Row by row.
+
+use abbe::analysis::{Target, Unreached, corrected, inverse, sampling};
+use abbe::compensator::{Compensated, norms};
+use abbe::identify::{Observation, Seen};
+use abbe::{Description, Error, Manipulator};
+use serde::Serialize;
+
+use crate::data::Data;
+use crate::failure::Failure;
+use crate::number::{Named, length, of_variable};
+
+/// The norms of ΔX: in the spec's length unit, and in rad.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct Norms {
+    pub(super) length: f64,
+    pub(super) angle: f64,
+}
+
+impl Norms {
+    fn of(rows: &[f64; 6]) -> Self {
+        let (length, angle) = norms(rows);
+        Self { length, angle }
+    }
+}
+
+/// The corrected commands of a row.
+#[derive(Debug, Serialize)]
+pub(super) struct Row {
+    pub(super) line: u64,
+    /// By variable, in the spec's length unit and in rad.
+    pub(super) q: Named,
+    pub(super) before: Norms,
+    pub(super) after: Norms,
+    /// Why it is not compensated to the tolerance, if so.
+    pub(super) reason: Option<String>,
+}
+
+/// All rows that can be evaluated; their commands become the corrected ones, the others are taken out of the data.
+pub(super) fn of(
+    manipulator: &dyn Manipulator,
+    data: &mut Data,
+    tolerance: f64,
+) -> Result<Vec<Row>, Failure> {
+    let description = manipulator.description();
+    let s = sampling::nominal_parameters(&description);
+    let (mut rows, mut dropped) = (Vec::new(), Vec::new());
+    for (i, (asked, line)) in data.observations.iter_mut().zip(&data.lines).enumerate() {
+        match row(manipulator, &description, &s, asked) {
+            Ok(found) => {
+                let reason = reason(&description, &asked.q, &found, tolerance);
+                let Compensated { q, before, after } = found;
+                let names = description.variables.iter().map(|variable| variable.name.to_owned());
+                let (before, after) = (Norms::of(&before), Norms::of(&after));
+                rows.push(Row {
+                    line: *line,
+                    q: Named(names.zip(q.clone()).collect()),
+                    before,
+                    after,
+                    reason,
+                });
+                asked.q = q;
+            }
+            Err(reason) => dropped.push((i, reason)),
+        }
+    }
+    for (i, reason) in dropped.into_iter().rev() {
+        let line = data.lines.remove(i);
+        data.observations.remove(i);
+        data.leave_out(line, &reason);
+    }
+    if rows.is_empty() {
+        let why = data.unusable.first().map(|row| format!(": line {}: {}", row.line, row.reason));
+        return Err(Failure::of(&data.file, format!("no row can be compensated{}", why.unwrap_or_default())));
+    }
+    Ok(rows)
+}
+
+/// A pose is first brought to the ideal tool; with fewer than six joints, its point is.
+fn row(
+    manipulator: &dyn Manipulator,
+    description: &Description,
+    s: &[f64],
+    asked: &Observation,
+) -> Result<Compensated<Vec<f64>>, String> {
+    let Observation { q, u, seen } = asked;
+    let evaluation = |error: Error| evaluation(description, &error);
+    let Seen::Pose(wanted) = seen else {
+        return corrected(manipulator, None, q, s, u).map_err(evaluation);
+    };
+    let all: Vec<usize> = (0..q.len()).collect();
+    let target = match q.len() {
+        0..6 => Target::Point(wanted.position()),
+        _ => Target::Pose(*wanted),
+    };
+    let ideal =
+        inverse(manipulator, s, q, &all, &target).map_err(|reason| unreached(description, &reason))?;
+    corrected(manipulator, Some(wanted), &ideal, s, u).map_err(evaluation)
+}
+
+fn evaluation(description: &Description, error: &Error) -> String {
+    match error {
+        Error::OutOfRange { input, value, range: [lower, upper] } => {
+            let input = &description.inputs[*input];
+            let shown = crate::number::quantity(*value, input.unit);
+            format!("`{}` is {shown}, outside its range {lower} … {upper}", input.name)
+        }
+        error => error.to_string(),
+    }
+}
+
+fn unreached(description: &Description, reason: &Unreached) -> String {
+    match reason {
+        Unreached::OutsideLimits { variable, value, .. } => {
+            let variable = &description.variables[*variable];
+            let value = of_variable(*value, variable.kind, description.length);
+            format!("not even the ideal tool gets there: {} would have to be {value}", variable.name)
+        }
+        reason => format!("not even the ideal tool gets there: {reason}"),
+    }
+}
+
+/// Why a row is not compensated: limits, too few joints, or a singularity. With fewer than six joints the tool point is
+/// all that is asked for.
+fn reason(
+    description: &Description,
+    given: &[f64],
+    found: &Compensated<Vec<f64>>,
+    tolerance: f64,
+) -> Option<String> {
+    let Description { variables, length: unit, .. } = description;
+    let after = Norms::of(&found.after);
+    let few = variables.len() < 6;
+    if after.length <= tolerance && (few || after.angle <= tolerance * unit.in_metres()) {
+        return None;
+    }
+    let each = || variables.iter().zip(given.iter().zip(&found.q));
+    let names = |list: Vec<String>| list.join(", ");
+    let outside = each().filter(|(v, (given, _))| **given < v.limits[0] || **given > v.limits[1]);
+    let outside = names(outside.map(|(v, _)| v.name.to_owned()).collect());
+    let held = each().filter(|(v, (_, q))| v.limits.contains(q));
+    let held = names(
+        held.map(|(v, (_, q))| format!("{} at its limit {}", v.name, of_variable(*q, v.kind, *unit)))
+            .collect(),
+    );
+    let why = if !outside.is_empty() {
+        format!("{outside} was commanded beyond its limits")
+    } else if !held.is_empty() {
+        held
+    } else if few {
+        format!("{} joints cannot move it there", variables.len())
+    } else {
+        "close to a singularity, where a small correction takes a large turn".to_owned()
+    };
+    Some(match after.length <= tolerance {
+        true => format!("{why}; {:.3e} rad left", after.angle),
+        false => format!("{why}; {} left", length(after.length, *unit)),
+    })
+}

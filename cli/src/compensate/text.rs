@@ -1,0 +1,90 @@
+//! The results for people.
+
+use std::path::Path;
+
+use abbe::{Class, Description, VariableKind};
+
+use super::{Report, Size};
+use crate::data::Data;
+use crate::number::{digits, error_decimals, fixed, length};
+use crate::table::{Table, wrapped};
+
+/// How many rows are shown one by one.
+const SHOWN: usize = 20;
+
+pub(super) fn of(description: &Description, data: &Data, report: &Report, out: Option<&Path>) -> String {
+    let mut parts = vec![format!("{}: compensated\n\n", description.title)];
+    for line in data.describe() {
+        parts[0] += &format!("{}\n", wrapped(&line, 2));
+    }
+    let few = description.variables.len() < 6;
+    parts.push(format!(
+        "Distance of the tool point from where it should be, {}, and largest turn, mrad\n{}",
+        report.length,
+        sizes(report, error_decimals(description.length))
+    ));
+    if few {
+        let sentence = format!(
+            "{} joints cannot correct a whole pose: the tool point comes first, then as much of the turn as is possible.",
+            description.variables.len()
+        );
+        parts.push(wrapped(&sentence, 0) + "\n");
+    }
+    if !description.sources.iter().any(|source| source.class == Class::Repeatable) {
+        parts.push("The spec has no repeatable source: there is nothing to compensate.\n".to_owned());
+    }
+    parts.push(commands(description, report));
+    parts.push(done(description, report, out));
+    parts.join("\n")
+}
+
+fn sizes(report: &Report, decimals: usize) -> String {
+    let mut table = Table::new(&["", "mean", "rms", "largest", "largest turn"]);
+    for (name, Size { mean, rms, max, angle_max }) in
+        [("as commanded", &report.before), ("corrected", &report.after)]
+    {
+        let lengths = [mean, rms, max].map(|value| fixed(*value, decimals));
+        let turn = fixed(angle_max * 1e3, 4);
+        table.row([&[name.to_owned()][..], &lengths, &[turn]].concat());
+    }
+    table.right(&[1, 2, 3, 4]).to_string()
+}
+
+/// The first rows.
+fn commands(description: &Description, report: &Report) -> String {
+    let names: Vec<&str> = description.variables.iter().map(|variable| variable.name).collect();
+    let mut table = Table::new(&[&["line"][..], &names, &["before", "after"]].concat());
+    for row in report.rows.iter().take(SHOWN) {
+        let values = description.variables.iter().zip(&row.q.0);
+        let values = values.map(|(variable, (_, value))| match variable.kind {
+            VariableKind::Revolute => format!("{:.4}°", value.to_degrees()),
+            VariableKind::Prismatic => fixed(*value, error_decimals(description.length)),
+        });
+        let left = [row.before.length, row.after.length].map(|value| digits(value, 3));
+        table.row([&[row.line.to_string()][..], &values.collect::<Vec<_>>(), &left].concat());
+    }
+    let right: Vec<usize> = (0..description.variables.len() + 3).collect();
+    let more = report.rows.len().saturating_sub(SHOWN);
+    let more = if more > 0 { format!("… and {more} more\n") } else { String::new() };
+    format!("Corrected commands\n{}{more}", table.right(&right))
+}
+
+/// What is done, and what is not and why.
+fn done(description: &Description, report: &Report, out: Option<&Path>) -> String {
+    let tolerance = length(report.tolerance, description.length);
+    let mut lines = vec![format!(
+        "{} of {} rows are compensated: no more than {tolerance} is left at the tool point.",
+        report.compensated,
+        report.rows.len()
+    )];
+    let failed = report.rows.iter().filter_map(|row| Some((row.line, row.reason.as_ref()?)));
+    let failed: Vec<String> = failed.map(|(line, reason)| format!("  line {line}: {reason}")).collect();
+    lines.extend(failed.iter().take(SHOWN).cloned());
+    if failed.len() > SHOWN {
+        lines.push(format!("  … and {} more", failed.len() - SHOWN));
+    }
+    if let Some(file) = out {
+        lines.push(format!("{}: {} rows", file.display(), report.rows.len()));
+    }
+    lines.iter().map(|line| wrapped(line, 2) + "\n").collect()
+}
