@@ -187,6 +187,7 @@ fn kind(path: Path) -> FunctionKind {
         Path::PredictedDisplacement => FunctionKind::PredictedDisplacement,
         Path::SourceDisplacements => FunctionKind::SourceDisplacements,
         Path::Covariance => FunctionKind::Covariance,
+        Path::CompensatorStep => FunctionKind::CompensatorStep,
     }
 }
 
