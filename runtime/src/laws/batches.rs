@@ -67,7 +67,6 @@ fn scales(path: Path, subject: &Subject) -> Vec<f64> {
         Path::Displacement | Path::PredictedDisplacement => columns(1),
         Path::SourceDisplacements => columns(description.sources.len()),
         Path::Covariance => column.iter().flat_map(|a| column.map(|b| a * b)).collect(),
-        Path::CompensatorStep => [pose, columns(description.variables.len())].concat(),
     };
     scales.resize(path.results(&description), 1.0);
     scales
