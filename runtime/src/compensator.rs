@@ -8,7 +8,8 @@
 //!
 //! What is left after [`ITERATIONS`], on the exact chain, as the tests hold it: less than 0.001 mm and 1 µrad within the
 //! limits, for errors of millimetres and milliradians, where that singular value is above 0.1; of the paper's positioner
-//! over its treatment volume, 5.4 mm become less than 10⁻⁶ mm. Nothing is allocated.
+//! over its treatment volume, 5.4 mm become less than 10⁻⁵ mm, and a turn is left only where a joint is at its limit. Nothing is
+//! allocated.
 
 use crate::{Description, Error, Orientation, Pose, Scalar, Variable, VariableKind, deviation};
 

@@ -36,7 +36,8 @@ pub(super) struct Row {
     pub(super) reason: Option<String>,
 }
 
-/// All rows that can be evaluated, for their joints or for the poses that were seen; their commands become the corrected ones, the others are taken out of the data.
+/// All rows that can be evaluated, for their joints or for the poses that were seen; their commands become the corrected
+/// ones, the others are taken out of the data.
 pub(super) fn of(
     manipulator: &dyn Manipulator,
     data: &mut Data,
