@@ -187,7 +187,6 @@ fn kind(path: Path) -> FunctionKind {
         Path::PredictedDisplacement => FunctionKind::PredictedDisplacement,
         Path::SourceDisplacements => FunctionKind::SourceDisplacements,
         Path::Covariance => FunctionKind::Covariance,
-        Path::CompensatorStep => FunctionKind::CompensatorStep,
     }
 }
 

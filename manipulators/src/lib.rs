@@ -21,7 +21,8 @@
 //! let (set, count) = (InstructionSet::best(), 1000);
 //! let path = Path::PredictedDisplacement;
 //! let mut arguments = Tiles::new(set, path.arguments(&pps::DESCRIPTION), count); // rows q, s, u
-//! for (row, value) in [1128.0, 280.0, 0.0, 0.0, 0.0, 0.0, 0.0, 100.0, 850.0].into_iter().enumerate() {
+//! let home = pps::DESCRIPTION.variables.iter().map(|variable| variable.home);
+//! for (row, value) in home.chain(pps::Parameters::NOMINAL.to_array()).enumerate() {
 //!     arguments.fill_row(row, value);
 //! }
 //! for i in 0..count {

@@ -30,6 +30,7 @@ mod error;
 mod face;
 #[cfg(feature = "nalgebra")]
 mod faces;
+pub mod long;
 mod manipulator;
 mod pose;
 mod scalar;

@@ -6,8 +6,8 @@
 ///
 /// - Units: m, rad; masses kg, times s, temperatures K.
 /// - Poses are in `F_0`, column-major: x, y, z axis, then position.
-/// - Rows of a Jacobian: x, y, z of the tool point; small rotation about x, y, z of `F_0`.
-/// - Columns of `J_e`: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**) of each frame.
+/// - Rows: x, y, z of the tool point; small rotation about x, y, z of `F_0`.
+/// - Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).
 ///
 /// | frame | name | variable |
 /// |---|---|---|
@@ -30,13 +30,15 @@
 /// | `source_displacements` | 31 mul, 9 add, 4 div, 4 sincos, 1 sqrt, 3 other |
 /// | `real_pose` | 47 mul, 21 add, 5 sincos, 3 other, 2 neg |
 /// | `compensator_step` | 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg |
+#[allow(dead_code)]
 #[allow(non_snake_case)]
 #[allow(clippy::approx_constant)]
 pub mod self_ {
     use ::abbe::{
-        Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit,
-        Orientation, Parameter, Source, Variable, VariableKind,
+        Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation,
+        Parameter, Source, Variable, VariableKind,
     };
+
     /// How many frames there are: n.
     pub const FRAMES: usize = 2;
     /// How many generalized errors there are: 6n, the length of ε.
@@ -53,13 +55,17 @@ pub mod self_ {
     pub const SOURCES: usize = 1;
     /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
     pub const DISTINCT: usize = 6;
+
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "self_",
         title: "A robot with <unlucky> [names]",
         length: LengthUnit::Metre,
         orientation: Orientation::RotationVector,
-        frames: &[Frame::new("first | `frame`", Some(0)), Frame::new("x", Some(1))],
+        frames: &[
+            Frame::new("first | `frame`", Some(0)),
+            Frame::new("x", Some(1)),
+        ],
         variables: &[
             Variable::new(
                 "Some",
@@ -90,11 +96,17 @@ pub mod self_ {
             Input::new("u", 20.0, [-1000.0, 1000.0], "m*kg/s^2"),
             Input::new("columns", 6.2832, [-7.0, 7.0], ""),
         ],
-        sources: &[
-            Source::new("\"quoted\" \\ name", Class::Random(Distribution::Normal), ""),
+        sources: &[Source::new(
+            "\"quoted\" \\ name",
+            Class::Random(Distribution::Normal),
+            "",
+        )],
+        effects: &[
+            Effect::new(0, 1, Component::X),
+            Effect::new(0, 1, Component::Pitch),
         ],
-        effects: &[Effect::new(0, 1, Component::X), Effect::new(0, 1, Component::Pitch)],
     };
+
     /// The structural parameters `s`, which may be set at run time.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Parameters {
@@ -119,6 +131,7 @@ pub mod self_ {
         /// In rad or a pure number.
         pub _s: f64,
     }
+
     impl Parameters {
         /// Their nominal values.
         pub const NOMINAL: Self = Self {
@@ -133,8 +146,9 @@ pub mod self_ {
             pose: 2.718281828,
             _s: 1.0,
         };
+
         /// The values in the order of [`DESCRIPTION`].
-        pub const fn to_array(&self) -> [f64; PARAMETERS] {
+        pub const fn to_array(self) -> [f64; PARAMETERS] {
             [
                 self.q,
                 self.None,
@@ -149,11 +163,13 @@ pub mod self_ {
             ]
         }
     }
+
     impl Default for Parameters {
         fn default() -> Self {
             Self::NOMINAL
         }
     }
+
     /// The inputs `u`: what changes from use to use.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {
@@ -162,31 +178,37 @@ pub mod self_ {
         /// In rad or a pure number.
         pub columns: f64,
     }
+
     impl Inputs {
         /// Their default values.
-        pub const NOMINAL: Self = Self { u: 20.0, columns: 6.2832 };
+        pub const NOMINAL: Self = Self {
+            u: 20.0,
+            columns: 6.2832,
+        };
+
         /// The values in the order of [`DESCRIPTION`].
-        pub const fn to_array(&self) -> [f64; INPUTS] {
+        pub const fn to_array(self) -> [f64; INPUTS] {
             [self.u, self.columns]
         }
     }
+
     impl Default for Inputs {
         fn default() -> Self {
             Self::NOMINAL
         }
     }
+
     ::abbe::checked_face! {
-        #[doc =
-        " A robot with \\<unlucky\\> \\[names\\], as a [`Manipulator`](::abbe::Manipulator)."]
+        /// A robot with \<unlucky\> \[names\], as a [`Manipulator`](::abbe::Manipulator).
         ManipulatorSelf
     }
-    /// The same as functions of plain arrays, generic over the scalar and without checks: what is not
-    /// finite stays so.
+
+    /// The same as functions of plain arrays, generic over the scalar and without checks: what is
+    /// not finite stays so.
     pub mod raw {
-        use super::{
-            DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES,
-        };
+        use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::Scalar;
+
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
         /// 26 mul, 7 add, 5 sincos, 3 other, 5 neg.
@@ -206,8 +228,13 @@ pub mod self_ {
                 [zero, zero, one],
                 [zero, zero, zero],
             ];
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -249,19 +276,21 @@ pub mod self_ {
                 [t5, t6, zero],
             ];
         }
+
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
         ///
         /// 47 mul, 21 add, 5 sincos, 3 other, 2 neg.
         #[inline(always)]
-        pub fn pose<T: Scalar>(
-            q: &[T; VARIABLES],
-            s: &[T; PARAMETERS],
-            pose: &mut [[T; 3]; 4],
-        ) {
+        pub fn pose<T: Scalar>(q: &[T; VARIABLES], s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -303,6 +332,7 @@ pub mod self_ {
                 [p2_x, p2_y, p2_z],
             ];
         }
+
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
         ///
         /// 63 mul, 30 add, 5 sincos, 3 other, 9 neg.
@@ -316,8 +346,13 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -387,6 +422,7 @@ pub mod self_ {
             let t25 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
             columns[4] = [t23, t24, t25, r1_13, r1_23, r1_33];
         }
+
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
         ///
         /// 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg.
@@ -401,8 +437,13 @@ pub mod self_ {
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
             let t1_ = Some_.abs();
-            let [(sin_2, cos_2), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_3, cos_3), (sin_4, cos_4)] = T::sin_cos_each([
+            let [
+                (sin_2, cos_2),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_3, cos_3),
+                (sin_4, cos_4),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -446,18 +487,19 @@ pub mod self_ {
             ];
             let t18 = -sin_2.mul_add(ERRORS_, p2_y);
             let t19 = cos_2.mul_add(ERRORS_, p2_x);
-            let t20 = Some_.sign()
-                * (T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002)));
-            let t21 = r2_11 * t20;
-            let t22 = r2_21 * t20;
-            let t23 = r2_31.mul_add(t20, T::constant(1.0));
-            columns[0] = [t18, t19, zero, t21, t22, t23];
-            let t24 = q_ / q_.mul_add(q_, self_ * self_);
-            let t25 = t13 * t24;
-            let t26 = -(t14 * t24);
-            let t27 = -(t8 * t24);
-            columns[1] = [t11, t12, t10, t25, t26, t27];
+            let t20 = T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002));
+            let t21 = Some_.sign() * t20;
+            let t22 = r2_11 * t21;
+            let t23 = r2_21 * t21;
+            let t24 = r2_31.mul_add(t21, T::constant(1.0));
+            columns[0] = [t18, t19, zero, t22, t23, t24];
+            let t25 = q_ / q_.mul_add(q_, self_ * self_);
+            let t26 = t13 * t25;
+            let t27 = -(t14 * t25);
+            let t28 = -(t8 * t25);
+            columns[1] = [t11, t12, t10, t26, t27, t28];
         }
+
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
         ///
         /// 68 mul, 28 add, 1 div, 5 sincos, 3 other, 11 neg.
@@ -475,8 +517,13 @@ pub mod self_ {
             columns[5] = [zero; 6];
             columns[7] = [zero; 6];
             columns[8] = [zero; 6];
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -545,6 +592,7 @@ pub mod self_ {
             let t32 = None_ * p2_x;
             columns[3] = [t31, t32, zero, zero, zero, None_];
         }
+
         /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 9 mul, 3 add, 4 div, 1 sqrt, 2 other.
@@ -559,11 +607,13 @@ pub mod self_ {
             let [u_, columns_] = *u;
             let t1_ = u_ * (q_ * (q_ * q_)) / (T::constant(3.0) * EI) * t1.sqrt();
             let t2 = zero_.mul_add(T::constant(1e-6), t1_ / q_);
-            let t3 = T.tan();
-            let t4 = columns_.mul_add(T::constant(1e-6), T::constant(1e-6) * pose_)
-                + (_s / T::constant(2.0)).asin() / (t3 * t3);
-            *effects = [t2, t4];
+            let t3 = T::constant(1e-6) * pose_;
+            let t4 = T.tan();
+            let t5 = (_s / T::constant(2.0)).asin() / (t4 * t4);
+            let t6 = columns_.mul_add(T::constant(1e-6), t3) + t5;
+            *effects = [t2, t6];
         }
+
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
         ///
         /// 0 mul, 0 add.
@@ -578,8 +628,9 @@ pub mod self_ {
             errors[0] = [zero; 6];
             errors[1] = [zero; 6];
         }
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the
-        /// moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
+
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
+        /// then the moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
         ///
         /// 63 mul, 30 add, 5 sincos, 3 other, 9 neg.
         #[inline(always)]
@@ -595,8 +646,13 @@ pub mod self_ {
             distinct[1][3] = [zero; 3];
             distinct[1][4] = [zero; 3];
             distinct[1][5] = [zero; 3];
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -663,7 +719,9 @@ pub mod self_ {
             let t25 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
             distinct[0][4] = [t23, t24, t25];
         }
-        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
+
+        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
+        /// Jacobian.
         ///
         /// 47 mul, 31 add, 5 sincos, 3 other, 2 neg.
         #[inline(always)]
@@ -675,10 +733,17 @@ pub mod self_ {
         ) {
             let [Some_, self_] = *q;
             let [q_, None_, _, T, _, _, r1_11, _, _, _s] = *s;
-            let [[e1_x, e1_y, e1_z, e1_s, e1_r, e1_p], [e2_x, e2_y, e2_z, e2_s, e2_r,
-            e2_p]] = *errors;
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                [e1_x, e1_y, e1_z, e1_s, e1_r, e1_p],
+                [e2_x, e2_y, e2_z, e2_s, e2_r, e2_p],
+            ] = *errors;
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -693,24 +758,27 @@ pub mod self_ {
             let t9 = sin_3.mul_add(e2_s, cos_3 * e2_r);
             let t10 = sin_2.mul_add(t7, cos_2 * e2_x);
             let t11 = sin_2.mul_add(t9, cos_2 * e2_p);
-            let t12 = t5.neg_mul_add(e1_r, e1_x + cos__s.mul_sub(t10, sin__s * t6));
-            let t13 = t4.mul_add(e1_r, e1_y + sin__s.mul_add(t10, cos__s * t6));
-            let t14 = t5.mul_sub(e1_p, t4 * e1_s)
-                + (e1_z + cos_2.mul_sub(t7, sin_2 * e2_x));
-            let t15 = e1_p + cos__s.mul_sub(t11, sin__s * t8);
-            let t16 = e1_s + sin__s.mul_add(t11, cos__s * t8);
-            let t17 = e1_r + cos_2.mul_sub(t9, sin_2 * e2_p);
-            let t18 = sin_r1_11.mul_sub(t14, cos_r1_11 * t13);
-            let t19 = -sin_r1_11.mul_add(t13, cos_r1_11 * t14);
-            let t20 = sin_r1_11.mul_sub(t17, cos_r1_11 * t16);
-            let t21 = -sin_r1_11.mul_add(t16, cos_r1_11 * t17);
-            let t22 = cos_1.mul_sub(t12, sin_1 * t18);
-            let t23 = sin_1.mul_add(t12, cos_1 * t18);
-            let t24 = cos_1.mul_sub(t15, sin_1 * t20);
-            let t25 = sin_1.mul_add(t15, cos_1 * t20);
-            *displacement = [t22, t23, t19, t24, t25, t21];
+            let t12 = e1_x + cos__s.mul_sub(t10, sin__s * t6);
+            let t13 = t5.neg_mul_add(e1_r, t12);
+            let t14 = t4.mul_add(e1_r, e1_y + sin__s.mul_add(t10, cos__s * t6));
+            let t15 = e1_z + cos_2.mul_sub(t7, sin_2 * e2_x);
+            let t16 = t5.mul_sub(e1_p, t4 * e1_s) + t15;
+            let t17 = e1_p + cos__s.mul_sub(t11, sin__s * t8);
+            let t18 = e1_s + sin__s.mul_add(t11, cos__s * t8);
+            let t19 = e1_r + cos_2.mul_sub(t9, sin_2 * e2_p);
+            let t20 = sin_r1_11.mul_sub(t16, cos_r1_11 * t14);
+            let t21 = -sin_r1_11.mul_add(t14, cos_r1_11 * t16);
+            let t22 = sin_r1_11.mul_sub(t19, cos_r1_11 * t18);
+            let t23 = -sin_r1_11.mul_add(t18, cos_r1_11 * t19);
+            let t24 = cos_1.mul_sub(t13, sin_1 * t20);
+            let t25 = sin_1.mul_add(t13, cos_1 * t20);
+            let t26 = cos_1.mul_sub(t17, sin_1 * t22);
+            let t27 = sin_1.mul_add(t17, cos_1 * t22);
+            *displacement = [t24, t25, t21, t26, t27, t23];
         }
-        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.
+
+        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
+        /// order of ε.
         ///
         /// 100 mul, 88 add, 5 sincos, 3 other, 4 neg.
         #[inline(always)]
@@ -722,10 +790,17 @@ pub mod self_ {
         ) {
             let [Some_, self_] = *q;
             let [q_, None_, _, T, _, _, r1_11, _, _, _s] = *s;
-            let [[v1_x, v1_y, v1_z, v1_s, v1_r, v1_p], [v2_x, v2_y, v2_z, v2_s, v2_r,
-            v2_p]] = *variances;
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                [v1_x, v1_y, v1_z, v1_s, v1_r, v1_p],
+                [v2_x, v2_y, v2_z, v2_s, v2_r, v2_p],
+            ] = *variances;
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -847,6 +922,7 @@ pub mod self_ {
             covariance[1] = [t93, t92, t88, t111, t109, t104];
             covariance[3] = [t108, t111, t101, t98, t100, t94];
         }
+
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
         ///
         /// 0 mul, 0 add.
@@ -860,7 +936,9 @@ pub mod self_ {
             let zero = T::constant(0.0);
             *displacement = [zero; 6];
         }
-        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.
+
+        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
+        /// Jacobian.
         ///
         /// 31 mul, 9 add, 4 div, 4 sincos, 1 sqrt, 3 other.
         #[inline(always)]
@@ -873,30 +951,36 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, _, T, zero_, t1, r1_11, EI, pose_, _s] = *s;
             let [u_, columns_] = *u;
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s), (sin_2, cos_2),
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
             ] = T::sin_cos_each([None_.mul_add(T, Some_), r1_11, _s, self_.atan2(q_)]);
             let r1_12 = sin_1 * cos_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let r2_11 = (sin_1 * sin_r1_11)
-                .mul_add(sin_2, cos_1.mul_add(cos__s, r1_12 * sin__s) * cos_2);
-            let r2_21 = sin_1
-                .mul_sub(cos__s, cos_1 * cos_r1_11 * sin__s)
-                .mul_sub(cos_2, r1_23 * sin_2);
+            let t3 = cos_1.mul_add(cos__s, r1_12 * sin__s) * cos_2;
+            let r2_11 = (sin_1 * sin_r1_11).mul_add(sin_2, t3);
+            let t4 = sin_1.mul_sub(cos__s, cos_1 * cos_r1_11 * sin__s);
+            let r2_21 = t4.mul_sub(cos_2, r1_23 * sin_2);
             let r2_31 = cos_r1_11.mul_sub(sin_2, sin_r1_11 * sin__s * cos_2);
-            let t3 = u_ * (q_ * (q_ * q_)) / (T::constant(3.0) * EI) * t1.sqrt();
-            let t4 = zero_.mul_add(T::constant(1e-6), t3 / q_);
-            let t5 = T.tan();
-            let t6 = columns_.mul_add(T::constant(1e-6), T::constant(1e-6) * pose_)
-                + (_s / T::constant(2.0)).asin() / (t5 * t5);
-            let t7 = r2_11 * t4;
-            let t8 = r2_21 * t4;
-            let t9 = r2_31 * t4;
-            let t10 = r2_11 * t6;
-            let t11 = r2_21 * t6;
-            let t12 = r2_31 * t6;
-            displacements[0] = [t7, t8, t9, t10, t11, t12];
+            let t5 = u_ * (q_ * (q_ * q_)) / (T::constant(3.0) * EI) * t1.sqrt();
+            let t6 = zero_.mul_add(T::constant(1e-6), t5 / q_);
+            let t7 = T::constant(1e-6) * pose_;
+            let t8 = T.tan();
+            let t9 = (_s / T::constant(2.0)).asin() / (t8 * t8);
+            let t10 = columns_.mul_add(T::constant(1e-6), t7) + t9;
+            let t11 = r2_11 * t6;
+            let t12 = r2_21 * t6;
+            let t13 = r2_31 * t6;
+            let t14 = r2_11 * t10;
+            let t15 = r2_21 * t10;
+            let t16 = r2_31 * t10;
+            displacements[0] = [t11, t12, t13, t14, t15, t16];
         }
-        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
+
+        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
+        /// E_1 … A_n E_n T`.
         ///
         /// 47 mul, 21 add, 5 sincos, 3 other, 2 neg.
         #[inline(always)]
@@ -908,8 +992,13 @@ pub mod self_ {
         ) {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let [(sin_1, cos_1), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_2, cos_2), (sin_3, cos_3)] = T::sin_cos_each([
+            let [
+                (sin_1, cos_1),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_2, cos_2),
+                (sin_3, cos_3),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -951,7 +1040,9 @@ pub mod self_ {
                 [p2_x, p2_y, p2_z],
             ];
         }
-        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
+
+        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
+        /// variable.
         ///
         /// 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg.
         #[inline(always)]
@@ -966,8 +1057,13 @@ pub mod self_ {
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
             let t1_ = Some_.abs();
-            let [(sin_2, cos_2), (sin_r1_11, cos_r1_11), (sin__s, cos__s),
-            (sin_3, cos_3), (sin_4, cos_4)] = T::sin_cos_each([
+            let [
+                (sin_2, cos_2),
+                (sin_r1_11, cos_r1_11),
+                (sin__s, cos__s),
+                (sin_3, cos_3),
+                (sin_4, cos_4),
+            ] = T::sin_cos_each([
                 None_.mul_add(T, Some_),
                 r1_11,
                 _s,
@@ -1011,17 +1107,17 @@ pub mod self_ {
             ];
             let t18 = -sin_2.mul_add(ERRORS_, p2_y);
             let t19 = cos_2.mul_add(ERRORS_, p2_x);
-            let t20 = Some_.sign()
-                * (T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002)));
-            let t21 = r2_11 * t20;
-            let t22 = r2_21 * t20;
-            let t23 = r2_31.mul_add(t20, T::constant(1.0));
-            columns[0] = [t18, t19, zero, t21, t22, t23];
-            let t24 = q_ / q_.mul_add(q_, self_ * self_);
-            let t25 = t13 * t24;
-            let t26 = -(t14 * t24);
-            let t27 = -(t8 * t24);
-            columns[1] = [t11, t12, t10, t25, t26, t27];
+            let t20 = T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002));
+            let t21 = Some_.sign() * t20;
+            let t22 = r2_11 * t21;
+            let t23 = r2_21 * t21;
+            let t24 = r2_31.mul_add(t21, T::constant(1.0));
+            columns[0] = [t18, t19, zero, t22, t23, t24];
+            let t25 = q_ / q_.mul_add(q_, self_ * self_);
+            let t26 = t13 * t25;
+            let t27 = -(t14 * t25);
+            let t28 = -(t8 * t25);
+            columns[1] = [t11, t12, t10, t26, t27, t28];
         }
     }
 }

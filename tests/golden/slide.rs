@@ -4,8 +4,8 @@
 ///
 /// - Units: mm, rad; masses kg, times s, temperatures K.
 /// - Poses are in `F_0`, column-major: x, y, z axis, then position.
-/// - Rows of a Jacobian: x, y, z of the tool point; small rotation about x, y, z of `F_0`.
-/// - Columns of `J_e`: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**) of each frame.
+/// - Rows: x, y, z of the tool point; small rotation about x, y, z of `F_0`.
+/// - Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).
 ///
 /// | frame | name | variable |
 /// |---|---|---|
@@ -27,8 +27,10 @@
 /// | `source_displacements` | 0 mul, 0 add |
 /// | `real_pose` | 0 mul, 0 add |
 /// | `compensator_step` | 0 mul, 0 add |
+#[allow(dead_code)]
 pub mod slide {
     use ::abbe::{Description, Frame, LengthUnit, Orientation, Variable, VariableKind};
+
     /// How many frames there are: n.
     pub const FRAMES: usize = 1;
     /// How many generalized errors there are: 6n, the length of ε.
@@ -45,6 +47,7 @@ pub mod slide {
     pub const SOURCES: usize = 0;
     /// How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.
     pub const DISTINCT: usize = 6;
+
     /// Names, units, limits, sources.
     pub const DESCRIPTION: Description<'static> = Description {
         name: "slide",
@@ -52,61 +55,69 @@ pub mod slide {
         length: LengthUnit::Millimetre,
         orientation: Orientation::RotationVector,
         frames: &[Frame::new("carriage", Some(0))],
-        variables: &[
-            Variable::new(
-                "d1",
-                VariableKind::Prismatic,
-                [f64::NEG_INFINITY, f64::INFINITY],
-                0.0,
-            ),
-        ],
+        variables: &[Variable::new(
+            "d1",
+            VariableKind::Prismatic,
+            [f64::NEG_INFINITY, f64::INFINITY],
+            0.0,
+        )],
         parameters: &[],
         inputs: &[],
         sources: &[],
         effects: &[],
     };
+
     /// The structural parameters `s`, which may be set at run time.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Parameters {}
+
     impl Parameters {
         /// Their nominal values.
         pub const NOMINAL: Self = Self {};
+
         /// The values in the order of [`DESCRIPTION`].
-        pub const fn to_array(&self) -> [f64; PARAMETERS] {
+        pub const fn to_array(self) -> [f64; PARAMETERS] {
             []
         }
     }
+
     impl Default for Parameters {
         fn default() -> Self {
             Self::NOMINAL
         }
     }
+
     /// The inputs `u`: what changes from use to use.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Inputs {}
+
     impl Inputs {
         /// Their default values.
         pub const NOMINAL: Self = Self {};
+
         /// The values in the order of [`DESCRIPTION`].
-        pub const fn to_array(&self) -> [f64; INPUTS] {
+        pub const fn to_array(self) -> [f64; INPUTS] {
             []
         }
     }
+
     impl Default for Inputs {
         fn default() -> Self {
             Self::NOMINAL
         }
     }
+
     ::abbe::checked_face! {
-        #[doc = " slide, as a [`Manipulator`](::abbe::Manipulator)."] Slide
+        /// slide, as a [`Manipulator`](::abbe::Manipulator).
+        Slide
     }
-    /// The same as functions of plain arrays, generic over the scalar and without checks: what is not
-    /// finite stays so.
+
+    /// The same as functions of plain arrays, generic over the scalar and without checks: what is
+    /// not finite stays so.
     pub mod raw {
-        use super::{
-            DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES,
-        };
+        use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::Scalar;
+
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
         ///
         /// 0 mul, 0 add.
@@ -132,15 +143,12 @@ pub mod slide {
                 [zero, zero, zero],
             ];
         }
+
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]
-        pub fn pose<T: Scalar>(
-            q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
-            pose: &mut [[T; 3]; 4],
-        ) {
+        pub fn pose<T: Scalar>(q: &[T; VARIABLES], _s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [d1] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
@@ -151,6 +159,7 @@ pub mod slide {
                 [d1, zero, zero],
             ];
         }
+
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
         ///
         /// 0 mul, 0 add.
@@ -177,6 +186,7 @@ pub mod slide {
             columns[4] = [zero, zero, zero, zero, zero, one];
             columns[5] = [zero, zero, zero, one, zero, zero];
         }
+
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
         ///
         /// 0 mul, 0 add.
@@ -198,6 +208,7 @@ pub mod slide {
             ];
             columns[0] = [one, zero, zero, zero, zero, zero];
         }
+
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
         ///
         /// 0 mul, 0 add.
@@ -218,6 +229,7 @@ pub mod slide {
                 [d1, zero, zero],
             ];
         }
+
         /// The errors that the sources cause, one per entry of the description's effects.
         ///
         /// 0 mul, 0 add.
@@ -230,6 +242,7 @@ pub mod slide {
         ) {
             *effects = [];
         }
+
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
         ///
         /// 0 mul, 0 add.
@@ -243,8 +256,9 @@ pub mod slide {
             let zero = T::constant(0.0);
             errors[0] = [zero; 6];
         }
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the
-        /// moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
+
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
+        /// then the moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]
@@ -270,7 +284,9 @@ pub mod slide {
             distinct[0][4] = [zero; 3];
             distinct[0][5] = [zero; 3];
         }
-        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian.
+
+        /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
+        /// Jacobian.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]
@@ -283,7 +299,9 @@ pub mod slide {
             let [[e1_x, e1_y, e1_z, e1_s, e1_r, e1_p]] = *errors;
             *displacement = [e1_x, e1_y, e1_z, e1_p, e1_s, e1_r];
         }
-        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.
+
+        /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
+        /// order of ε.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]
@@ -302,6 +320,7 @@ pub mod slide {
             covariance[4] = [zero, zero, zero, zero, v1_s, zero];
             covariance[5] = [zero, zero, zero, zero, zero, v1_r];
         }
+
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
         ///
         /// 0 mul, 0 add.
@@ -315,7 +334,9 @@ pub mod slide {
             let zero = T::constant(0.0);
             *displacement = [zero; 6];
         }
-        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.
+
+        /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
+        /// Jacobian.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]
@@ -324,8 +345,11 @@ pub mod slide {
             _s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
             _displacements: &mut [[T; 6]; SOURCES],
-        ) {}
-        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.
+        ) {
+        }
+
+        /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
+        /// E_1 … A_n E_n T`.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]
@@ -345,7 +369,9 @@ pub mod slide {
                 [d1, zero, zero],
             ];
         }
-        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.
+
+        /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
+        /// variable.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]

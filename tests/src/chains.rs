@@ -22,6 +22,49 @@ pub fn general_chain(frames: usize) -> String {
     text
 }
 
+/// A chain of 40 frames, long enough to be generated as loops: Euler rows, a parameter in two places, a variable in
+/// two, sources of both classes.
+pub fn long_chain() -> String {
+    let chain = general_chain(40).replacen("name = \"chain\"\nlength = \"m\"\n", LONG_HEAD, 1).replacen(
+        "d = \"0.2\"",
+        "d = \"reach/2\"",
+        1,
+    );
+    chain + LONG_TAIL
+}
+
+const LONG_HEAD: &str = r#"name = "long"
+length = "m"
+orientation = "euler-yzx"
+[parameters]
+reach = "0.4 m"
+[inputs]
+load = { value = "2 kg", range = ["0 kg", "5 kg"] }
+"#;
+
+const LONG_TAIL: &str = r#"[tool]
+transform = "Tx(reach) Rz(q2/5) Ry(0.2)"
+[[source]]
+name = "sag"
+class = "repeatable"
+frame = "3"
+e_x = "1e-4 m/kg * load * cos(q4)"
+e_s = "2e-5/kg * load"
+e_p = "1e-4"
+[[source]]
+name = "bow"
+class = "repeatable"
+frame = "30"
+e_z = "0.001 * q31"
+e_r = "3e-4"
+[[source]]
+name = "encoder"
+class = "random"
+distribution = "uniform"
+frame = "20"
+e_r = "1e-4"
+"#;
+
 /// A spec with variables in several frames, twice in one, inside a matrix, a screw, an axis in any direction, and a
 /// variable in the tool.
 pub fn coupled_joints() -> &'static str {

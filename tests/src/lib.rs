@@ -7,6 +7,7 @@ pub mod frame_loop;
 
 /// Generated code.
 pub mod golden {
+    include!("../golden/long.rs");
     include!("../golden/pps.rs");
     include!("../golden/puma560.rs");
     include!("../golden/self_.rs");

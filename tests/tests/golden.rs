@@ -3,11 +3,13 @@
 //! `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes it anew.
 
 use std::path::Path;
+use std::process::Command;
 
 use abbe::{Manipulator, Scalar};
 use abbe_codegen::spec::Spec;
 use abbe_codegen::{CompileError, compile_into, emit};
 use abbe_manipulators::SHIPPED;
+use abbe_tests::chains::long_chain;
 use abbe_tests::golden;
 use expect_test::expect_file;
 
@@ -61,7 +63,8 @@ e_p = "columns * 1e-6 + 1e-6/s*pose + asin(_s/2)/tan(T)^2"
 "#;
 
 fn spec(name: &str) -> Spec {
-    let own = [("slide", SLIDE), ("self_", NAMES)];
+    let long = long_chain();
+    let own = [("long", &*long), ("slide", SLIDE), ("self_", NAMES)];
     let shipped = SHIPPED.iter().map(|shipped| (shipped.name, shipped.spec));
     let (_, text) = shipped.chain(own).find(|(known, _)| *known == name).unwrap();
     Spec::parse(&format!("{name}.toml"), text).unwrap()
@@ -69,9 +72,28 @@ fn spec(name: &str) -> Spec {
 
 #[test]
 fn generated_code_is_what_is_checked_in() {
-    for name in ["pps", "puma560", "self_", "slide"] {
+    for name in ["long", "pps", "puma560", "self_", "slide"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{name}.rs"));
         expect_file![path].assert_eq(&emit::rust(&spec(name)));
+    }
+}
+
+/// What is generated is formatted as `rustfmt` formats by default, so that it stays as it is where it is checked in.
+#[test]
+fn rustfmt_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = SHIPPED.iter().map(|shipped| shipped.name).chain(["long", "self_", "slide"]).map(|name| {
+        let path = folder.path().join(format!("{name}.rs"));
+        std::fs::write(&path, emit::rust(&spec(name))).unwrap();
+        path
+    });
+    let result = Command::new("rustfmt").args(["--check", "--edition", "2024"]).args(files).output();
+    match result {
+        Ok(output) if !output.stdout.is_empty() || output.status.success() => {
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+        }
+        // A component of the toolchain that need not be there.
+        _ => println!("skipped: rustfmt is not installed"),
     }
 }
 

@@ -114,6 +114,20 @@ void pinocchio_displacement(void *handle, const double *q, const double *e, doub
                      Eigen::Map<const Eigen::VectorXd>(e, 6 * n);
 }
 
+// J_e, then J_e diag(σ²) J_eᵀ.
+void pinocchio_covariance(void *handle, const double *q, const double *variances, double *covariance) {
+  auto &robot = *static_cast<Robot *>(handle);
+  const int n = int(robot.frames.size());
+  constexpr int kMost = 16;
+  double pose[12], columns[36 * kMost];
+  pinocchio_dense(handle, q, pose, columns);
+  using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6 * kMost>;
+  const Eigen::Map<const Columns> jacobian(columns, 6, 6 * n);
+  const Columns weighted = jacobian * Eigen::Map<const Eigen::VectorXd>(variances, 6 * n).asDiagonal();
+  Eigen::Map<Eigen::Matrix<double, 6, 6>> result(covariance);
+  result.noalias() = weighted * jacobian.transpose();
+}
+
 // ΔX without J_e: the frames' shares one by one.
 void pinocchio_displacement_by_frames(void *handle, const double *q, const double *e, double *shift) {
   auto &robot = *static_cast<Robot *>(handle);

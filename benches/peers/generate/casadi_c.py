@@ -1,7 +1,7 @@
 """CasADi: SX expressions, `cse`, C. Its functions take arrays of arguments and of results."""
 
 import casadi as ca
-from chain import Chain, fractions
+from chain import GIVEN, Chain, fractions
 
 SUFFIX = "c"
 
@@ -10,9 +10,9 @@ def function(table, kind, name):
     """Source of one function behind its C name, and the part of the source to count."""
     q = ca.SX.sym("q", len(table["variables"]))
     chain = Chain(table, ca.vertsplit(q), fractions(table), ca.sin, ca.cos)
-    if kind == "displacement":
+    if kind in GIVEN:
         e = ca.SX.sym("e", 6 * len(chain.frames))
-        inputs, outputs = [q, e], [chain.displacement(ca.vertsplit(e))]
+        inputs, outputs = [q, e], [getattr(chain, kind)(ca.vertsplit(e))]
         arguments, arrays = "const double *q, const double *e, double *result", ("q, e", "result")
     else:
         inputs, outputs = [q], getattr(chain, kind)()

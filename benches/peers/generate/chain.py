@@ -1,4 +1,4 @@
-"""The structured form of pose, error Jacobian and displacement, the same for every library of symbols.
+"""The structured form of pose, error Jacobian and what follows from it, the same for every library of symbols.
 
 F_i has the axes R_i in F_0 and, from its origin to the tool point, the lever l_i = p_T − p_i. Its columns of J_e are
 
@@ -76,6 +76,22 @@ class Chain:
             turn = added(turn, rotation)
             shift = added(shift, added(turned(frame, [x, y, z]), cross(rotation, lever)))
         return shift + turn
+
+    def covariance(self, variances):
+        """J_e diag(σ²) J_eᵀ, 36 numbers by columns."""
+        _, numbers = self.dense()
+        columns = [numbers[start : start + 6] for start in range(0, len(numbers), 6)]
+        weighted = [[variance * c for c in column] for variance, column in zip(variances, columns)]
+
+        def entry(i, j):
+            return sum((w[i] * c[j] for w, c in zip(weighted, columns)), 0)
+
+        upper = {(i, j): entry(i, j) for j in range(6) for i in range(j + 1)}
+        return [upper[min(i, j), max(i, j)] for j in range(6) for i in range(6)]
+
+
+# How many results a kind has that takes six more numbers per frame: ε or σ².
+GIVEN = {"displacement": 6, "covariance": 36}
 
 
 def axis(rotation, j):

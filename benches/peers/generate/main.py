@@ -16,7 +16,7 @@ from count import operations
 
 LIBRARIES = ["casadi", "symforce", "sympy", "wrenfold"]
 MODULES = {"casadi": "casadi_c", "symforce": "symforce_cpp", "sympy": "sympy_c", "wrenfold": "wrenfold_rust"}
-KINDS = ["dense", "distinct", "displacement"]
+KINDS = ["dense", "distinct", "displacement", "covariance"]
 
 
 def main():

@@ -8,7 +8,7 @@ import symforce
 symforce.set_epsilon_to_number()
 
 import symforce.symbolic as sf  # noqa: E402
-from chain import Chain, fractions  # noqa: E402
+from chain import GIVEN, Chain, fractions  # noqa: E402
 from symforce import codegen  # noqa: E402
 from symforce.values import Values  # noqa: E402
 
@@ -21,10 +21,10 @@ def function(table, kind, name):
     inputs = Values(q=q)
     chain = Chain(table, list(q), fractions(table), sf.sin, sf.cos)
     n = len(chain.frames)
-    if kind == "displacement":
+    if kind in GIVEN:
         e = sf.Matrix(6 * n, 1, [sf.Symbol(f"e{i}") for i in range(6 * n)])
         inputs["e"] = e
-        outputs = {"result": (6, 1, chain.displacement(list(e)))}
+        outputs = {"result": (GIVEN[kind], 1, getattr(chain, kind)(list(e)))}
         second = "const double *e"
     else:
         pose, result = getattr(chain, kind)()

@@ -1,7 +1,7 @@
 """SymPy: `cse`, then its C printer. Numbers are symbols until then: SymPy distributes numbers over sums."""
 
 import sympy as sp
-from chain import Chain, fractions
+from chain import GIVEN, Chain, fractions
 
 SUFFIX = "c"
 
@@ -13,15 +13,15 @@ def function(table, kind, name):
     q = sp.symbols(table["variables"])
     chain = Chain(table, q, constants, sp.sin, sp.cos)
     e = sp.symbols(f"e:{6 * len(chain.frames)}")
-    if kind == "displacement":
-        outputs, second = [("result", chain.displacement(e))], "const double *e"
+    if kind in GIVEN:
+        outputs, second = [("result", getattr(chain, kind)(e))], "const double *e"
     else:
         outputs, second = list(zip(("pose", "result"), getattr(chain, kind)())), "double *pose"
     shared, results = sp.cse([sp.sympify(value) for _, values in outputs for value in values])
     lines = [f"void {name}(const double *q, {second}, double *result) {{"]
     lines += [f"const double {k} = {number!r};" for k, number in zip(constants, numbers)]
     lines += [f"const double {symbol} = q[{i}];" for i, symbol in enumerate(q)]
-    if kind == "displacement":
+    if kind in GIVEN:
         lines += [f"const double {symbol} = e[{i}];" for i, symbol in enumerate(e)]
     lines += [f"const double {symbol} = {sp.ccode(value)};" for symbol, value in shared]
     places = [f"{array}[{i}]" for array, values in outputs for i in range(len(values))]

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from chain import Chain, fractions
+from chain import GIVEN, Chain, fractions
 from wrenfold import code_generation, sym
 from wrenfold.type_annotations import Shape
 
@@ -25,17 +25,17 @@ def function(table, kind, name):
         pose, result = getattr(chain(q, k), kind)()
         return [out(pose, "pose"), out(result, "result")]
 
-    def displacement(q: variables_type, k: constants_type, e: errors_type):
-        return [out(chain(q, k).displacement([e[i] for i in range(6 * frames)]), "result")]
+    def given(q: variables_type, k: constants_type, e: errors_type):
+        return [out(getattr(chain(q, k), kind)([e[i] for i in range(6 * frames)]), "result")]
 
     def out(values, name):
         return code_generation.OutputArg(sym.vector(*values), name)
 
-    generated = displacement if kind == "displacement" else jacobian
+    generated = given if kind in GIVEN else jacobian
     description = code_generation.create_function_description(generated, name="inner")
     text = code_generation.RustGenerator().generate(code_generation.transpile(description))
-    size = {"dense": 36 * frames, "distinct": 18 * frames, "displacement": 6}[kind]
-    second = f"&*second.cast::<[f64; {6 * frames}]>()" if kind == "displacement" else "&mut *second.cast::<[f64; 12]>()"
+    size = {"dense": 36 * frames, "distinct": 18 * frames, **GIVEN}[kind]
+    second = f"&*second.cast::<[f64; {6 * frames}]>()" if kind in GIVEN else "&mut *second.cast::<[f64; 12]>()"
     result = f"&mut *result.cast::<[f64; {size}]>()"
     wrapper = f"""
 const K: [f64; {len(numbers)}] = {numbers};

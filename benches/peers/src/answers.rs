@@ -9,7 +9,7 @@ use abbe_tests::frame_loop::{self, Frame};
 use crate::row::{Inputs, Kind, Output, Row};
 
 /// How many configurations are gone through.
-pub const COUNT: usize = 1000;
+pub const COUNT: usize = 1024;
 
 /// The step of central differences.
 const STEP: f64 = 1e-4;
@@ -46,7 +46,7 @@ impl Answers {
         let description = robot.description();
         let (variables, frames) = (description.variables.len(), description.frames.len());
         let mut answers = Self {
-            inputs: Inputs { variables, frames, q: Vec::new(), errors: Vec::new() },
+            inputs: Inputs { variables, frames, q: Vec::new(), errors: Vec::new(), variances: Vec::new() },
             differences: 0.0,
             poses: Vec::new(),
             columns: Vec::new(),
@@ -70,6 +70,7 @@ impl Answers {
             answers.columns.push(columns);
             answers.inputs.q.extend(q);
             answers.inputs.errors.extend((0..6 * frames).map(|k| 2e-3 * (halton(index + 1, k) - 0.5)));
+            answers.inputs.variances.extend((0..6 * frames).map(|k| halton(index + 1, k)));
         }
         answers
     }
@@ -79,10 +80,11 @@ impl Answers {
         let mut largest = 0.0f64;
         for index in 0..COUNT {
             let mut output = Output::new();
-            (row.run)(&self.inputs, index - index % 16..index + 1, &mut output);
+            row.run.run(&self.inputs, index - index % 16..index + 1, &mut output);
+            row.run.show(index, &mut output);
             let result = self.result(row.kind, index);
             let pose = self.poses[index].as_flattened();
-            let pose = if row.kind == Kind::Displacement { &[] } else { pose };
+            let pose = if row.kind.has_pose() { pose } else { &[] };
             let found = output.pose.iter().take(pose.len()).chain(&output.result);
             for (right, found) in pose.iter().chain(&result).zip(found) {
                 // NaN is what was never written.
@@ -102,6 +104,13 @@ impl Answers {
             Kind::Displacement => (0..6)
                 .map(|row| {
                     columns.iter().zip(self.inputs.errors(index)).map(|(column, e)| column[row] * e).sum()
+                })
+                .collect(),
+            Kind::Covariance => (0..36)
+                .map(|place| {
+                    let (i, j) = (place % 6, place / 6);
+                    let variances = self.inputs.variances(index);
+                    columns.iter().zip(variances).map(|(column, v)| column[i] * v * column[j]).sum()
                 })
                 .collect(),
         }

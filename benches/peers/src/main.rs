@@ -3,19 +3,23 @@
 //! `benches/peers/run`, which see; README.md says how to read the tables.
 
 mod answers;
+mod batch;
 mod measure;
 mod ours;
 mod peers;
 mod pinocchio;
+mod ratios;
 mod report;
 mod row;
 mod span;
 
 use abbe::Manipulator;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
 
 use crate::answers::{Angles, Answers};
 use crate::report::Report;
-use crate::row::Row;
+use crate::row::{Row, Side};
 
 /// The bench's own specs as generated.
 #[allow(dead_code, clippy::wrong_self_convention)]
@@ -29,10 +33,15 @@ fn main() {
         std::process::exit(2);
     };
     let mut report = Report::new(rounds, angles);
-    let mut compare = |name: &str, spec: &str, robot: &dyn Manipulator, mut rows: Vec<Row>| {
+    let mut compare = |name: &str, spec: &str, robot: &'static dyn Manipulator, mut rows: Vec<Row>| {
+        let answers = Answers::new(robot, angles);
+        for block in [batch::FEW, batch::MANY] {
+            rows.extend(batch::rows("abbe", Side::Ours, robot, block, &answers.inputs));
+        }
+        let interpreted = interpreter(name, spec);
+        rows.extend(batch::rows("interpreter", Side::Interpreter, interpreted, batch::MANY, &answers.inputs));
         rows.extend(pinocchio::rows(robot));
         rows.extend(peers::rows(name));
-        let answers = Answers::new(robot, angles);
         let deviations = rows.iter_mut().map(|row| answers.deviation(row)).collect();
         let times = measure::interleaved(&mut rows, &answers.inputs, rounds);
         report.add(name, spec, &answers, &rows, times, deviations);
@@ -60,6 +69,12 @@ fn main() {
     if report.wrong() {
         std::process::exit(1);
     }
+}
+
+/// The interpreter of a spec, as long as the process.
+fn interpreter(name: &str, spec: &str) -> &'static dyn Manipulator {
+    let spec = Box::leak(Box::new(Spec::parse(name, spec).expect("it was compiled")));
+    Box::leak(Box::new(Interpreter::new(spec)))
 }
 
 fn arguments() -> Option<(usize, Angles)> {

@@ -1,40 +1,38 @@
 //! Our rows, and the loop over frames that they are compared with.
 
-use crate::row::{Kind, Row, Side};
-
-/// A function of a generated module.
-pub type Jacobian<const VARIABLES: usize, const COLUMNS: usize> =
-    fn(&[f64; VARIABLES], &mut [[f64; 3]; 4], &mut [[f64; 6]; COLUMNS]);
-
-/// The row of such a function, in the memory that all share.
-pub fn dense<const VARIABLES: usize, const COLUMNS: usize>(
-    name: &'static str,
-    side: Side,
-    function: Jacobian<VARIABLES, COLUMNS>,
-) -> Row {
-    Row::jacobian(name, side, Kind::Dense, move |q, pose, result| {
-        let q = q.try_into().expect("all variables");
-        let pose = pose.as_chunks_mut().0.first_chunk_mut().expect("room for a pose");
-        let columns = result.as_chunks_mut().0.first_chunk_mut().expect("room for all columns");
-        function(q, pose, columns);
-    })
-}
-
-/// The rows of a generated module. **New paths get their row here**: `Row::jacobian` and `Row::displacement` for
-/// functions of one configuration, `Row::batch` for those of many.
+/// The rows of a generated module, one configuration at a time. A new function's row comes here: `Row::jacobian`, or
+/// `Row::given` if it takes ε or σ².
 macro_rules! rows {
     ($module:path) => {{
-        use $crate::row::{Row, Side};
-        use $module::{ERRORS, FRAMES, VARIABLES, raw};
+        use $crate::row::{Kind, Row, Side};
+        use $module::{DISTINCT, ERRORS, FRAMES, VARIABLES, raw};
+
+        type Pose = [[f64; 3]; 4];
+        type Columns = [[f64; 6]; ERRORS];
 
         // Like the peers' functions, none is merged with the loop that calls it.
         #[inline(never)]
-        fn dense(q: &[f64; VARIABLES], pose: &mut [[f64; 3]; 4], columns: &mut [[f64; 6]; ERRORS]) {
+        fn dense(q: &[f64; VARIABLES], pose: &mut Pose, columns: &mut Columns) {
             raw::error_jacobian(q, &[], pose, columns);
         }
 
         #[inline(never)]
-        fn by_loop(q: &[f64; VARIABLES], pose: &mut [[f64; 3]; 4], columns: &mut [[f64; 6]; ERRORS]) {
+        fn distinct(q: &[f64; VARIABLES], pose: &mut Pose, numbers: &mut [[[f64; 3]; DISTINCT]; FRAMES]) {
+            raw::error_jacobian_distinct(q, &[], pose, numbers);
+        }
+
+        #[inline(never)]
+        fn displacement(q: &[f64; VARIABLES], errors: &[[f64; 6]; FRAMES], shift: &mut [f64; 6]) {
+            raw::displacement(q, &[], errors, shift);
+        }
+
+        #[inline(never)]
+        fn covariance(q: &[f64; VARIABLES], variances: &[[f64; 6]; FRAMES], result: &mut [[f64; 6]; 6]) {
+            raw::covariance(q, &[], variances, result);
+        }
+
+        #[inline(never)]
+        fn by_loop(q: &[f64; VARIABLES], pose: &mut Pose, columns: &mut Columns) {
             let mut transforms = [[[0.0; 3]; 4]; FRAMES + 1];
             raw::transforms(q, &[], &mut transforms);
             let mut poses = [abbe_tests::frame_loop::Frame::default(); FRAMES + 1];
@@ -42,28 +40,88 @@ macro_rules! rows {
         }
 
         #[inline(never)]
-        fn by_loop_displacement(q: &[f64; VARIABLES], errors: &[f64; ERRORS], shift: &mut [f64; 6]) {
+        fn displacement_by_loop(q: &[f64; VARIABLES], errors: &[[f64; 6]; FRAMES], shift: &mut [f64; 6]) {
             let (mut pose, mut columns) = ([[0.0; 3]; 4], [[0.0; 6]; ERRORS]);
             by_loop(q, &mut pose, &mut columns);
             *shift = [0.0; 6];
-            for (column, error) in columns.iter().zip(errors) {
+            for (column, error) in columns.iter().zip(errors.as_flattened()) {
                 for (sum, entry) in shift.iter_mut().zip(column) {
                     *sum += entry * error;
                 }
             }
         }
 
+        #[inline(never)]
+        fn covariance_by_loop(
+            q: &[f64; VARIABLES],
+            variances: &[[f64; 6]; FRAMES],
+            result: &mut [[f64; 6]; 6],
+        ) {
+            let (mut pose, mut columns) = ([[0.0; 3]; 4], [[0.0; 6]; ERRORS]);
+            by_loop(q, &mut pose, &mut columns);
+            *result = [[0.0; 6]; 6];
+            for (column, variance) in columns.iter().zip(variances.as_flattened()) {
+                for (sums, entry) in result.iter_mut().zip(column) {
+                    let weighted = variance * entry;
+                    for (sum, entry) in sums.iter_mut().zip(column) {
+                        *sum += weighted * entry;
+                    }
+                }
+            }
+        }
+
+        // A function of arrays as one of slices: everyone's results are in the same memory.
+        macro_rules! jacobian {
+            ($name:expr, $side:expr, $kind:expr, $function:expr, $chunks:ident) => {
+                Row::jacobian($name, $side, $kind, |q, pose, result| {
+                    let q = q.try_into().expect("all variables");
+                    let pose = pose.as_chunks_mut().0.first_chunk_mut().expect("room for a pose");
+                    $function(q, pose, $crate::ours::$chunks!(result));
+                })
+            };
+        }
+        macro_rules! given {
+            ($name:expr, $side:expr, $kind:expr, $function:expr, $chunks:ident) => {
+                Row::given($name, $side, $kind, |q, given, result| {
+                    let q = q.try_into().expect("all variables");
+                    let given = given.as_chunks().0.try_into().expect("six a frame");
+                    $function(q, given, $crate::ours::$chunks!(result));
+                })
+            };
+        }
+
+        let (ours, by_hand) = ("abbe, Rust", "nalgebra, loop over frames");
         vec![
-            $crate::ours::dense("abbe, Rust", Side::Ours, dense),
-            $crate::ours::dense("nalgebra, loop over frames", Side::Baseline, by_loop),
-            Row::displacement("nalgebra, loop over frames", Side::Baseline, |q, errors, shift| {
-                let q = q.try_into().expect("all variables");
-                let errors = errors.try_into().expect("six a frame");
-                let (shift, _) = shift.split_first_chunk_mut().expect("room for six");
-                by_loop_displacement(q, errors, shift);
-            }),
+            jacobian!(ours, Side::Ours, Kind::Dense, dense, columns),
+            jacobian!(ours, Side::Ours, Kind::Distinct, distinct, vectors),
+            given!(ours, Side::Ours, Kind::Displacement, displacement, numbers),
+            given!(ours, Side::Ours, Kind::Covariance, covariance, columns),
+            jacobian!(by_hand, Side::Baseline, Kind::Dense, by_loop, columns),
+            given!(by_hand, Side::Baseline, Kind::Displacement, displacement_by_loop, numbers),
+            given!(by_hand, Side::Baseline, Kind::Covariance, covariance_by_loop, columns),
         ]
     }};
 }
 
-pub(crate) use rows;
+/// The first numbers of a slice.
+macro_rules! numbers {
+    ($slice:ident) => {
+        $slice.first_chunk_mut().expect("room for all")
+    };
+}
+
+/// The first columns in a slice.
+macro_rules! columns {
+    ($slice:ident) => {
+        $slice.as_chunks_mut().0.first_chunk_mut().expect("room for all")
+    };
+}
+
+/// The first groups of vectors in a slice.
+macro_rules! vectors {
+    ($slice:ident) => {
+        $slice.as_chunks_mut().0.as_chunks_mut().0.first_chunk_mut().expect("room for all")
+    };
+}
+
+pub(crate) use {columns, numbers, rows, vectors};

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::row::{Kind, Row, Side};
 
-/// `(q, pose, result)`, or `(q, ε, ΔX)`, where ε is not written to.
+/// `(q, pose, result)`; or `(q, ε, ΔX)` and `(q, σ², covariance)`, where the second is not written to.
 pub type Function = unsafe extern "C" fn(q: *const f64, second: *mut f64, result: *mut f64);
 
 include!(concat!(env!("OUT_DIR"), "/peers/bindings.rs"));
@@ -29,12 +29,16 @@ pub fn rows(robot: &str) -> Vec<Row> {
             let function = found.unwrap_or_else(|| panic!("{name} was not generated")).1;
             // Safety: generated for this robot; a row has room for all that it reads and writes.
             rows.push(match kind {
-                Kind::Displacement => Row::displacement(shown, Side::Peer, move |q, errors, result| unsafe {
-                    function(q.as_ptr(), errors.as_ptr().cast_mut(), result.as_mut_ptr());
-                }),
-                _ => Row::jacobian(shown, Side::Peer, kind, move |q, pose, result| unsafe {
-                    function(q.as_ptr(), pose.as_mut_ptr(), result.as_mut_ptr());
-                }),
+                Kind::Dense | Kind::Distinct => {
+                    Row::jacobian(shown, Side::Generator, kind, move |q, pose, result| unsafe {
+                        function(q.as_ptr(), pose.as_mut_ptr(), result.as_mut_ptr());
+                    })
+                }
+                Kind::Displacement | Kind::Covariance => {
+                    Row::given(shown, Side::Generator, kind, move |q, given, result| unsafe {
+                        function(q.as_ptr(), given.as_ptr().cast_mut(), result.as_mut_ptr());
+                    })
+                }
             });
         }
     }

@@ -19,6 +19,7 @@ unsafe extern "C" {
     fn pinocchio_distinct(robot: *mut c_void, q: *const f64, pose: *mut f64, numbers: *mut f64);
     fn pinocchio_displacement(robot: *mut c_void, q: *const f64, e: *const f64, shift: *mut f64);
     fn pinocchio_displacement_by_frames(robot: *mut c_void, q: *const f64, e: *const f64, shift: *mut f64);
+    fn pinocchio_covariance(robot: *mut c_void, q: *const f64, variances: *const f64, covariance: *mut f64);
 }
 
 /// Pinocchio's rows.
@@ -30,18 +31,19 @@ pub fn rows(manipulator: &dyn Manipulator) -> Vec<Row> {
     let jacobians: [(Kind, Jacobian); 2] =
         [(Kind::Dense, pinocchio_dense), (Kind::Distinct, pinocchio_distinct)];
     for (kind, function) in jacobians {
-        rows.push(Row::jacobian("Pinocchio, C++", Side::Peer, kind, move |q, pose, result| unsafe {
+        rows.push(Row::jacobian("Pinocchio, C++", Side::Library, kind, move |q, pose, result| unsafe {
             function(robot, q.as_ptr(), pose.as_mut_ptr(), result.as_mut_ptr());
         }));
     }
-    type Displacement = unsafe extern "C" fn(*mut c_void, *const f64, *const f64, *mut f64);
-    let displacements: [(&str, Displacement); 2] = [
-        ("Pinocchio, C++", pinocchio_displacement),
-        ("Pinocchio, C++, ΔX without J_e", pinocchio_displacement_by_frames),
+    type Given = unsafe extern "C" fn(*mut c_void, *const f64, *const f64, *mut f64);
+    let given: [(&str, Kind, Given); 3] = [
+        ("Pinocchio, C++", Kind::Displacement, pinocchio_displacement),
+        ("Pinocchio, C++, ΔX without J_e", Kind::Displacement, pinocchio_displacement_by_frames),
+        ("Pinocchio, C++", Kind::Covariance, pinocchio_covariance),
     ];
-    for (name, function) in displacements {
-        rows.push(Row::displacement(name, Side::Peer, move |q, errors, result| unsafe {
-            function(robot, q.as_ptr(), errors.as_ptr(), result.as_mut_ptr());
+    for (name, kind, function) in given {
+        rows.push(Row::given(name, Side::Library, kind, move |q, given, result| unsafe {
+            function(robot, q.as_ptr(), given.as_ptr(), result.as_mut_ptr());
         }));
     }
     rows

@@ -11,6 +11,7 @@ use abbe_codegen::spec::Spec;
 use crate::answers::{Angles, Answers, COUNT};
 use crate::measure::Times;
 use crate::peers;
+use crate::ratios;
 use crate::row::{Kind, Row, Side};
 
 /// What rounding may do; anything more is a wrong answer.
@@ -25,6 +26,7 @@ pub struct Report {
     angles: Angles,
     generated: Vec<serde_json::Value>,
     times: Vec<String>,
+    ratios: Vec<String>,
     operations: Vec<String>,
     differences: f64,
     wrong: bool,
@@ -32,12 +34,13 @@ pub struct Report {
 
 impl Report {
     pub fn new(rounds: usize, angles: Angles) -> Self {
-        let (times, operations) = (Vec::new(), Vec::new());
+        let (times, ratios, operations) = (Vec::new(), Vec::new(), Vec::new());
         Self {
             rounds,
             angles,
             generated: peers::generated(),
             times,
+            ratios,
             operations,
             differences: 0.0,
             wrong: false,
@@ -59,16 +62,17 @@ impl Report {
         times: Vec<Times>,
         deviations: Vec<f64>,
     ) {
+        self.ratios.extend(ratios::lines(robot, rows, &times));
         let measured: Vec<(&Row, Times, f64)> =
             rows.iter().zip(times).zip(deviations).map(|((row, times), off)| (row, times, off)).collect();
         let best = Kind::ALL.map(|kind| {
-            let peers = measured.iter().filter(|(row, ..)| row.kind == kind && row.side == Side::Peer);
+            let peers = measured.iter().filter(|(row, ..)| row.kind == kind && row.side.is_peer());
             peers.map(|(_, times, _)| times.median).fold(f64::INFINITY, f64::min)
         });
         let mut names: Vec<&str> = Vec::new();
         for row in rows {
-            if !names.contains(&row.name) {
-                names.push(row.name);
+            if !names.contains(&row.name.as_str()) {
+                names.push(&row.name);
             }
         }
         for name in names {
@@ -94,8 +98,8 @@ impl Report {
             let count = |kind: &str| format!("{} / {}", row[kind]["mul"], row[kind]["add"]);
             let library = format!("{} {}", row["library"], row["version"]).replace('"', "");
             let milliseconds = 1e3 * row["dense"]["seconds"].as_f64().unwrap_or(f64::NAN);
-            let (dense, distinct, shift) = (count("dense"), count("distinct"), count("displacement"));
-            format!("| {robot} | {library} | {dense} | {distinct} | {shift} | {milliseconds:.1} |")
+            let counts = Kind::ALL.map(|kind| count(kind.name())).join(" | ");
+            format!("| {robot} | {library} | {counts} | {milliseconds:.1} |")
         }));
     }
 }
@@ -112,9 +116,19 @@ fn ours(robot: &str, spec: &str) -> String {
         .collect();
     seconds.sort_by(f64::total_cmp);
     let spec = Spec::parse(robot, spec).expect("it was compiled");
-    let count = FunctionKind::ErrorJacobian.program(&Model::new(&spec)).operations();
+    let model = Model::new(&spec);
+    let counts = Kind::ALL.map(|kind| {
+        let count = match kind {
+            Kind::Dense => FunctionKind::ErrorJacobian,
+            Kind::Distinct => FunctionKind::ErrorJacobianDistinct,
+            Kind::Displacement => FunctionKind::Displacement,
+            Kind::Covariance => FunctionKind::Covariance,
+        };
+        let count = count.program(&model).operations();
+        format!("{} / {}", count.mul, count.add)
+    });
     let milliseconds = 1e3 * seconds[seconds.len() / 2];
-    format!("| {robot} | abbe, the whole module | {} / {} | | | {milliseconds:.1} |", count.mul, count.add)
+    format!("| {robot} | abbe, the whole module | {} | {milliseconds:.1} |", counts.join(" | "))
 }
 
 impl fmt::Display for Report {
@@ -139,12 +153,14 @@ impl fmt::Display for Report {
             "frames, which is {:.0e} from central differences of the exact chain.\n",
             self.differences
         )?;
-        writeln!(f, "| robot | | J_e dense | J_e distinct | ΔX = J_e ε | deviation |")?;
-        writeln!(f, "|---|---|---|---|---|---|")?;
+        let titles = Kind::ALL.map(Kind::title).join(" | ");
+        writeln!(f, "| robot | | {titles} | deviation |\n|---|---|---|---|---|---|---|")?;
         self.times.iter().try_for_each(|row| writeln!(f, "{row}"))?;
+        writeln!(f, "\nRatios of medians: above 1 is in our favour, but for the interpreter.\n")?;
+        writeln!(f, "{}", ratios::head())?;
+        self.ratios.iter().try_for_each(|row| writeln!(f, "{row}"))?;
         writeln!(f, "\nMultiplications / additions, and ms from the robot to the code of J_e dense.\n")?;
-        writeln!(f, "| robot | | J_e dense | J_e distinct | ΔX = J_e ε | ms |")?;
-        writeln!(f, "|---|---|---|---|---|---|")?;
+        writeln!(f, "| robot | | {titles} | ms |\n|---|---|---|---|---|---|---|")?;
         self.operations.iter().try_for_each(|row| writeln!(f, "{row}"))?;
         if self.wrong {
             writeln!(f, "\nA deviation is too large: there is a wrong answer, and the comparison is void.")?;

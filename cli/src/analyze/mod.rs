@@ -111,7 +111,7 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
         progress: Progress::new(workspace.len()),
     };
     let residuals = study.compensation.as_ref().map(|left| left.of(&description));
-    let budget = error_budget(manipulator, &*workspace, &u, residuals, &mut watching);
+    let budget = error_budget(manipulator, &*workspace, &u, residuals.as_deref(), &mut watching);
     let Watching { files, pictures, progress } = watching;
     drop(progress);
     let unevaluated = |refused: &Unevaluated| {

@@ -12,6 +12,7 @@ mod covariance;
 mod displacement;
 mod error_jacobian;
 mod local;
+mod local_twist;
 mod model;
 mod moments;
 mod real;
@@ -20,6 +21,7 @@ mod sources;
 mod symbol_jacobian;
 mod walk;
 
+pub use local_twist::LocalTwist;
 pub use model::{Jacobian, Model};
 pub use sources::EffectNode;
 pub use walk::transform;

@@ -5,6 +5,7 @@ use super::by_source;
 use super::covariance::Covariance;
 use super::displacement::Displacement;
 use super::error_jacobian;
+use super::local_twist::{LocalTwist, local_twists};
 use super::moments::Moments;
 use super::real::real_pose;
 use super::rows::Rows;
@@ -13,7 +14,7 @@ use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
 use crate::expr::Symbol;
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::{Source, Spec};
+use crate::spec::{Class, Source, Spec};
 
 /// A Jacobian, or anything else with its rows: columns, rows as the spec's orientation says.
 #[derive(Clone, Debug)]
@@ -59,7 +60,14 @@ pub struct Model {
     pub real_pose: Frame,
     /// `J_q` with rotation-vector rows whatever the spec's are.
     pub joint_twists: Vec<[Node; 6]>,
+    /// Of a long chain, what variables do to each transform.
+    pub joint_local_twists: Vec<LocalTwist>,
+    /// Of a long chain, what parameters do to each transform.
+    pub parameter_local_twists: Vec<LocalTwist>,
 }
+
+/// How many frames a chain may have whose functions are written without loops.
+pub(super) const LONGEST_WITHOUT_LOOPS: usize = 30;
 
 impl Model {
     /// Builds all nodes. A checked spec cannot fail.
@@ -128,6 +136,12 @@ impl Model {
         let predicted_displacement = two_ways(std::slice::from_ref(&generalized_errors));
         let source_displacements = two_ways(&by_source::errors_by_source(zero, spec, &effects));
         let real_pose = real_pose(g, spec, &generalized_errors);
+        let mut twists_of = |symbols: Vec<Symbol>| match spec.is_long() {
+            true => local_twists(g, spec, &symbols),
+            false => Vec::new(),
+        };
+        let joint_local_twists = twists_of((0..spec.variables.len()).map(Symbol::Variable).collect());
+        let parameter_local_twists = twists_of((0..spec.parameters.len()).map(Symbol::Parameter).collect());
         Self {
             graph,
             transforms,
@@ -145,6 +159,8 @@ impl Model {
             source_displacements,
             real_pose,
             joint_twists,
+            joint_local_twists,
+            parameter_local_twists,
         }
     }
 }
@@ -162,6 +178,16 @@ fn name(graph: &mut Graph, frame: &Frame, index: &str) {
 }
 
 impl Spec {
+    /// Whether functions of the chain are loops over its frames.
+    pub fn is_long(&self) -> bool {
+        self.frames.len() > LONGEST_WITHOUT_LOOPS
+    }
+
+    /// Whether any source that is switched on is repeatable.
+    pub fn has_repeatable_source(&self) -> bool {
+        self.enabled_sources().any(|source| source.class == Class::Repeatable)
+    }
+
     /// The sources that are switched on, in the order of the file.
     pub fn enabled_sources(&self) -> impl Iterator<Item = &Source> {
         self.sources.iter().filter(|source| source.enabled)

@@ -1,18 +1,14 @@
 //! The statements of a program.
 //!
 //! A step that is used once and has no name of its own is written where it is used, as long as the expression
-//! stays short; the order of the arithmetic, and so every bit of the result, stays the same.
+//! stays narrow; the order of the arithmetic, and so every bit of the result, stays the same.
 
-use proc_macro2::{Ident, TokenStream};
-use quote::{ToTokens, format_ident, quote};
+use std::borrow::Cow;
 
 use super::literal::number;
 use super::names::Names;
-use crate::expr::Function;
+use super::writer::{NARROW, array, fits, pattern, width};
 use crate::program::{Action, Operand, Program, Step};
-
-/// How many operations one expression may hold.
-const LONGEST: usize = 6;
 
 /// How strongly the outermost operator of an expression binds.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -25,41 +21,31 @@ enum Binding {
 
 #[derive(Clone)]
 struct Written {
-    tokens: TokenStream,
+    text: String,
     binding: Binding,
-    operations: usize,
+    /// Whether it is no more than a name.
+    is_name: bool,
 }
 
 /// The statements of a program, and its outputs as expressions.
 pub(super) struct Body {
-    pub(super) statements: Vec<TokenStream>,
+    pub(super) statements: Vec<String>,
     pub(super) outputs: Vec<Output>,
 }
 
 /// A result of a program.
 pub(super) struct Output {
-    expression: TokenStream,
+    pub(super) expression: String,
     /// After how many statements it is known.
     pub(super) ready: usize,
-    zero: bool,
-}
-
-impl Output {
     /// Whether it is zero in every configuration.
-    pub(super) fn is_zero(&self) -> bool {
-        self.zero
-    }
+    pub(super) is_zero: bool,
 }
 
-impl ToTokens for Output {
-    fn to_tokens(&self, tokens: &mut TokenStream) {
-        self.expression.to_tokens(tokens);
-    }
-}
-
-pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
-    let mut writer = Writer { names, registers: vec![None; program.registers] };
-    let mut statements = Vec::new();
+/// Writes a program; `indent` says where its statements will stand.
+pub(super) fn body(program: &Program, names: &mut Names<'_>, indent: usize) -> Body {
+    let mut writer =
+        Writer { names, registers: vec![None; program.registers], statements: Vec::new(), indent };
     let mut ready = vec![0; program.registers];
     // Results are written as they are, without arithmetic.
     let mut returned = vec![false; program.registers];
@@ -77,135 +63,159 @@ pub(super) fn body(program: &Program, names: &mut Names<'_>) -> Body {
             {
                 pairs.push((*register, *angle));
             }
-            statements.push(writer.sines_and_cosines(&pairs, program));
+            writer.sines_and_cosines(&pairs, program);
             for (register, _) in pairs {
-                ready[register..register + 2].fill(statements.len());
+                ready[register..register + 2].fill(writer.statements.len());
             }
             continue;
         }
-        let written = writer.write(step);
+        let written = writer.write(step.action);
         let once = program.uses[step.register] == 1 && !returned[step.register];
-        if once && step.name.is_none() && written.operations < LONGEST {
+        if once && step.name.is_none() && width(&written.text) <= NARROW {
             writer.registers[step.register] = Some(written);
         } else {
-            let (name, tokens) = (writer.names.step(step.name.as_deref()), written.tokens);
-            statements.push(quote!(let #name = #tokens;));
-            ready[step.register] = statements.len();
-            writer.registers[step.register] = Some(Written::name(&name));
+            writer.registers[step.register] = Some(writer.bind(step.name.as_deref(), &written.text));
+            ready[step.register] = writer.statements.len();
         }
     }
     let output = |output: &Operand| Output {
         expression: writer.output(*output),
         ready: if let Operand::Register(register) = output { ready[*register] } else { 0 },
-        zero: *output == Operand::Constant(0.0),
+        is_zero: *output == Operand::Constant(0.0),
     };
     let outputs = program.outputs.iter().map(output).collect();
-    Body { statements, outputs }
+    Body { statements: writer.statements, outputs }
 }
 
 struct Writer<'w, 's> {
     names: &'w mut Names<'s>,
     /// How each register is written where it is used: its name, or the whole expression.
     registers: Vec<Option<Written>>,
+    statements: Vec<String>,
+    indent: usize,
 }
 
 impl Writer<'_, '_> {
+    /// `let name = text;`, and what stands for it from here on.
+    fn bind(&mut self, name: Option<&str>, text: &str) -> Written {
+        let name = self.names.step(name);
+        self.statements.push(format!("let {name} = {text};"));
+        Written::name(name)
+    }
+
     /// `let (s1, c1) = q1.sin_cos();`, or many together.
-    fn sines_and_cosines(&mut self, pairs: &[(usize, Operand)], program: &Program) -> TokenStream {
-        let angles: Vec<Written> = pairs.iter().map(|(_, angle)| self.operand(*angle)).collect();
-        let names: Vec<TokenStream> = pairs
-            .iter()
-            .map(|(register, angle)| {
-                let (sine, cosine) = self.names.sine_and_cosine(*angle, program);
-                self.registers[*register] = Some(Written::name(&sine));
-                self.registers[register + 1] = Some(Written::name(&cosine));
-                quote!((#sine, #cosine))
-            })
-            .collect();
-        if let ([name], [angle]) = (&names[..], &angles[..]) {
-            let angle = angle.clone().at_least(Binding::Atom);
-            return quote!(let #name = #angle.sin_cos(););
+    fn sines_and_cosines(&mut self, pairs: &[(usize, Operand)], program: &Program) {
+        if let [(register, angle)] = *pairs {
+            let value = self.write(Action::SinCos(angle)).text;
+            let name = self.sine_and_cosine(register, angle, program);
+            self.statements.push(format!("let {name} = {value};"));
+            return;
         }
-        let angles = angles.into_iter().map(|angle| angle.tokens);
-        quote!(let [#(#names),*] = T::sin_cos_each([#(#angles),*]);)
+        let angles: Vec<String> = pairs.iter().map(|(_, angle)| self.operand(*angle).text).collect();
+        let name = |(register, angle): &(usize, Operand)| self.sine_and_cosine(*register, *angle, program);
+        let names: Vec<String> = pairs.iter().map(name).collect();
+        let names = pattern(self.indent, "let ", &names, " =");
+        let last = names.lines().last().map_or(0, width);
+        let value = array(self.indent, "T::sin_cos_each(", &angles, ");");
+        let first = value.lines().next().map_or(0, width);
+        let statement = if fits(self.indent, last + 1 + first) {
+            format!("{names} {value}")
+        } else {
+            format!("{names}\n    {}", value.replace('\n', "\n    "))
+        };
+        self.statements.push(statement);
     }
 
-    fn write(&self, step: &Step) -> Written {
-        match step.action {
-            Action::Neg(a) => {
-                let a = self.operand(a);
-                let operations = a.operations + 1;
-                let a = a.at_least(Binding::Sign);
-                Written { tokens: quote!(-#a), binding: Binding::Sign, operations }
+    /// `(s1, c1)`.
+    fn sine_and_cosine(&mut self, register: usize, angle: Operand, program: &Program) -> String {
+        let (sine, cosine) = self.names.sine_and_cosine(angle, program);
+        let pair = format!("({sine}, {cosine})");
+        self.registers[register] = Some(Written::name(sine));
+        self.registers[register + 1] = Some(Written::name(cosine));
+        pair
+    }
+
+    /// The expression of an action. Of its operands that would make it too wide, the widest get statements of their own.
+    fn write(&mut self, action: Action) -> Written {
+        let mut operands: Vec<Written> = action.operands().map(|operand| self.operand(operand)).collect();
+        loop {
+            let (text, binding) = expression(action, &operands);
+            if width(&text) > NARROW {
+                let expressions = operands.iter_mut().filter(|operand| !operand.is_name);
+                if let Some(widest) = expressions.max_by_key(|operand| width(&operand.text)) {
+                    *widest = self.bind(None, &widest.text);
+                    continue;
+                }
             }
-            Action::Add(a, b) => self.infix(a, b, &quote!(+), Binding::Sum, Binding::Product),
-            Action::Sub(a, b) => self.infix(a, b, &quote!(-), Binding::Sum, Binding::Product),
-            Action::Mul(a, b) => self.infix(a, b, &quote!(*), Binding::Product, Binding::Sign),
-            Action::Div(a, b) => self.infix(a, b, &quote!(/), Binding::Product, Binding::Sign),
-            Action::MulAdd(a, b, c) => self.fused(a, b, c, "mul_add"),
-            Action::MulSub(a, b, c) => self.fused(a, b, c, "mul_sub"),
-            Action::NegMulAdd(a, b, c) => self.fused(a, b, c, "neg_mul_add"),
-            Action::Pow(a, b) => self.method(a, "powf", &[b]),
-            Action::Atan2(a, b) => self.method(a, "atan2", &[b]),
-            Action::Call(function, a) => self.method(a, function.name(), &[]),
-            Action::SinCos(a) => self.method(a, Function::Sin.name(), &[]),
+            return Written { text, binding, is_name: false };
         }
-    }
-
-    /// `a op b`; the right operand needs a stronger operator, so that nothing is reassociated.
-    fn infix(&self, a: Operand, b: Operand, sign: &TokenStream, own: Binding, right: Binding) -> Written {
-        let (a, b) = (self.operand(a), self.operand(b));
-        let operations = a.operations + b.operations + 1;
-        let (a, b) = (a.at_least(own), b.at_least(right));
-        Written { tokens: quote!(#a #sign #b), binding: own, operations }
-    }
-
-    /// `a · b ± c`, a number that is constant as the second factor.
-    fn fused(&self, a: Operand, b: Operand, c: Operand, name: &str) -> Written {
-        let (a, b) = if matches!(a, Operand::Constant(_)) { (b, a) } else { (a, b) };
-        let mut written = self.method(a, name, &[b, c]);
-        written.operations += 1;
-        written
-    }
-
-    fn method(&self, a: Operand, name: &str, arguments: &[Operand]) -> Written {
-        let name = format_ident!("{name}");
-        let a = self.operand(a);
-        let arguments = arguments.iter().map(|argument| self.operand(*argument)).collect::<Vec<_>>();
-        let operations = a.operations + arguments.iter().map(|b| b.operations).sum::<usize>() + 1;
-        let (a, arguments) = (a.at_least(Binding::Atom), arguments.into_iter().map(|b| b.tokens));
-        Written { tokens: quote!(#a.#name(#(#arguments),*)), binding: Binding::Atom, operations }
     }
 
     fn operand(&self, operand: Operand) -> Written {
         match operand {
-            Operand::Constant(value) => {
-                let value = number(value);
-                Written { tokens: quote!(T::constant(#value)), binding: Binding::Atom, operations: 0 }
-            }
-            Operand::Symbol(symbol) => Written::name(self.names.symbol(symbol)),
+            Operand::Constant(value) => Written {
+                text: format!("T::constant({})", number(value)),
+                binding: Binding::Atom,
+                is_name: false,
+            },
+            Operand::Symbol(symbol) => Written::name(self.names.symbol(symbol).to_owned()),
             // Every step comes after those it uses.
             Operand::Register(register) => self.registers[register].clone().expect("a step that came before"),
         }
     }
 
-    fn output(&self, operand: Operand) -> TokenStream {
+    fn output(&self, operand: Operand) -> String {
         match operand {
-            Operand::Constant(0.0) => quote!(zero),
-            Operand::Constant(1.0) => quote!(one),
-            operand => self.operand(operand).tokens,
+            Operand::Constant(0.0) => "zero".to_owned(),
+            Operand::Constant(1.0) => "one".to_owned(),
+            operand => self.operand(operand).text,
         }
     }
 }
 
+/// An action on operands that are written already.
+fn expression(action: Action, operands: &[Written]) -> (String, Binding) {
+    let infix = |sign: &str, own: Binding, right: Binding| {
+        // The right operand needs a stronger operator, so that nothing is reassociated.
+        let (a, b) = (operands[0].at_least(own), operands[1].at_least(right));
+        (format!("{a} {sign} {b}"), own)
+    };
+    let method = |name: &str, of: &Written, arguments: &[&Written]| {
+        let arguments: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
+        (format!("{}.{name}({})", of.at_least(Binding::Atom), arguments.join(", ")), Binding::Atom)
+    };
+    // A number that is constant is the second factor.
+    let fused = |name: &str, a: Operand| match (a, operands) {
+        (Operand::Constant(_), [a, b, c]) => method(name, b, &[a, c]),
+        _ => method(name, &operands[0], &[&operands[1], &operands[2]]),
+    };
+    match action {
+        Action::Neg(_) => (format!("-{}", operands[0].at_least(Binding::Sign)), Binding::Sign),
+        Action::Add(..) => infix("+", Binding::Sum, Binding::Product),
+        Action::Sub(..) => infix("-", Binding::Sum, Binding::Product),
+        Action::Mul(..) => infix("*", Binding::Product, Binding::Sign),
+        Action::Div(..) => infix("/", Binding::Product, Binding::Sign),
+        Action::MulAdd(a, ..) => fused("mul_add", a),
+        Action::MulSub(a, ..) => fused("mul_sub", a),
+        Action::NegMulAdd(a, ..) => fused("neg_mul_add", a),
+        Action::Pow(..) => method("powf", &operands[0], &[&operands[1]]),
+        Action::Atan2(..) => method("atan2", &operands[0], &[&operands[1]]),
+        Action::Call(function, _) => method(function.name(), &operands[0], &[]),
+        Action::SinCos(_) => method("sin_cos", &operands[0], &[]),
+    }
+}
+
 impl Written {
-    fn name(name: &Ident) -> Self {
-        Self { tokens: quote!(#name), binding: Binding::Atom, operations: 0 }
+    fn name(name: String) -> Self {
+        Self { text: name, binding: Binding::Atom, is_name: true }
     }
 
     /// The expression as an operand of something that needs at least this binding.
-    fn at_least(self, binding: Binding) -> TokenStream {
-        let tokens = self.tokens;
-        if self.binding >= binding { tokens } else { quote!((#tokens)) }
+    fn at_least(&self, binding: Binding) -> Cow<'_, str> {
+        if self.binding >= binding {
+            Cow::Borrowed(&self.text)
+        } else {
+            Cow::Owned(format!("({})", self.text))
+        }
     }
 }

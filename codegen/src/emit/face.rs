@@ -1,13 +1,11 @@
 //! What users of a generated module see: constants, parameters, inputs, the checked functions, the trait.
 
-use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
-
 use super::literal::number;
 use super::text::escaped;
+use super::writer::{Writer, array, call};
 use crate::chain::EffectNode;
 use crate::expr::LengthUnit;
-use crate::spec::{Class, Component, Distribution, Orientation, Spec, VariableKind};
+use crate::spec::{Class, Distribution, Orientation, Spec, VariableKind};
 
 /// Types that a generated module has or uses already.
 const TAKEN: [&str; 16] = [
@@ -29,6 +27,9 @@ const TAKEN: [&str; 16] = [
     "VariableKind",
 ];
 
+/// How wide the fields of a structure may be on one line.
+const NARROW_STRUCTURE: usize = 18;
+
 /// The name of the manipulator's type: `puma560` becomes `Puma560`, `my_arm` `MyArm`.
 pub(super) fn type_name(name: &str) -> String {
     let words = name.split('_').filter(|word| !word.is_empty());
@@ -38,12 +39,12 @@ pub(super) fn type_name(name: &str) -> String {
 }
 
 /// The counts, and [`DESCRIPTION`] with every name, unit and limit.
-pub(super) fn description(spec: &Spec, effects: &[EffectNode]) -> TokenStream {
+pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNode]) {
     let distinct = match spec.orientation {
         Orientation::RotationVector => 6,
         Orientation::EulerYzx => 9,
     };
-    let counts = [
+    for (name, count, documentation) in [
         ("FRAMES", spec.frames.len(), "How many frames there are: n."),
         ("ERRORS", 6 * spec.frames.len(), "How many generalized errors there are: 6n, the length of ε."),
         ("VARIABLES", spec.variables.len(), "How many joint variables there are: the length of `q`."),
@@ -56,114 +57,89 @@ pub(super) fn description(spec: &Spec, effects: &[EffectNode]) -> TokenStream {
             distinct,
             "How many vectors of a frame's six columns of `J_e` are neither zero nor repeated.",
         ),
-    ];
-    let counts = counts.map(|(name, count, doc)| {
-        let (name, doc) = (format_ident!("{name}"), format!(" {doc}"));
-        let count = proc_macro2::Literal::usize_unsuffixed(count);
-        quote!(#[doc = #doc] pub const #name: usize = #count;)
-    });
+    ] {
+        writer.documentation(documentation);
+        writer.lines(&format!("pub const {name}: usize = {count};"));
+    }
+    writer.blank();
     let Spec { name, title, .. } = spec;
-    let length = match spec.length {
-        LengthUnit::Metre => quote!(LengthUnit::Metre),
-        LengthUnit::Millimetre => quote!(LengthUnit::Millimetre),
-    };
-    let orientation = match spec.orientation {
-        Orientation::RotationVector => quote!(Orientation::RotationVector),
-        Orientation::EulerYzx => quote!(Orientation::EulerYzx),
-    };
-    let option = |index: Option<usize>| match index {
-        Some(index) => {
-            let index = proc_macro2::Literal::usize_unsuffixed(index);
-            quote!(Some(#index))
-        }
-        None => quote!(None),
-    };
-    let frames = spec.frames.iter().map(|frame| {
-        let (name, variable) = (&frame.name, option(frame.variable));
-        quote!(Frame::new(#name, #variable))
+    writer.documentation("Names, units, limits, sources.");
+    writer.open("pub const DESCRIPTION: Description<'static> = Description");
+    writer.lines(&format!("name: {name:?},"));
+    writer.lines(&format!("title: {title:?},"));
+    writer.lines(match spec.length {
+        LengthUnit::Metre => "length: LengthUnit::Metre,",
+        LengthUnit::Millimetre => "length: LengthUnit::Millimetre,",
     });
+    writer.lines(match spec.orientation {
+        Orientation::RotationVector => "orientation: Orientation::RotationVector,",
+        Orientation::EulerYzx => "orientation: Orientation::EulerYzx,",
+    });
+    let entries = writer.indent() + 4;
+    let entry = |name: &str, arguments: &[String]| call(entries, name, arguments);
+    let mut list = |name: &str, entries: Vec<String>| writer.array(&format!("{name}: &"), &entries, ",");
+    let frames = spec.frames.iter();
+    let frames =
+        frames.map(|frame| entry("Frame::new", &[quoted(&frame.name), format!("{:?}", frame.variable)]));
+    list("frames", frames.collect());
     let variables = spec.variables.iter().map(|variable| {
         let kind = match variable.kind {
-            VariableKind::Revolute => quote!(VariableKind::Revolute),
-            VariableKind::Prismatic => quote!(VariableKind::Prismatic),
+            VariableKind::Revolute => "VariableKind::Revolute",
+            VariableKind::Prismatic => "VariableKind::Prismatic",
         };
-        let (name, limits, home) = (&variable.name, interval(variable.limits), number(variable.home));
-        quote!(Variable::new(#name, #kind, #limits, #home))
+        let (limits, home) = (interval(entries + 4, variable.limits), number(variable.home));
+        entry("Variable::new", &[quoted(&variable.name), kind.to_owned(), limits, home])
     });
+    list("variables", variables.collect());
     let parameters = spec.parameters.iter().map(|parameter| {
-        let (name, value) = (&parameter.name, number(parameter.value));
-        let unit = &parameter.unit;
-        quote!(Parameter::new(#name, #value, #unit))
+        let value = number(parameter.value);
+        entry("Parameter::new", &[quoted(&parameter.name), value, quoted(&parameter.unit)])
     });
+    list("parameters", parameters.collect());
     let inputs = spec.inputs.iter().map(|input| {
-        let (name, value, range) = (&input.name, number(input.value), interval(input.range));
-        let unit = &input.unit;
-        quote!(Input::new(#name, #value, #range, #unit))
+        let (value, range) = (number(input.value), interval(entries + 4, input.range));
+        entry("Input::new", &[quoted(&input.name), value, range, quoted(&input.unit)])
     });
+    list("inputs", inputs.collect());
     let sources = spec.enabled_sources().map(|source| {
         let class = match source.class {
-            Class::Repeatable => quote!(Class::Repeatable),
-            Class::Random(Distribution::Uniform) => quote!(Class::Random(Distribution::Uniform)),
-            Class::Random(Distribution::Normal) => quote!(Class::Random(Distribution::Normal)),
+            Class::Repeatable => "Class::Repeatable",
+            Class::Random(Distribution::Uniform) => "Class::Random(Distribution::Uniform)",
+            Class::Random(Distribution::Normal) => "Class::Random(Distribution::Normal)",
         };
-        let (name, reference) = (&source.name, &source.reference);
-        quote!(Source::new(#name, #class, #reference))
+        entry("Source::new", &[quoted(&source.name), class.to_owned(), quoted(&source.reference)])
     });
+    list("sources", sources.collect());
     let effects = effects.iter().map(|effect| {
-        let [source, frame] = [effect.source, effect.frame].map(proc_macro2::Literal::usize_unsuffixed);
-        let component = component(effect.component);
-        quote!(Effect::new(#source, #frame, #component))
+        let component = format!("Component::{:?}", effect.component);
+        entry("Effect::new", &[effect.source.to_string(), effect.frame.to_string(), component])
     });
-    quote! {
-        #(#counts)*
-
-        /// Names, units, limits, sources.
-        pub const DESCRIPTION: Description<'static> = Description {
-            name: #name,
-            title: #title,
-            length: #length,
-            orientation: #orientation,
-            frames: &[#(#frames),*],
-            variables: &[#(#variables),*],
-            parameters: &[#(#parameters),*],
-            inputs: &[#(#inputs),*],
-            sources: &[#(#sources),*],
-            effects: &[#(#effects),*],
-        };
-    }
+    list("effects", effects.collect());
+    writer.close("};");
+    writer.blank();
 }
 
-fn interval([lower, upper]: [f64; 2]) -> TokenStream {
-    let (lower, upper) = (number(lower), number(upper));
-    quote!([#lower, #upper])
+fn quoted(text: &str) -> String {
+    format!("{text:?}")
 }
 
-fn component(component: Component) -> TokenStream {
-    let name = format_ident!("{component:?}");
-    quote!(Component::#name)
+fn interval(indent: usize, [lower, upper]: [f64; 2]) -> String {
+    array(indent, "", &[number(lower), number(upper)], "")
 }
 
 /// `Parameters` and `Inputs`: named fields with their default values.
-pub(super) fn named_values(spec: &Spec) -> TokenStream {
-    let parameters: Vec<Field<'_>> =
-        spec.parameters.iter().map(|p| Field::new(&p.name, &p.description, &p.unit, p.value)).collect();
-    let inputs: Vec<Field<'_>> =
-        spec.inputs.iter().map(|i| Field::new(&i.name, &i.description, &i.unit, i.value)).collect();
-    let parameters = record(
-        "Parameters",
+pub(super) fn named_values(writer: &mut Writer, spec: &Spec) {
+    let parameters = spec.parameters.iter().map(|p| Field::new(&p.name, &p.description, &p.unit, p.value));
+    let inputs = spec.inputs.iter().map(|i| Field::new(&i.name, &i.description, &i.unit, i.value));
+    let (parameters, inputs): (Vec<_>, Vec<_>) = (parameters.collect(), inputs.collect());
+    let what = [
         "The structural parameters `s`, which may be set at run time.",
         "Their nominal values.",
-        "PARAMETERS",
-        &parameters,
-    );
-    let inputs = record(
-        "Inputs",
         "The inputs `u`: what changes from use to use.",
         "Their default values.",
-        "INPUTS",
-        &inputs,
-    );
-    quote!(#parameters #inputs)
+    ];
+    record(writer, "Parameters", [what[0], what[1]], "PARAMETERS", &parameters);
+    record(writer, "Inputs", [what[2], what[3]], "INPUTS", &inputs);
 }
 
 struct Field<'s> {
@@ -178,54 +154,70 @@ impl<'s> Field<'s> {
         let description = escaped(description);
         let description = description.trim_end_matches('.');
         let documentation = match description.is_empty() {
-            true => format!(" In {unit}."),
-            false => format!(" {description}; {unit}."),
+            true => format!("In {unit}."),
+            false => format!("{description}; {unit}."),
         };
         Self { name, documentation, value }
     }
 }
 
-fn record(name: &str, doc: &str, nominal_doc: &str, count: &str, fields: &[Field<'_>]) -> TokenStream {
-    let (doc, nominal_doc) = (format!(" {doc}"), format!(" {nominal_doc}"));
-    let (name, count) = (format_ident!("{name}"), format_ident!("{count}"));
-    let names: Vec<_> = fields.iter().map(|field| format_ident!("{}", field.name)).collect();
-    let docs = fields.iter().map(|field| &field.documentation);
-    let values = fields.iter().map(|field| number(field.value));
-    let array_doc = " The values in the order of [`DESCRIPTION`].";
-    quote! {
-        #[doc = #doc]
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct #name {
-            #(#[doc = #docs] pub #names: f64,)*
+fn record(writer: &mut Writer, name: &str, [what, nominal]: [&str; 2], count: &str, fields: &[Field<'_>]) {
+    writer.documentation(what);
+    writer.lines("#[derive(Clone, Copy, Debug, PartialEq)]");
+    if fields.is_empty() {
+        writer.lines(&format!("pub struct {name} {{}}"));
+    } else {
+        writer.open(&format!("pub struct {name}"));
+        for field in fields {
+            writer.documentation(&field.documentation);
+            writer.lines(&format!("pub {}: f64,", field.name));
         }
+        writer.close("}");
+    }
+    writer.blank();
+    writer.open(&format!("impl {name}"));
+    writer.documentation(nominal);
+    if fields.is_empty() {
+        writer.lines("pub const NOMINAL: Self = Self {};");
+    } else {
+        let values: Vec<String> =
+            fields.iter().map(|field| format!("{}: {}", field.name, number(field.value))).collect();
+        structure(writer, "pub const NOMINAL: Self = Self", &values);
+    }
+    writer.blank();
+    writer.documentation("The values in the order of [`DESCRIPTION`].");
+    writer.open(&format!("pub const fn to_array(self) -> [f64; {count}]"));
+    let values: Vec<String> = fields.iter().map(|field| format!("self.{}", field.name)).collect();
+    writer.array("", &values, "");
+    writer.close("}");
+    writer.close("}");
+    writer.blank();
+    writer.open(&format!("impl Default for {name}"));
+    writer.open("fn default() -> Self");
+    writer.lines("Self::NOMINAL");
+    writer.close("}");
+    writer.close("}");
+    writer.blank();
+}
 
-        impl #name {
-            #[doc = #nominal_doc]
-            pub const NOMINAL: Self = Self { #(#names: #values),* };
-
-            #[doc = #array_doc]
-            pub const fn to_array(&self) -> [f64; #count] {
-                [#(self.#names),*]
-            }
-        }
-
-        impl Default for #name {
-            fn default() -> Self {
-                Self::NOMINAL
-            }
-        }
+/// `head { a: 1.0, b: 2.0 };`: on one line only if there is next to nothing in it.
+fn structure(writer: &mut Writer, head: &str, values: &[String]) {
+    let inner = values.join(", ");
+    if inner.len() <= NARROW_STRUCTURE {
+        writer.lines(&format!("{head} {{ {inner} }};"));
+    } else {
+        writer.open(head);
+        values.iter().for_each(|value| writer.lines(&format!("{value},")));
+        writer.close("};");
     }
 }
 
 /// The checked functions and the trait: the same for all, so the runtime has them.
-pub(super) fn checked(spec: &Spec) -> TokenStream {
-    let name = format_ident!("{}", type_name(&spec.name));
-    let doc =
-        format!(" {}, as a [`Manipulator`](::abbe::Manipulator).", escaped(spec.title.trim_end_matches('.')));
-    quote! {
-        ::abbe::checked_face! {
-            #[doc = #doc]
-            #name
-        }
-    }
+pub(super) fn checked(writer: &mut Writer, spec: &Spec) {
+    writer.open("::abbe::checked_face!");
+    let title = escaped(spec.title.trim_end_matches('.'));
+    writer.documentation(&format!("{title}, as a [`Manipulator`](::abbe::Manipulator)."));
+    writer.lines(&type_name(&spec.name));
+    writer.close("}");
+    writer.blank();
 }

@@ -1,6 +1,8 @@
 //! What stands above a generated module.
 
-use super::text::{escaped, wrapped};
+use super::long::loop_body;
+use super::text::escaped;
+use super::writer::Writer;
 use crate::program::{FunctionKind, Program};
 use crate::spec::{Orientation, Spec};
 
@@ -14,15 +16,15 @@ fn rows(orientation: Orientation) -> &'static str {
     }
 }
 
-/// The lines of the module's documentation, each with its leading space.
-pub(super) fn header(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<String> {
-    let mut lines = vec![format!(" {}.", escaped(spec.title.trim_end_matches('.'))), String::new()];
+/// The module's documentation.
+pub(super) fn header(writer: &mut Writer, spec: &Spec, functions: &[(FunctionKind, Program)]) {
     let mut paragraph = |text: &str| {
         if !text.is_empty() {
-            lines.extend(wrapped(text));
-            lines.push(String::new());
+            writer.documentation(text);
+            writer.documentation_line("");
         }
     };
+    paragraph(&format!("{}.", escaped(spec.title.trim_end_matches('.'))));
     paragraph(&escaped(&spec.description));
     if !spec.reference.is_empty() {
         paragraph(&format!("Source: {}", escaped(&spec.reference)));
@@ -34,23 +36,25 @@ pub(super) fn header(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<
         &spec.hash[..16]
     ));
     let length = spec.length.symbol();
-    let mut row = |text: String| lines.push(format!(" {text}"));
-    row(format!("- Units: {length}, rad; masses kg, times s, temperatures K."));
-    row("- Poses are in `F_0`, column-major: x, y, z axis, then position.".to_owned());
-    row(format!("- Rows of a Jacobian: {}.", rows(spec.orientation)));
-    row("- Columns of `J_e`: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**) of each frame."
-        .to_owned());
-    lines.push(String::new());
-    lines.extend([" | frame | name | variable |".to_owned(), " |---|---|---|".to_owned()]);
+    let mut row = |text: &str| writer.documentation_line(text);
+    row(&format!("- Units: {length}, rad; masses kg, times s, temperatures K."));
+    row("- Poses are in `F_0`, column-major: x, y, z axis, then position.");
+    row(&format!("- Rows: {}.", rows(spec.orientation)));
+    row("- Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).");
+    row("");
+    row("| frame | name | variable |");
+    row("|---|---|---|");
     for (i, frame) in spec.frames.iter().enumerate() {
         let variable = frame.variable.map_or("fixed", |index| &spec.variables[index].name);
-        let name = escaped(&frame.name);
-        lines.push(format!(" | {} | {name} | {variable} |", i + 1));
+        row(&format!("| {} | {} | {variable} |", i + 1, escaped(&frame.name)));
     }
-    lines.push(String::new());
-    lines.extend([" | function | operations |".to_owned(), " |---|---|".to_owned()]);
+    row("");
+    row("| function | operations |");
+    row("|---|---|");
     for (kind, program) in functions {
-        lines.push(format!(" | `{}` | {} |", kind.name(), program.operations()));
+        match loop_body(spec, *kind, program) {
+            Some(_) => row(&format!("| `{}` | a loop over the frames |", kind.name())),
+            None => row(&format!("| `{}` | {} |", kind.name(), program.operations())),
+        }
     }
-    lines
 }

@@ -2,9 +2,6 @@
 
 use std::f64::consts;
 
-use proc_macro2::{Literal, TokenStream};
-use quote::{ToTokens, format_ident, quote};
-
 /// The constants that have a name in Rust.
 const NAMED: [(f64, &str); 10] = [
     (consts::PI, "PI"),
@@ -20,23 +17,15 @@ const NAMED: [(f64, &str); 10] = [
 ];
 
 /// A number by its name if it has one, else with the digits that give it back exactly.
-pub(super) fn number(value: f64) -> TokenStream {
+pub(super) fn number(value: f64) -> String {
     if value.is_infinite() {
-        return if value > 0.0 { quote!(f64::INFINITY) } else { quote!(f64::NEG_INFINITY) };
+        return if value > 0.0 { "f64::INFINITY" } else { "f64::NEG_INFINITY" }.to_owned();
     }
-    let magnitude = match NAMED.iter().find(|(named, _)| *named == value.abs()) {
-        Some((_, name)) => {
-            let name = format_ident!("{name}");
-            quote!(::core::f64::consts::#name)
-        }
-        None => digits(value.abs()).to_token_stream(),
-    };
-    if value < 0.0 { quote!(-#magnitude) } else { magnitude }
-}
-
-fn digits(value: f64) -> Literal {
-    let plain = format!("{value:?}");
-    plain.parse().unwrap_or_else(|_| Literal::f64_unsuffixed(value))
+    match NAMED.iter().find(|(named, _)| *named == value.abs()) {
+        Some((_, name)) if value < 0.0 => format!("-::core::f64::consts::{name}"),
+        Some((_, name)) => format!("::core::f64::consts::{name}"),
+        None => format!("{value:?}"),
+    }
 }
 
 /// Whether clippy would take a number for a badly written π or √2.

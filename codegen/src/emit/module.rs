@@ -1,64 +1,62 @@
 //! The module of a manipulator.
 
-use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
-
 use super::face;
 use super::header::header;
 use super::literal::looks_like_named;
+use super::long::helpers;
 use super::raw::raw_function;
+use super::writer::Writer;
 use crate::chain::Model;
 use crate::program::{FunctionKind, Operand, Program, functions};
 use crate::spec::{Class, Spec};
 
+/// The counts that arrays have as sizes.
+const SIZES: [&str; 8] =
+    ["DISTINCT", "EFFECTS", "ERRORS", "FRAMES", "INPUTS", "PARAMETERS", "SOURCES", "VARIABLES"];
+
 /// The source of a manipulator's module, `pub mod name { … }`: formatted, the same bytes every time.
 pub fn rust(spec: &Spec) -> String {
-    let file = syn::parse2(rust_tokens(spec)).expect("generated tokens are a module");
-    prettyplease::unparse(&file)
-}
-
-/// The tokens of [`rust`].
-pub fn rust_tokens(spec: &Spec) -> TokenStream {
     let model = Model::new(spec);
-    let functions = functions(&model);
-    let documentation = header(spec, &functions);
-    let raw = functions.iter().map(|(kind, program)| raw_function(spec, *kind, program));
-    let name = format_ident!("{}", spec.name);
-    let (description, named_values, face) =
-        (face::description(spec, &model.effects), face::named_values(spec), face::checked(spec));
-    let allowed = allowed_lints(spec, &functions);
-    let imports = imports(spec, &model);
-    quote! {
-        #(#[doc = #documentation])*
-        #(#allowed)*
-        pub mod #name {
-            use ::abbe::{#(#imports),*};
-
-            #description
-
-            #named_values
-
-            #face
-
-            /// The same as functions of plain arrays, generic over the scalar and without checks: what is not
-            /// finite stays so.
-            pub mod raw {
-                use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
-                use ::abbe::Scalar;
-
-                #(#raw)*
-            }
-        }
-    }
+    module(spec, &model, &functions(&model))
 }
 
-/// Lints that numbers and names of the spec, not the generated code, would trip.
-fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<TokenStream> {
-    let mut allowed = Vec::new();
+/// The source of the module from the programs of its functions.
+pub fn module(spec: &Spec, model: &Model, functions: &[(FunctionKind, Program)]) -> String {
+    let mut writer = Writer::new();
+    header(&mut writer, spec, functions);
+    allowed_lints(spec, functions).into_iter().for_each(|lint| writer.lines(&format!("#[allow({lint})]")));
+    writer.open(&format!("pub mod {}", spec.name));
+    writer.imports("::abbe", &used_types(spec, model));
+    writer.blank();
+    face::description(&mut writer, spec, &model.effects);
+    face::named_values(&mut writer, spec);
+    face::checked(&mut writer, spec);
+    writer.documentation(
+        "The same as functions of plain arrays, generic over the scalar and without checks: what is not finite \
+         stays so.",
+    );
+    writer.open("pub mod raw");
+    writer.imports("super", &SIZES);
+    writer.lines("use ::abbe::Scalar;");
+    for (kind, program) in functions {
+        writer.blank();
+        raw_function(&mut writer, spec, *kind, program);
+    }
+    if spec.is_long() {
+        helpers(&mut writer, spec, model);
+    }
+    writer.close("}");
+    writer.close("}");
+    writer.finish()
+}
+
+/// What a program does not call, and lints that numbers and names of the spec would trip.
+fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<&'static str> {
+    let mut allowed = vec!["dead_code"];
     let names = spec.parameters.iter().map(|p| &p.name).chain(spec.inputs.iter().map(|i| &i.name));
     let mut names = names.chain(spec.variables.iter().map(|v| &v.name));
     if names.any(|name| name.contains(|c: char| c.is_ascii_uppercase()) || name.contains("__")) {
-        allowed.push(quote!(#[allow(non_snake_case)]));
+        allowed.push("non_snake_case");
     }
     let steps = functions.iter().flat_map(|(_, program)| &program.steps);
     let operands = steps.flat_map(|step| step.action.operands());
@@ -75,12 +73,12 @@ fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<Toke
             _ => None,
         });
     if constants.chain(values).chain(limits).chain(ranges).chain(outputs).any(looks_like_named) {
-        allowed.push(quote!(#[allow(clippy::approx_constant)]));
+        allowed.push("clippy::approx_constant");
     }
     allowed
 }
 
-fn imports(spec: &Spec, model: &Model) -> Vec<TokenStream> {
+fn used_types(spec: &Spec, model: &Model) -> Vec<&'static str> {
     let mut names = vec!["Description", "Frame", "LengthUnit", "Orientation"];
     if !spec.variables.is_empty() {
         names.extend(["Variable", "VariableKind"]);
@@ -102,10 +100,29 @@ fn imports(spec: &Spec, model: &Model) -> Vec<TokenStream> {
     }
     names.sort_unstable();
     names
-        .into_iter()
-        .map(|name| {
-            let name = format_ident!("{name}");
-            quote!(#name)
-        })
-        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Free text stays in the comments, whatever it holds, and lines stay narrow.
+    #[test]
+    fn free_text_stays_in_comments() {
+        let text = r#"
+            [manipulator]
+            name = "arm"
+            title = "two\nlines\rand \u0007 more"
+            length = "m"
+            [[frame]]
+            name = "a | b"
+            transform = "Tx(1)"
+        "#;
+        let module = rust(&Spec::parse("arm.toml", text).unwrap());
+        let above = module.split("pub mod arm {").next().unwrap();
+        assert!(above.contains("two lines and"), "{above}");
+        assert!(above.contains("| 1 | a \\| b | fixed |"), "{above}");
+        assert!(above.lines().all(|line| line.starts_with("///") || line.starts_with("#[")), "{above}");
+        assert!(module.lines().all(|line| line.chars().count() <= 100));
+    }
 }

@@ -2,9 +2,6 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::Ident;
-use quote::format_ident;
-
 use crate::expr::Symbol;
 use crate::program::{Action, Operand, Program};
 use crate::spec::{Component, Spec};
@@ -45,11 +42,11 @@ pub(super) struct Names<'s> {
     spec: &'s Spec,
     used: HashSet<String>,
     counter: usize,
-    variables: Vec<Ident>,
-    parameters: Vec<Ident>,
-    inputs: Vec<Ident>,
+    variables: Vec<String>,
+    parameters: Vec<String>,
+    inputs: Vec<String>,
     /// Six per frame.
-    errors: Vec<Ident>,
+    errors: Vec<String>,
 }
 
 impl<'s> Names<'s> {
@@ -77,7 +74,7 @@ impl<'s> Names<'s> {
     }
 
     /// A variable, parameter, input or generalized error.
-    pub(super) fn symbol(&self, symbol: Symbol) -> &Ident {
+    pub(super) fn symbol(&self, symbol: Symbol) -> &str {
         match symbol {
             Symbol::Variable(i) => &self.variables[i],
             Symbol::Parameter(i) => &self.parameters[i],
@@ -88,7 +85,7 @@ impl<'s> Names<'s> {
     }
 
     /// The result of a step: its own name, or else the next `t…`.
-    pub(super) fn step(&mut self, proposed: Option<&str>) -> Ident {
+    pub(super) fn step(&mut self, proposed: Option<&str>) -> String {
         match proposed {
             Some(name) => self.free(name),
             None => {
@@ -100,7 +97,7 @@ impl<'s> Names<'s> {
 
     /// Sine and cosine: `s2` and `c2` of the variable of frame 2, with an offset or without, `sin_x` and `cos_x`
     /// of a parameter x.
-    pub(super) fn sine_and_cosine(&mut self, angle: Operand, program: &Program) -> (Ident, Ident) {
+    pub(super) fn sine_and_cosine(&mut self, angle: Operand, program: &Program) -> (String, String) {
         let of = |name: &str| (format!("sin_{name}"), format!("cos_{name}"));
         let (sine, cosine) = match without_offset(angle, program) {
             Operand::Symbol(Symbol::Variable(i)) => {
@@ -117,12 +114,12 @@ impl<'s> Names<'s> {
         (self.free(&sine), self.free(&cosine))
     }
 
-    fn free(&mut self, name: &str) -> Ident {
+    fn free(&mut self, name: &str) -> String {
         let mut name = name.to_owned();
         while !self.used.insert(name.clone()) {
             name.push('_');
         }
-        format_ident!("{name}")
+        name
     }
 }
 

@@ -1,129 +1,148 @@
 //! The array functions of a module: generic over the scalar, without checks.
 
-use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use std::collections::HashSet;
 
 use super::body::{Output, body};
+use super::literal::number;
+use super::long::loop_body;
 use super::names::Names;
+use super::writer::{Writer, array, pattern};
 use crate::expr::Symbol;
 use crate::program::{FunctionKind, Operand, Program};
 use crate::spec::{Orientation, Spec};
 
 /// One raw function.
-pub(super) fn raw_function(spec: &Spec, kind: FunctionKind, program: &Program) -> TokenStream {
-    let mut names = Names::new(spec);
-    let given = match kind {
+pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, kind: FunctionKind, program: &Program) {
+    let has_margin = spec.orientation == Orientation::EulerYzx && has_rows(kind);
+    let looped = loop_body(spec, kind, program);
+    let is_loop = looped.is_some();
+    let (arguments, statements) = match looped {
+        Some(statements) => (loop_arguments(kind, &statements), statements),
+        None => straight_line(spec, kind, program, writer.indent() + 4, has_margin),
+    };
+    documentation(writer, spec, kind, has_margin);
+    if is_loop {
+        writer.documentation("A loop over the frames.");
+    } else {
+        writer.documentation(&format!("{}.", program.operations()));
+    }
+    writer.lines("#[inline(always)]");
+    let name = format!("pub fn {}<T: Scalar>", kind.name());
+    writer.function(&name, &arguments, if has_margin { " -> T" } else { "" }, &statements);
+}
+
+/// All arguments, of which only the inputs may be without use.
+fn loop_arguments(kind: FunctionKind, statements: &[String]) -> Vec<String> {
+    let mut arguments = vec!["q: &[T; VARIABLES]".to_owned(), "s: &[T; PARAMETERS]".to_owned()];
+    if depends_on_inputs(kind) {
+        let unused = if statements.iter().any(|line| line.contains("s, u, ")) { "" } else { "_" };
+        arguments.push(format!("{unused}u: &[T; INPUTS]"));
+    }
+    arguments.extend(given(kind).map(|given| format!("{given}: &[[T; 6]; FRAMES]")));
+    arguments.extend(filled_arguments(kind, false));
+    arguments
+}
+
+/// What is given for each generalized error.
+fn given(kind: FunctionKind) -> Option<&'static str> {
+    match kind {
         FunctionKind::Displacement => Some("errors"),
         FunctionKind::Covariance => Some("variances"),
         _ => None,
-    };
-    if let Some(given) = given {
+    }
+}
+
+/// Arguments and statements of a function without loops.
+fn straight_line(
+    spec: &Spec,
+    kind: FunctionKind,
+    program: &Program,
+    indent: usize,
+    has_margin: bool,
+) -> (Vec<String>, Vec<String>) {
+    let mut names = Names::new(spec);
+    if let Some(given) = given(kind) {
         names.name_errors(given);
     }
-    let body = body(program, &mut names);
-    let used = used_symbols(program);
-    let mut arguments = Vec::new();
-    let mut bindings = Vec::new();
-    let mut take = |letter: &str, size: &str, symbols: Vec<Symbol>| {
-        let any = symbols.iter().any(|symbol| used.contains(symbol));
-        let argument = if any { format_ident!("{letter}") } else { format_ident!("_{letter}") };
-        let size = format_ident!("{size}");
-        arguments.push(quote!(#argument: &[T; #size]));
-        if any {
-            let entries = symbols.iter().map(|symbol| {
-                if used.contains(symbol) {
-                    let name = names.symbol(*symbol);
-                    quote!(#name)
-                } else {
-                    quote!(_)
-                }
-            });
-            bindings.push(quote!(let [#(#entries),*] = *#argument;));
-        }
-    };
-    take("q", "VARIABLES", (0..spec.variables.len()).map(Symbol::Variable).collect());
-    take("s", "PARAMETERS", (0..spec.parameters.len()).map(Symbol::Parameter).collect());
-    if depends_on_inputs(kind) {
-        take("u", "INPUTS", (0..spec.inputs.len()).map(Symbol::Input).collect());
+    let body = body(program, &mut names, indent);
+    let (mut arguments, mut statements) = bindings(spec, &names, program, indent, depends_on_inputs(kind));
+    if let Some(given) = given(kind) {
+        arguments.push(format!("{given}: &[[T; 6]; FRAMES]"));
+        let frames: Vec<String> = (0..spec.frames.len())
+            .map(|i| {
+                let six = [0, 1, 2, 3, 4, 5].map(|k| names.symbol(Symbol::Error(6 * i + k)));
+                format!("[{}]", six.join(", "))
+            })
+            .collect();
+        statements.push(pattern(indent, "let ", &frames, &format!(" = *{given};")));
     }
-    if let Some(given) = given {
-        let given = format_ident!("{given}");
-        arguments.push(quote!(#given: &[[T; 6]; FRAMES]));
-        let frames = (0..spec.frames.len()).map(|i| {
-            let six = (0..6).map(|k| names.symbol(Symbol::Error(6 * i + k)));
-            quote!([#(#six),*])
-        });
-        bindings.push(quote!(let [#(#frames),*] = *#given;));
-    }
-    let has_margin = spec.orientation == Orientation::EulerYzx && has_rows(kind);
+    statements.extend(zero_and_one(program));
     let (outputs, margin) = match body.outputs.split_last() {
         Some((margin, outputs)) if has_margin => (outputs, Some(margin)),
         _ => (&body.outputs[..], None),
     };
-    let results = results(spec, kind, outputs);
-    let result_arguments = results.iter().map(|result| &result.argument);
-    let mut assignments = results.iter().flat_map(|result| &result.assignments).collect::<Vec<_>>();
+    let behind_pose = outputs.len().saturating_sub(12);
+    arguments
+        .extend(filled_arguments(kind, if fills_pose(kind) { behind_pose == 0 } else { outputs.is_empty() }));
+    let mut results = Results { indent, assignments: Vec::new() };
+    results.of(spec, kind, outputs);
+    let mut assignments = results.assignments;
     assignments.sort_by_key(|assignment| assignment.ready);
     let mut assignments = assignments.into_iter().peekable();
-    let constants = [(0.0, "zero"), (1.0, "one")].into_iter().filter_map(|(value, name)| {
-        let name = format_ident!("{name}");
-        let literal = super::literal::number(value);
-        program
-            .outputs
-            .contains(&Operand::Constant(value))
-            .then(|| quote!(let #name = T::constant(#literal);))
-    });
-    let returned = margin.map(|_| quote!(-> T));
-    let name = format_ident!("{}", kind.name());
     // What is known is written at once, so that it need not be kept.
-    let mut statements = Vec::new();
-    for known in 0..=body.statements.len() {
-        statements.extend(known.checked_sub(1).map(|last| &body.statements[last]));
-        while let Some(assignment) = assignments.next_if(|assignment| assignment.ready == known) {
-            statements.push(&assignment.statement);
+    let mut known = body.statements.into_iter();
+    for count in 0..=known.len() {
+        statements.extend(count.checked_sub(1).and_then(|_| known.next()));
+        while let Some(assignment) = assignments.next_if(|assignment| assignment.ready == count) {
+            statements.push(assignment.statement);
         }
     }
-    let documentation = documentation(spec, kind, program, has_margin);
-    quote! {
-        #(#[doc = #documentation])*
-        #[inline(always)]
-        pub fn #name<T: Scalar>(#(#arguments,)* #(#result_arguments),*) #returned {
-            #(#bindings)*
-            #(#constants)*
-            #(#statements)*
-            #margin
-        }
-    }
+    statements.extend(margin.map(|margin| margin.expression.clone()));
+    (arguments, statements)
 }
 
-fn used_symbols(program: &Program) -> Vec<Symbol> {
+/// The arguments q and s, and u where a function takes it, and the statements that name what is used of them.
+pub(super) fn bindings(
+    spec: &Spec,
+    names: &Names<'_>,
+    program: &Program,
+    indent: usize,
+    with_inputs: bool,
+) -> (Vec<String>, Vec<String>) {
+    let used = used_symbols(program);
+    let (mut arguments, mut statements) = (Vec::new(), Vec::new());
+    let mut take = |letter: &str, size: &str, symbols: Vec<Symbol>| {
+        let any = symbols.iter().any(|symbol| used.contains(symbol));
+        let unused = if any { "" } else { "_" };
+        arguments.push(format!("{unused}{letter}: &[T; {size}]"));
+        if any {
+            let name = |symbol| if used.contains(symbol) { names.symbol(*symbol) } else { "_" };
+            let entries: Vec<String> = symbols.iter().map(|symbol| name(symbol).to_owned()).collect();
+            statements.push(pattern(indent, "let ", &entries, &format!(" = *{letter};")));
+        }
+    };
+    take("q", "VARIABLES", (0..spec.variables.len()).map(Symbol::Variable).collect());
+    take("s", "PARAMETERS", (0..spec.parameters.len()).map(Symbol::Parameter).collect());
+    if with_inputs {
+        take("u", "INPUTS", (0..spec.inputs.len()).map(Symbol::Input).collect());
+    }
+    (arguments, statements)
+}
+
+/// The names that 0 and 1 have where they are results.
+fn zero_and_one(program: &Program) -> impl Iterator<Item = String> {
+    let returned = |(value, _): &(f64, &str)| program.outputs.contains(&Operand::Constant(*value));
+    let constants = [(0.0, "zero"), (1.0, "one")].into_iter().filter(returned);
+    constants.map(|(value, name)| format!("let {name} = T::constant({});", number(value)))
+}
+
+fn used_symbols(program: &Program) -> HashSet<Symbol> {
     let operands = program.steps.iter().flat_map(|step| step.action.operands());
-    operands
-        .chain(program.outputs.iter().copied())
-        .filter_map(|operand| match operand {
-            Operand::Symbol(symbol) => Some(symbol),
-            _ => None,
-        })
-        .collect()
-}
-
-/// An argument that a function fills.
-struct FilledArgument {
-    argument: TokenStream,
-    assignments: Vec<Assignment>,
-}
-
-/// A statement that writes results.
-struct Assignment {
-    statement: TokenStream,
-    /// After how many statements of the body all of them are known.
-    ready: usize,
-}
-
-impl Assignment {
-    fn new(values: &[Output], statement: TokenStream) -> Self {
-        Self { statement, ready: values.iter().map(|value| value.ready).max().unwrap_or(0) }
-    }
+    let symbol = |operand| match operand {
+        Operand::Symbol(symbol) => Some(symbol),
+        _ => None,
+    };
+    operands.chain(program.outputs.iter().copied()).filter_map(symbol).collect()
 }
 
 fn depends_on_inputs(kind: FunctionKind) -> bool {
@@ -139,7 +158,7 @@ fn depends_on_inputs(kind: FunctionKind) -> bool {
 }
 
 /// Whether a function's results have rows as the spec's orientation says.
-fn has_rows(kind: FunctionKind) -> bool {
+pub(super) fn has_rows(kind: FunctionKind) -> bool {
     matches!(
         kind,
         FunctionKind::ErrorJacobian
@@ -153,138 +172,182 @@ fn has_rows(kind: FunctionKind) -> bool {
     )
 }
 
-fn results(spec: &Spec, kind: FunctionKind, outputs: &[Output]) -> Vec<FilledArgument> {
-    let matrix = |values: &[Output]| {
-        let columns = values.chunks(3).map(|column| quote!([#(#column),*]));
-        quote!([#(#columns),*])
+/// A statement that writes results.
+struct Assignment {
+    statement: String,
+    /// After how many statements of the body all of them are known.
+    ready: usize,
+}
+
+fn fills_pose(kind: FunctionKind) -> bool {
+    matches!(
+        kind,
+        FunctionKind::Pose
+            | FunctionKind::ErrorJacobian
+            | FunctionKind::JointJacobian
+            | FunctionKind::ParameterJacobian
+            | FunctionKind::ErrorJacobianDistinct
+            | FunctionKind::RealPose
+            | FunctionKind::CompensatorStep
+    )
+}
+
+/// The arguments that a function fills; what has no entries, as the Jacobian by the parameters of a spec that has none,
+/// is never used.
+fn filled_arguments(kind: FunctionKind, empty: bool) -> Vec<String> {
+    let rows = |name: &str, size: &str| {
+        let unused = if empty { "_" } else { "" };
+        Some(format!("{unused}{name}: &mut [[T; 6]; {size}]"))
     };
-    let pose = |values: &[Output]| {
-        let value = matrix(values);
-        FilledArgument {
-            argument: quote!(pose: &mut [[T; 3]; 4]),
-            assignments: vec![Assignment::new(values, quote!(*pose = #value;))],
-        }
-    };
-    let rows = |name: &str, size: TokenStream, width: usize, values: &[Output]| {
-        // What has no entries, as the Jacobian by the parameters of a spec that has none, is never used.
-        let name = if values.is_empty() { format_ident!("_{name}") } else { format_ident!("{name}") };
-        let assignments = values.chunks(width).enumerate().map(|(i, row)| {
-            let (i, value) = (proc_macro2::Literal::usize_unsuffixed(i), array(row));
-            Assignment::new(row, quote!(#name[#i] = #value;))
-        });
-        let assignments = assignments.collect();
-        let width = proc_macro2::Literal::usize_unsuffixed(width);
-        FilledArgument { argument: quote!(#name: &mut [[T; #width]; #size]), assignments }
-    };
-    let vectors = |name: &str, of_frame: usize, values: &[Output]| {
-        let name = format_ident!("{name}");
-        let assignments = values.chunks(3).enumerate().map(|(i, vector)| {
-            let place = [3 * i / of_frame, i % (of_frame / 3)].map(proc_macro2::Literal::usize_unsuffixed);
-            let ([frame, number], value) = (place, array(vector));
-            Assignment::new(vector, quote!(#name[#frame][#number] = #value;))
-        });
-        let assignments = assignments.collect();
-        FilledArgument { argument: quote!(#name: &mut [[[T; 3]; DISTINCT]; FRAMES]), assignments }
-    };
-    let behind_pose = |rest: &dyn Fn(&[Output]) -> FilledArgument| {
-        let (first, others) = outputs.split_at(12);
-        vec![pose(first), rest(others)]
-    };
-    match kind {
-        FunctionKind::Transforms => {
-            let assignments = outputs.chunks(12).enumerate().map(|(i, values)| {
-                let (i, value) = (proc_macro2::Literal::usize_unsuffixed(i), matrix(values));
-                Assignment::new(values, quote!(transforms[#i] = #value;))
-            });
-            let assignments = assignments.collect();
-            let argument = quote!(transforms: &mut [[[T; 3]; 4]; FRAMES + 1]);
-            vec![FilledArgument { argument, assignments }]
-        }
-        FunctionKind::Pose | FunctionKind::RealPose => vec![pose(outputs)],
-        FunctionKind::ErrorJacobian => behind_pose(&|rest| rows("columns", quote!(ERRORS), 6, rest)),
-        FunctionKind::ErrorJacobianDistinct => {
-            behind_pose(&|rest| vectors("distinct", rest.len() / spec.frames.len(), rest))
-        }
-        FunctionKind::JointJacobian | FunctionKind::CompensatorStep => {
-            behind_pose(&|rest| rows("columns", quote!(VARIABLES), 6, rest))
-        }
-        FunctionKind::ParameterJacobian => behind_pose(&|rest| rows("columns", quote!(PARAMETERS), 6, rest)),
-        FunctionKind::Effects => {
-            let assignments = vec![Assignment::new(outputs, quote!(*effects = [#(#outputs),*];))];
-            vec![FilledArgument { argument: quote!(effects: &mut [T; EFFECTS]), assignments }]
-        }
-        FunctionKind::GeneralizedErrors => vec![rows("errors", quote!(FRAMES), 6, outputs)],
+    let last = match kind {
+        FunctionKind::Transforms => Some("transforms: &mut [[[T; 3]; 4]; FRAMES + 1]".to_owned()),
+        FunctionKind::Pose | FunctionKind::RealPose => None,
+        FunctionKind::ErrorJacobian => rows("columns", "ERRORS"),
+        FunctionKind::JointJacobian | FunctionKind::CompensatorStep => rows("columns", "VARIABLES"),
+        FunctionKind::ParameterJacobian => rows("columns", "PARAMETERS"),
+        FunctionKind::ErrorJacobianDistinct => Some("distinct: &mut [[[T; 3]; DISTINCT]; FRAMES]".to_owned()),
+        FunctionKind::Effects => Some("effects: &mut [T; EFFECTS]".to_owned()),
         FunctionKind::Displacement | FunctionKind::PredictedDisplacement => {
-            let value = array(outputs);
-            let assignments = vec![Assignment::new(outputs, quote!(*displacement = #value;))];
-            vec![FilledArgument { argument: quote!(displacement: &mut [T; 6]), assignments }]
+            Some("displacement: &mut [T; 6]".to_owned())
         }
-        FunctionKind::Covariance => vec![rows("covariance", quote!(6), 6, outputs)],
-        FunctionKind::SourceDisplacements => vec![rows("displacements", quote!(SOURCES), 6, outputs)],
+        FunctionKind::GeneralizedErrors => rows("errors", "FRAMES"),
+        FunctionKind::Covariance => rows("covariance", "6"),
+        FunctionKind::SourceDisplacements => rows("displacements", "SOURCES"),
+    };
+    let pose = fills_pose(kind).then(|| "pose: &mut [[T; 3]; 4]".to_owned());
+    pose.into_iter().chain(last).collect()
+}
+
+/// How results are written.
+struct Results {
+    indent: usize,
+    assignments: Vec<Assignment>,
+}
+
+impl Results {
+    fn of(&mut self, spec: &Spec, kind: FunctionKind, outputs: &[Output]) {
+        let split = |outputs| <[Output]>::split_at(outputs, 12);
+        match kind {
+            FunctionKind::Transforms => {
+                for (i, values) in outputs.chunks(12).enumerate() {
+                    self.matrix(&format!("transforms[{i}]"), values);
+                }
+            }
+            FunctionKind::Pose | FunctionKind::RealPose => self.pose(outputs),
+            FunctionKind::ErrorJacobian
+            | FunctionKind::JointJacobian
+            | FunctionKind::CompensatorStep
+            | FunctionKind::ParameterJacobian => {
+                let (pose, rest) = split(outputs);
+                self.pose(pose);
+                self.rows("columns", rest);
+            }
+            FunctionKind::ErrorJacobianDistinct => {
+                let (pose, rest) = split(outputs);
+                self.pose(pose);
+                let vectors = rest.len() / 3 / spec.frames.len();
+                for (i, vector) in rest.chunks(3).enumerate() {
+                    self.array(&format!("distinct[{}][{}]", i / vectors, i % vectors), vector);
+                }
+            }
+            FunctionKind::Effects => {
+                let values: Vec<String> = outputs.iter().map(|output| output.expression.clone()).collect();
+                self.assign("*effects", outputs, &values);
+            }
+            FunctionKind::Displacement | FunctionKind::PredictedDisplacement => {
+                self.array("*displacement", outputs)
+            }
+            FunctionKind::GeneralizedErrors => self.rows("errors", outputs),
+            FunctionKind::Covariance => self.rows("covariance", outputs),
+            FunctionKind::SourceDisplacements => self.rows("displacements", outputs),
+        }
+    }
+
+    fn pose(&mut self, values: &[Output]) {
+        self.matrix("*pose", values);
+    }
+
+    /// Six numbers each.
+    fn rows(&mut self, name: &str, values: &[Output]) {
+        for (i, row) in values.chunks(6).enumerate() {
+            self.array(&format!("{name}[{i}]"), row);
+        }
+    }
+
+    fn matrix(&mut self, place: &str, values: &[Output]) {
+        let column = |column: &[Output]| {
+            let entries: Vec<String> = column.iter().map(|entry| entry.expression.clone()).collect();
+            array(self.indent + 4, "", &entries, "")
+        };
+        let columns: Vec<String> = values.chunks(3).map(column).collect();
+        self.assign(place, values, &columns);
+    }
+
+    fn array(&mut self, place: &str, values: &[Output]) {
+        if values.iter().all(|value| value.is_zero) {
+            self.assign(place, values, &[format!("zero; {}", values.len())]);
+        } else {
+            let entries: Vec<String> = values.iter().map(|value| value.expression.clone()).collect();
+            self.assign(place, values, &entries);
+        }
+    }
+
+    fn assign(&mut self, place: &str, values: &[Output], entries: &[String]) {
+        let statement = array(self.indent, &format!("{place} = "), entries, ";");
+        let ready = values.iter().map(|value| value.ready).max().unwrap_or(0);
+        self.assignments.push(Assignment { statement, ready });
     }
 }
 
-/// The values as an array.
-fn array(values: &[Output]) -> TokenStream {
-    if values.iter().all(Output::is_zero) {
-        let length = proc_macro2::Literal::usize_unsuffixed(values.len());
-        return quote!([zero; #length]);
-    }
-    quote!([#(#values),*])
-}
-
-fn documentation(spec: &Spec, kind: FunctionKind, program: &Program, margin: bool) -> Vec<String> {
-    let what: &[&str] = match kind {
+fn documentation(writer: &mut Writer, spec: &Spec, kind: FunctionKind, margin: bool) {
+    let what = match kind {
         FunctionKind::Transforms => {
-            &["`A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position."]
+            "`A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position."
         }
-        FunctionKind::Pose => &["Pose of the tool point in `F_0`: columns x, y, z axis and position."],
-        FunctionKind::ErrorJacobian => {
-            &["Pose and error Jacobian `J_e`: six columns per frame, frame 1 first."]
-        }
-        FunctionKind::JointJacobian => &["Pose and joint Jacobian `∂X_T/∂q`: one column per variable."],
-        FunctionKind::ParameterJacobian => &["Pose and `∂X_T/∂s`: one column per structural parameter."],
+        FunctionKind::Pose => "Pose of the tool point in `F_0`: columns x, y, z axis and position.",
+        FunctionKind::ErrorJacobian => "Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.",
+        FunctionKind::JointJacobian => "Pose and joint Jacobian `∂X_T/∂q`: one column per variable.",
+        FunctionKind::ParameterJacobian => "Pose and `∂X_T/∂s`: one column per structural parameter.",
         FunctionKind::Effects => {
-            &["The errors that the sources cause, one per entry of the description's effects."]
+            "The errors that the sources cause, one per entry of the description's effects."
         }
         FunctionKind::GeneralizedErrors => {
-            &["ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame."]
+            "ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame."
         }
         FunctionKind::ErrorJacobianDistinct => match spec.orientation {
-            Orientation::RotationVector => &[
-                "Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the",
-                "moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.",
-            ],
-            Orientation::EulerYzx => &[
-                "Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the",
-                "moments (rows 1–3) of `e_s e_r e_p`, then their rows 4–6. `abbe::distinct` makes the columns of it.",
-            ],
+            Orientation::RotationVector => {
+                "Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the \
+                 moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it."
+            }
+            Orientation::EulerYzx => {
+                "Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis, then the \
+                 moments (rows 1–3) of `e_s e_r e_p`, then their rows 4–6. `abbe::distinct` makes the columns of it."
+            }
         },
         FunctionKind::Displacement => {
-            &["`ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian."]
+            "`ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a Jacobian."
         }
-        FunctionKind::Covariance => &[
-            "`J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε.",
-        ],
+        FunctionKind::Covariance => {
+            "`J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the order of ε."
+        }
         FunctionKind::PredictedDisplacement => {
-            &["`ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian."]
+            "`ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian."
         }
-        FunctionKind::SourceDisplacements => &[
-            "`ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian.",
-        ],
-        FunctionKind::RealPose => &[
-            "Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1 E_1 … A_n E_n T`.",
-        ],
-        FunctionKind::CompensatorStep => &[
-            "The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.",
-        ],
+        FunctionKind::SourceDisplacements => {
+            "`ΔX` of each source by itself, of a random one for its magnitude: rows as those of a Jacobian."
+        }
+        FunctionKind::RealPose => {
+            "Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: \
+             `A_1 E_1 … A_n E_n T`."
+        }
+        FunctionKind::CompensatorStep => {
+            "The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable."
+        }
     };
-    let mut lines: Vec<String> = what.iter().map(|line| format!(" {line}")).collect();
+    writer.documentation(what);
+    writer.documentation_line("");
     if margin {
-        lines.push(String::new());
-        lines.push(" Returns `cos ρ`; where that is 0, rows 4–6 are not finite.".to_owned());
+        writer.documentation("Returns `cos ρ`; where that is 0, rows 4–6 are not finite.");
+        writer.documentation_line("");
     }
-    lines.push(String::new());
-    lines.push(format!(" {}.", program.operations()));
-    lines
 }

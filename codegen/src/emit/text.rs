@@ -1,8 +1,5 @@
 //! A spec's free text as documentation.
 
-/// How long a line of documentation may be.
-const WIDTH: usize = 96;
-
 /// A text in which nothing is a link or a tag.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
@@ -15,16 +12,16 @@ pub(super) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A text in lines of bounded length, each with its leading space.
-pub(super) fn wrapped(text: &str) -> Vec<String> {
+/// A text in lines of bounded width.
+pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
-            Some(line) if line.chars().count() + word.chars().count() < WIDTH => {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
                 line.push(' ');
                 line.push_str(word);
             }
-            _ => lines.push(format!(" {word}")),
+            _ => lines.push(word.to_owned()),
         }
     }
     lines

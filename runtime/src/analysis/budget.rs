@@ -78,7 +78,7 @@ pub fn error_budget(
     manipulator: &dyn Manipulator,
     workspace: &dyn Workspace,
     u: &[f64],
-    residuals: Option<Vec<Option<Residual>>>,
+    residuals: Option<&[Option<Residual>]>,
     watch: &mut dyn Watch,
 ) -> Result<Budget, Unevaluated> {
     let description = manipulator.description();
@@ -108,7 +108,7 @@ pub fn error_budget(
         u,
         classes: description.sources.iter().map(|source| source.class).collect(),
         home: &home,
-        residuals: residuals.as_deref(),
+        residuals,
         ellipsoid,
         shell: sphere.shell(),
     };

@@ -185,6 +185,7 @@ impl<R: Register> Lane<R> {
         let covariance = &together.covariance;
         let diagonal = [covariance[0], covariance[1], covariance[2]];
         self.trace.add(diagonal[0] + diagonal[1] + diagonal[2], place);
+        #[expect(clippy::needless_range_loop, reason = "four arrays go side by side")]
         for i in 0..3 {
             self.repeatable[i] = together.repeatable[i].abs().max(self.repeatable[i]);
             self.random[i] = together.squares[i].max(self.random[i]);

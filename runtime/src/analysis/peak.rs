@@ -41,6 +41,12 @@ pub(super) fn largest<R: Register>(lanes: Lanes<R>) -> f64 {
     lanes.to_slice().iter().fold(f64::NEG_INFINITY, |largest, value| largest.max(*value))
 }
 
+/// The least of all lanes.
+#[inline(always)]
+pub(super) fn least<R: Register>(lanes: Lanes<R>) -> f64 {
+    lanes.to_slice().iter().fold(f64::INFINITY, |least, value| least.min(*value))
+}
+
 /// The sum of all lanes, from the first on.
 #[inline(always)]
 pub(super) fn sum<R: Register>(lanes: Lanes<R>) -> f64 {

@@ -102,12 +102,13 @@ impl Tally {
         let (plain_max, half_peak_to_peak, relative_to_home) = if worst.is_none() {
             (none, none, none)
         } else {
-            let plain = |i: usize| largest[i].max(-least[i]);
+            // Never −0.
+            let plain = |i: usize| largest[i].max(-least[i]).abs();
             let plain_max = Figures::from([plain(0), plain(1), plain(2), largest[3]]);
             let half = core::array::from_fn(|i| (largest[i] - least[i]) / 2.0);
             // The difference of two draws `t b(q) − t' b(home)` is worst where t and t' are ±1.
             let [x, y, z] = core::array::from_fn(|i| match class {
-                Class::Repeatable => (largest[i] - home[i]).max(home[i] - least[i]),
+                Class::Repeatable => (largest[i] - home[i]).max(home[i] - least[i]).abs(),
                 Class::Random(_) => plain(i) + home[i].abs(),
             });
             let half = if class == Class::Repeatable { half.into() } else { plain_max };
@@ -162,9 +163,9 @@ impl<R: Register> Lane<R> {
     pub(super) fn add(&mut self, deviation: &[Lanes<R>], place: Lanes<R>, weight: Lanes<R>) {
         let &[x, y, z, four, five, six] = deviation else { return };
         let here = [x, y, z];
-        for i in 0..3 {
-            self.least[i] = here[i].min(self.least[i]);
-            self.largest[i] = here[i].max(self.largest[i]);
+        for (row, (least, largest)) in here.iter().zip(self.least.iter_mut().zip(&mut self.largest)) {
+            *least = row.min(*least);
+            *largest = row.max(*largest);
         }
         let square = peak::square(here);
         self.least_square = square.min(self.least_square);
@@ -183,7 +184,7 @@ impl<R: Register> Lane<R> {
 
     /// What was gathered, with the index of the place that is worst.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Tally {
-        let least = |lanes: Lanes<R>| -peak::largest(-lanes);
+        let least = peak::least;
         let [x, y, z] = self.least.map(least);
         let [a, b, c] = self.largest.map(peak::largest);
         let worst = self.square.finish();

@@ -79,7 +79,7 @@ impl<R: Register> Lane<R> {
                 }
             };
             self.remaining[k] = radius.max(self.remaining[k]);
-            least = least.min(-peak::largest(-self.remaining[k]));
+            least = least.min(peak::least(self.remaining[k]));
         }
         self.least = least;
     }

@@ -21,7 +21,6 @@ macro_rules! batch_face {
                 PredictedDisplacement => raw::predicted_displacement(q, s, u, fill(out)?),
                 SourceDisplacements => raw::source_displacements(q, s, u, columns(out)?),
                 Covariance => raw::covariance(q, s, errors.as_chunks().0.try_into().ok()?, columns(out)?),
-                CompensatorStep => raw::compensator_step(q, s, u, columns(out)?, columns(out)?),
             }
             Ok(())
         }

@@ -1,7 +1,7 @@
 //! A batch of a manipulator that has no code for lanes: configuration after configuration.
 
 use super::{Path, Tiles};
-use crate::{Description, Error, Manipulator, Orientation, Pose, real_pose};
+use crate::{Description, Error, Manipulator, Orientation, Pose};
 
 /// What [`Manipulator::batch`] is by default. What is not finite, or not defined, becomes NaN.
 pub(crate) fn one_by_one(
@@ -89,15 +89,6 @@ fn values(
             }
             margin(covariance.concat())
         }
-        Path::CompensatorStep => {
-            let mut transforms = vec![Pose::IDENTITY; frames.len() + 1];
-            manipulator.transforms(q, s, &mut transforms)?;
-            let errors = repeatable()?;
-            let real = real_pose(&transforms, errors.as_chunks().0);
-            let mut values = real.0.concat();
-            values.extend(twists(manipulator, description, q, s)?.concat());
-            values
-        }
     })
 }
 
@@ -105,26 +96,4 @@ fn values(
 fn cosine(pose: &Pose) -> f64 {
     let [x, _, z] = pose.0[0];
     x.hypot(z)
-}
-
-/// `J_q` with rotation-vector rows: of Euler rows `ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂`.
-fn twists(
-    manipulator: &(impl Manipulator + ?Sized),
-    description: &Description,
-    q: &[f64],
-    s: &[f64],
-) -> Result<Vec<[f64; 6]>, Error> {
-    let mut columns = vec![[0.0; 6]; q.len()];
-    let pose = manipulator.joint_jacobian(q, s, &mut columns)?;
-    if description.orientation == Orientation::EulerYzx {
-        let [r11, r21, r31] = pose.0[0];
-        let [sine, cosine] = [-r31 / cosine(&pose), r11 / cosine(&pose)];
-        for [.., four, five, six] in &mut columns {
-            let [spin, roll, pitch] = [*four, *five, *six];
-            *four = roll * sine + pitch * r11;
-            *five = spin + pitch * r21;
-            *six = roll * cosine + pitch * r31;
-        }
-    }
-    Ok(columns)
 }

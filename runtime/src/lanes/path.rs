@@ -7,8 +7,8 @@ use crate::{Description, Error, Orientation, Quantity};
 ///
 /// Arguments are the rows q, s, u, one after the other, and for [`Displacement`](Self::Displacement) and
 /// [`Covariance`](Self::Covariance) six more per frame. Results are rows in the order of the array that the function
-/// of that name fills; where rows 4–6 are Euler angles, all but [`Pose`](Self::Pose) and
-/// [`CompensatorStep`](Self::CompensatorStep) give one row more, `cos ρ`: where it is 0 there are no rows 4–6.
+/// of that name fills; where rows 4–6 are Euler angles, all but [`Pose`](Self::Pose) give one row more, `cos ρ`: where
+/// it is 0 there are no rows 4–6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Path {
     /// The pose of the tool point: 12.
@@ -25,13 +25,11 @@ pub enum Path {
     SourceDisplacements,
     /// `J_e diag(σ²) J_eᵀ` of any variances of ε: 36.
     Covariance,
-    /// The real pose and `J_q` with rotation-vector rows: 12 + 6 per variable.
-    CompensatorStep,
 }
 
 impl Path {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Pose,
         Self::ErrorJacobian,
         Self::DistinctErrorJacobian,
@@ -39,7 +37,6 @@ impl Path {
         Self::PredictedDisplacement,
         Self::SourceDisplacements,
         Self::Covariance,
-        Self::CompensatorStep,
     ];
 
     /// The name of the generated function.
@@ -52,7 +49,6 @@ impl Path {
             Self::PredictedDisplacement => "predicted_displacement",
             Self::SourceDisplacements => "source_displacements",
             Self::Covariance => "covariance",
-            Self::CompensatorStep => "compensator_step",
         }
     }
 
@@ -77,7 +73,6 @@ impl Path {
             Self::Displacement | Self::PredictedDisplacement => 6 + euler,
             Self::SourceDisplacements => 6 * description.sources.len() + euler,
             Self::Covariance => 36 + euler,
-            Self::CompensatorStep => 12 + 6 * description.variables.len(),
         }
     }
 

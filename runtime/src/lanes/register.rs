@@ -4,7 +4,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use bytemuck::{Pod, TransparentWrapper, Zeroable};
+use bytemuck::{Pod, Zeroable};
 
 use crate::Scalar;
 use crate::sin_cos::{self, Real};
@@ -118,9 +118,11 @@ macro_rules! by_array {
 pub(super) use by_array;
 
 /// A number per lane: the [`Scalar`] of a batch.
-#[derive(Clone, Copy, Debug, Pod, Zeroable, TransparentWrapper)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
-pub struct Lanes<R: Register>(R);
+pub struct Lanes<R>(R)
+where
+    R: Register;
 
 /// A truth per lane: all bits of the lane, or none.
 #[derive(Clone, Copy, Debug)]

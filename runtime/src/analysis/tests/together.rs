@@ -141,7 +141,8 @@ fn compensation_leaves_what_it_is_said_to() {
     let left = |residual: Residual| {
         let sources = Pps.description().sources.iter();
         let residuals = sources.map(|source| (source.class == Class::Repeatable).then_some(residual));
-        let budget = error_budget(&Pps, &workspace, &[], Some(residuals.collect()), &mut ()).unwrap();
+        let residuals = residuals.collect::<Vec<_>>();
+        let budget = error_budget(&Pps, &workspace, &[], Some(&residuals), &mut ()).unwrap();
         (budget.compensation.unwrap(), budget.combined)
     };
     let (perfect, combined) = left(Residual::Share(0.0));

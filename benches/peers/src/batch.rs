@@ -1,0 +1,96 @@
+//! Many configurations at once: `Manipulator::batch`, as users call it.
+
+use std::hint::black_box;
+use std::ops::Range;
+
+use abbe::Manipulator;
+use abbe::lanes::{InstructionSet, Path, Tiles};
+
+use crate::row::{Inputs, Kind, Output, Row, Run, Side};
+
+/// So few configurations in a call that all they take and give stays in the L1 cache.
+pub const FEW: usize = 16;
+
+/// As many as the interpreter evaluates together at the widest.
+pub const MANY: usize = 64;
+
+/// A row for every kind and every instruction set of this machine, for calls with `block` configurations.
+pub fn rows(
+    name: &str,
+    side: Side,
+    robot: &'static dyn Manipulator,
+    block: usize,
+    inputs: &Inputs,
+) -> Vec<Row> {
+    InstructionSet::all()
+        .flat_map(|set| Kind::ALL.map(|kind| (set, kind)))
+        .map(|(set, kind)| Row {
+            name: format!("{name}, {block} at once, {}", set.name()),
+            side,
+            kind,
+            block,
+            run: Box::new(Batch::new(robot, set, kind, block, inputs)),
+        })
+        .collect()
+}
+
+/// The arguments of all blocks, made beforehand, and the results of one.
+struct Batch {
+    robot: &'static dyn Manipulator,
+    path: Path,
+    has_pose: bool,
+    size: usize,
+    blocks: Vec<Tiles>,
+    results: Tiles,
+}
+
+impl Batch {
+    fn new(
+        robot: &'static dyn Manipulator,
+        set: InstructionSet,
+        kind: Kind,
+        size: usize,
+        inputs: &Inputs,
+    ) -> Self {
+        let path = match kind {
+            Kind::Dense => Path::ErrorJacobian,
+            Kind::Distinct => Path::DistinctErrorJacobian,
+            Kind::Displacement => Path::Displacement,
+            Kind::Covariance => Path::Covariance,
+        };
+        let description = robot.description();
+        assert!(description.parameters.is_empty() && description.inputs.is_empty(), "q and what is given");
+        let indices: Vec<usize> = (0..inputs.q.len() / inputs.variables).collect();
+        let block = |indices: &[usize]| {
+            let mut tiles = Tiles::new(set, path.arguments(&description), indices.len());
+            for (configuration, index) in indices.iter().enumerate() {
+                let values = inputs.q(*index).iter().chain(inputs.given(kind, *index));
+                values.enumerate().for_each(|(row, value)| tiles.set_value(row, configuration, *value));
+            }
+            tiles.pad();
+            tiles
+        };
+        let blocks = indices.chunks(size).map(block).collect();
+        let mut results = Tiles::new(set, path.results(&description), size);
+        (0..results.rows()).for_each(|row| results.fill_row(row, f64::NAN));
+        Self { robot, path, has_pose: kind.has_pose(), size, blocks, results }
+    }
+}
+
+impl Run for Batch {
+    /// The first block of the range, as often as there are blocks in it: there is nothing to be guessed or learned.
+    fn run(&mut self, _: &Inputs, range: Range<usize>, _: &mut Output) {
+        let arguments = &self.blocks[range.start / self.size];
+        for _ in 0..range.len().div_ceil(self.size) {
+            self.robot.batch(self.path, black_box(arguments), &mut self.results).expect("the right counts");
+            black_box(&mut self.results);
+        }
+    }
+
+    fn show(&self, index: usize, output: &mut Output) {
+        let (rows, configuration) = (self.results.rows(), index % self.size);
+        let pose = if self.has_pose { 12 } else { 0 };
+        self.results.copy_rows(0..pose, configuration, &mut output.pose);
+        self.results.copy_rows(pose..rows, configuration, &mut output.result);
+    }
+}

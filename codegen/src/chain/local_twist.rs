@@ -1,0 +1,38 @@
+//! What a symbol does to one transform by itself: for the loops of long chains.
+
+use super::symbol_jacobian::twist;
+use super::walk::walk;
+use crate::expr::Symbol;
+use crate::graph::{Graph, Node};
+use crate::spec::Spec;
+
+/// The velocity of the origin of the frame before a transform and the rotation, in its axes, that a symbol causes.
+#[derive(Clone, Debug)]
+pub struct LocalTwist {
+    /// The transform, from 0; the tool is the last.
+    pub transform: usize,
+    /// Which of the symbols it is.
+    pub column: usize,
+    /// Velocity and rotation.
+    pub twist: [Node; 6],
+}
+
+/// Those that are not zero, transform by transform: `dA_i/dx A_i⁻¹`.
+pub(super) fn local_twists(graph: &mut Graph, spec: &Spec, symbols: &[Symbol]) -> Vec<LocalTwist> {
+    let mut found = Vec::new();
+    let origin = [graph.zero(); 3];
+    for (transform, factors) in spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]).enumerate()
+    {
+        let mut steps = Vec::new();
+        let identity = graph.identity();
+        walk(graph, identity, factors, &mut steps);
+        for (column, symbol) in symbols.iter().enumerate() {
+            let [velocity, turn] = twist(graph, &steps, *symbol, origin);
+            if [velocity, turn] != [origin; 2] {
+                let ([a, b, c], [d, e, f]) = (velocity, turn);
+                found.push(LocalTwist { transform, column, twist: [a, b, c, d, e, f] });
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,206 @@
+//! Lines of Rust, laid out so that rustfmt leaves them as they are.
+
+use super::text::wrapped;
+
+/// How long a line may be.
+const LINE: usize = 100;
+
+/// How wide an expression, the entries of an array or the arguments of a call may be on one line.
+pub(super) const NARROW: usize = 60;
+
+/// How wide entries without operators may be for several of them to share a line.
+const SHORT: usize = 10;
+
+/// How far a block is indented.
+const STEP: usize = 4;
+
+/// Source text that grows line by line.
+pub(super) struct Writer {
+    text: String,
+    depth: usize,
+}
+
+impl Writer {
+    pub(super) fn new() -> Self {
+        Self { text: String::new(), depth: 0 }
+    }
+
+    pub(super) fn finish(self) -> String {
+        self.text
+    }
+
+    /// How far lines are indented.
+    pub(super) fn indent(&self) -> usize {
+        STEP * self.depth
+    }
+
+    /// Lines, each indented as far as blocks are open.
+    pub(super) fn lines(&mut self, lines: &str) {
+        for line in lines.lines() {
+            self.text.extend(std::iter::repeat_n(' ', self.indent()));
+            self.text.push_str(line);
+            self.text.push('\n');
+        }
+    }
+
+    pub(super) fn blank(&mut self) {
+        self.text.push('\n');
+    }
+
+    /// The head of a block, `head {`.
+    pub(super) fn open(&mut self, head: &str) {
+        self.lines(&format!("{head} {{"));
+        self.depth += 1;
+    }
+
+    pub(super) fn close(&mut self, end: &str) {
+        self.depth -= 1;
+        self.lines(end);
+    }
+
+    /// A paragraph of documentation, in as many lines as it takes.
+    pub(super) fn documentation(&mut self, paragraph: &str) {
+        for line in wrapped(paragraph, LINE - self.indent() - "/// ".len()) {
+            self.documentation_line(&line);
+        }
+    }
+
+    /// A line of documentation as it is; an empty one parts paragraphs.
+    pub(super) fn documentation_line(&mut self, line: &str) {
+        let line = line.replace(char::is_control, " ");
+        self.lines(format!("/// {line}").trim_end());
+    }
+
+    /// `use path::{first, second, …};`.
+    pub(super) fn imports(&mut self, path: &str, names: &[&str]) {
+        let line = format!("use {path}::{{{}}};", names.join(", "));
+        if fits(self.indent(), width(&line)) {
+            return self.lines(&line);
+        }
+        let mut lines = format!("use {path}::{{\n");
+        filled(&mut lines, self.indent(), names);
+        self.lines(&(lines + "};"));
+    }
+
+    /// A function: `name(first, second, …) result {`, with all that stands before its arguments as the name.
+    pub(super) fn function(&mut self, name: &str, arguments: &[String], result: &str, body: &[String]) {
+        let head = format!("{name}({}){result} {{", arguments.join(", "));
+        let one_line = fits(self.indent(), width(&head));
+        match (one_line, body.is_empty()) {
+            (true, true) => return self.lines(&format!("{head}}}")),
+            (true, false) => self.lines(&head),
+            (false, _) => {
+                let mut lines = format!("{name}(\n");
+                one_below_the_other(&mut lines, arguments);
+                self.lines(&(lines + ")" + result + " {"));
+            }
+        }
+        self.depth += 1;
+        body.iter().for_each(|lines| self.lines(lines));
+        self.close("}");
+    }
+
+    /// `before[first, second, …]after`.
+    pub(super) fn array(&mut self, before: &str, entries: &[String], after: &str) {
+        let lines = array(self.indent(), before, entries, after);
+        self.lines(&lines);
+    }
+}
+
+/// `before[first, second, …]after` at an indentation: on one line if it is narrow, short entries filling lines,
+/// others one below the other.
+pub(super) fn array(indent: usize, before: &str, entries: &[String], after: &str) -> String {
+    if let Some(line) = on_one_line(indent, before, ["[", "]"], entries, after) {
+        return line;
+    }
+    if let [entry] = entries {
+        return format!("{before}[{entry}]{after}");
+    }
+    let mut lines = format!("{before}[\n");
+    if entries.iter().all(|entry| width(entry) <= SHORT && !entry.contains([' ', '('])) {
+        filled(&mut lines, indent, entries);
+    } else {
+        one_below_the_other(&mut lines, entries);
+    }
+    lines + "]" + after
+}
+
+/// `before[first, second, …]after` where it is a pattern: narrow, or one entry below the other.
+pub(super) fn pattern(indent: usize, before: &str, entries: &[String], after: &str) -> String {
+    on_one_line(indent, before, ["[", "]"], entries, after).unwrap_or_else(|| {
+        let mut lines = format!("{before}[\n");
+        one_below_the_other(&mut lines, entries);
+        lines + "]" + after
+    })
+}
+
+/// `name(first, second, …)` at an indentation: narrow, or one argument below the other.
+pub(super) fn call(indent: usize, name: &str, arguments: &[String]) -> String {
+    on_one_line(indent, name, ["(", ")"], arguments, ",").map_or_else(
+        || {
+            let mut lines = format!("{name}(\n");
+            one_below_the_other(&mut lines, arguments);
+            lines + ")"
+        },
+        |line| line.trim_end_matches(',').to_owned(),
+    )
+}
+
+fn on_one_line(
+    indent: usize,
+    before: &str,
+    [open, close]: [&str; 2],
+    entries: &[String],
+    after: &str,
+) -> Option<String> {
+    let inner = entries.join(", ");
+    let line = format!("{before}{open}{inner}{close}{after}");
+    let fits = width(&inner) <= NARROW && indent + width(&line) <= LINE && !inner.contains('\n');
+    (entries.is_empty() || fits).then_some(line)
+}
+
+/// Entries one after the other, as many as a line holds.
+fn filled(lines: &mut String, indent: usize, entries: &[impl AsRef<str>]) {
+    let mut column = 0;
+    for entry in entries {
+        let needed = width(entry.as_ref()) + ",".len();
+        // rustfmt leaves the last column free.
+        if column > 0 && column + 1 + needed >= LINE {
+            lines.push('\n');
+            column = 0;
+        }
+        if column == 0 {
+            lines.push_str("    ");
+            column = indent + STEP;
+        } else {
+            lines.push(' ');
+            column += 1;
+        }
+        lines.push_str(entry.as_ref());
+        lines.push(',');
+        column += needed;
+    }
+    lines.push('\n');
+}
+
+fn one_below_the_other(lines: &mut String, entries: &[String]) {
+    for entry in entries {
+        for line in entry.lines() {
+            lines.push_str("    ");
+            lines.push_str(line);
+            lines.push('\n');
+        }
+        lines.truncate(lines.trim_end().len());
+        lines.push_str(",\n");
+    }
+}
+
+/// How many columns a text takes.
+pub(super) fn width(text: &str) -> usize {
+    text.chars().count()
+}
+
+/// Whether a line of so many columns fits at an indentation.
+pub(super) fn fits(indent: usize, columns: usize) -> bool {
+    indent + columns <= LINE
+}

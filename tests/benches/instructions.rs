@@ -1,0 +1,118 @@
+//! Instruction counts, which do not depend on what else the machine does: generated functions, a batch by the
+//! interpreter, and generation. `tests/instructions.rs` holds them against `golden/instructions.txt`.
+//!
+//! `cargo bench -p abbe-tests --bench instructions --features instructions`, with valgrind and the gungraun-runner of the same version as the crate.
+#![allow(missing_docs)] // of what gungraun's macros make
+
+use std::hint::black_box;
+
+use abbe::Manipulator;
+use abbe::lanes::{InstructionSet, Path, Tiles};
+use abbe_codegen::emit;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
+
+/// What is counted; everything before it is not.
+type Work = Box<dyn FnMut()>;
+
+/// How many configurations the batch has.
+const COUNT: usize = 16;
+
+macro_rules! functions {
+    ($($module:ident),+) => {
+        /// A function of a generated module at one configuration.
+        mod functions {
+            use super::{Path, Work, black_box};
+            $(pub(super) fn $module(path: Path) -> Work {
+                use abbe_manipulators::$module::{
+                    DESCRIPTION, DISTINCT, ERRORS, FRAMES, Parameters, VARIABLES, raw,
+                };
+                let q: [f64; VARIABLES] = core::array::from_fn(|i| DESCRIPTION.variables[i].home + 0.1);
+                let s = Parameters::NOMINAL.to_array();
+                let errors = [[1e-3; 6]; FRAMES];
+                let (mut pose, mut columns) = ([[0.0; 3]; 4], [[0.0; 6]; ERRORS]);
+                let mut distinct = [[[0.0; 3]; DISTINCT]; FRAMES];
+                let (mut shift, mut covariance) = ([0.0; 6], [[0.0; 6]; 6]);
+                match path {
+                    Path::Pose => Box::new(move || {
+                        raw::pose(black_box(&q), &s, &mut pose);
+                        black_box(&mut pose);
+                    }),
+                    Path::ErrorJacobian => Box::new(move || {
+                        let _ = black_box(raw::error_jacobian(black_box(&q), &s, &mut pose, &mut columns));
+                        black_box((&mut pose, &mut columns));
+                    }),
+                    Path::DistinctErrorJacobian => Box::new(move || {
+                        let _ = black_box(raw::error_jacobian_distinct(black_box(&q), &s, &mut pose, &mut distinct));
+                        black_box((&mut pose, &mut distinct));
+                    }),
+                    Path::Displacement => Box::new(move || {
+                        let _ = black_box(raw::displacement(black_box(&q), &s, black_box(&errors), &mut shift));
+                        black_box(&mut shift);
+                    }),
+                    Path::Covariance => Box::new(move || {
+                        let _ = black_box(raw::covariance(black_box(&q), &s, black_box(&errors), &mut covariance));
+                        black_box(&mut covariance);
+                    }),
+                    other => panic!("{other:?} is not counted"),
+                }
+            })+
+        }
+    };
+}
+functions!(iiwa, machine3, pps, puma560);
+
+fn spec(name: &str) -> Spec {
+    let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).expect("a shipped robot");
+    Spec::parse(name, shipped.spec).expect("shipped specs are right")
+}
+
+/// A batch by the interpreter, on what every machine has.
+fn interpreter(name: &str, path: Path) -> Work {
+    let robot = Interpreter::new(Box::leak(Box::new(spec(name))));
+    let (description, set) = (robot.description(), InstructionSet::BASELINE);
+    let mut arguments = Tiles::new(set, path.arguments(&description), COUNT);
+    let mut results = Tiles::new(set, path.results(&description), COUNT);
+    (0..arguments.rows()).for_each(|row| arguments.fill_row(row, 0.1));
+    Box::new(move || robot.batch(path, black_box(&arguments), &mut results).expect("the right counts"))
+}
+
+/// The file of a spec.
+fn generation(name: &str) -> Work {
+    let spec = spec(name);
+    Box::new(move || drop(black_box(emit::rust(black_box(&spec)))))
+}
+
+macro_rules! counted {
+    ($($module:ident),+) => {$(
+        #[library_benchmark]
+        #[bench::pose(functions::$module(Path::Pose))]
+        #[bench::error_jacobian(functions::$module(Path::ErrorJacobian))]
+        #[bench::error_jacobian_distinct(functions::$module(Path::DistinctErrorJacobian))]
+        #[bench::displacement(functions::$module(Path::Displacement))]
+        #[bench::covariance(functions::$module(Path::Covariance))]
+        fn $module(mut work: Work) -> Work {
+            work();
+            work
+        }
+    )+};
+}
+counted!(iiwa, machine3, pps, puma560);
+
+#[library_benchmark]
+#[bench::interpreted_error_jacobian_distinct(interpreter("puma560", Path::DistinctErrorJacobian))]
+#[bench::interpreted_displacement(interpreter("puma560", Path::Displacement))]
+#[bench::generation(generation("puma560"))]
+#[bench::generation_general6r(generation("general6r"))]
+fn whole(mut work: Work) -> Work {
+    work();
+    work
+}
+
+library_benchmark_group!(name = counts, benchmarks = [iiwa, machine3, pps, puma560, whole]);
+main!(
+    config = LibraryBenchmarkConfig::default().tool(Callgrind::with_args(["--cache-sim=no"])),
+    library_benchmark_groups = counts
+);

@@ -1,0 +1,65 @@
+//! A manipulator, and the configurations at which it is measured.
+
+use abbe::analysis::sampling::{joint_sample, nominal_inputs, nominal_parameters};
+use abbe::lanes::Path;
+use abbe::{Manipulator, Pose};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::Shipped;
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput};
+
+/// How many configurations a call of a batch gets: what it takes and gives stays in the caches, and the interpreter evaluates as many together.
+pub(crate) const COUNT: usize = 64;
+
+pub(crate) struct Subject {
+    pub(crate) name: &'static str,
+    pub(crate) compiled: &'static dyn Manipulator,
+    pub(crate) interpreter: Interpreter<'static>,
+    /// q of each configuration, within the limits.
+    pub(crate) variables: Vec<Vec<f64>>,
+    pub(crate) parameters: Vec<f64>,
+    pub(crate) inputs: Vec<f64>,
+    /// One for each generalized error: ε, and σ² too.
+    pub(crate) errors: Vec<f64>,
+}
+
+impl Subject {
+    pub(crate) fn new(shipped: &Shipped) -> Self {
+        // As long as the process.
+        let spec: &'static Spec =
+            Box::leak(Box::new(Spec::parse(shipped.name, shipped.spec).expect("shipped specs are right")));
+        let description = shipped.compiled.description();
+        let moved: Vec<usize> = (0..description.variables.len()).collect();
+        Self {
+            name: shipped.name,
+            compiled: shipped.compiled,
+            interpreter: Interpreter::new(spec),
+            variables: (0..COUNT).map(|index| joint_sample(&description, 1.0, &moved, index)).collect(),
+            parameters: nominal_parameters(&description),
+            inputs: nominal_inputs(&description),
+            errors: (0..6 * description.frames.len()).map(|k| 1e-3 / (1 + k) as f64).collect(),
+        }
+    }
+
+    /// The group of a path: times per configuration of this manipulator.
+    pub(crate) fn group<'c>(
+        &self,
+        criterion: &'c mut Criterion,
+        function: &str,
+    ) -> BenchmarkGroup<'c, WallTime> {
+        let mut group = criterion.benchmark_group(format!("{}/{}", self.name, function));
+        group.throughput(Throughput::Elements(COUNT as u64));
+        group
+    }
+
+    /// `A_1 … A_n` and the tool of each configuration.
+    pub(crate) fn transforms(&self) -> Vec<Vec<[[f64; 3]; 4]>> {
+        let of = |q: &Vec<f64>| {
+            let mut transforms = vec![Pose::IDENTITY; self.errors.len() / 6 + 1];
+            self.compiled.transforms(q, &self.parameters, &mut transforms).expect("within limits");
+            transforms.iter().map(|pose| pose.0).collect()
+        };
+        self.variables.iter().map(of).collect()
+    }
+}

@@ -1,0 +1,93 @@
+//! Long chains are generated as loops over their frames: they give what the straight-line programs give, alone and in
+//! batches, and obey the laws.
+
+use abbe::lanes::{InstructionSet, Path, Tiles};
+use abbe::{Manipulator, Pose};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_tests::chains::long_chain;
+use abbe_tests::golden::long::{FRAMES, Long, PARAMETERS, VARIABLES};
+
+/// How many configurations: more than one register holds, and no multiple of that.
+const COUNT: usize = 21;
+
+/// Numbers from −1 to 1, the same every time.
+fn number(index: usize) -> f64 {
+    (index as f64 * 0.618 + 0.1).sin()
+}
+
+fn spec() -> Spec {
+    Spec::parse("long.toml", &long_chain()).unwrap()
+}
+
+/// Equal to 1e-12 of the largest.
+fn assert_close(what: &str, found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    for (i, (a, b)) in found.iter().zip(expected).enumerate() {
+        assert!((a - b).abs() <= 1e-12 * largest, "{what}: {a} instead of {b} at {i}");
+    }
+}
+
+#[test]
+fn batches_are_those_of_the_straight_line_program() {
+    let spec = spec();
+    let straight = Interpreter::new(&spec);
+    let description = straight.description();
+    assert_eq!(description, Long.description());
+    for set in InstructionSet::all() {
+        for path in Path::ALL {
+            let mut arguments = Tiles::new(set, path.arguments(&description), COUNT);
+            for configuration in 0..COUNT {
+                for row in 0..arguments.rows() {
+                    // Parameters and inputs are positive, and so are variances.
+                    let value = number(row + 31 * configuration);
+                    let value = if row < VARIABLES { value } else { 0.1 + value * value };
+                    arguments.set_value(row, configuration, value);
+                }
+            }
+            let mut results = [(); 2].map(|()| Tiles::new(set, path.results(&description), COUNT));
+            let [looped, straight_line] = &mut results;
+            Long.batch(path, &arguments, looped).unwrap();
+            straight.batch(path, &arguments, straight_line).unwrap();
+            for configuration in 0..COUNT {
+                let [found, expected] = results.each_ref().map(|results| {
+                    let mut values = vec![0.0; results.rows()];
+                    results.copy_rows(0..results.rows(), configuration, &mut values);
+                    values
+                });
+                let what = format!("{set:?}, {}", path.name());
+                assert!(expected.iter().any(|value| *value != 0.0), "{what}: nothing to compare");
+                assert_close(&what, &found, &expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn single_configurations_are_those_of_the_straight_line_program() {
+    let spec = spec();
+    let straight = Interpreter::new(&spec);
+    for sample in 0..COUNT {
+        let q: Vec<f64> = (0..VARIABLES).map(|i| number(i + 57 * sample)).collect();
+        let s: Vec<f64> = (0..PARAMETERS).map(|i| 0.4 + 0.1 * number(i + sample)).collect();
+        let [mut found, mut expected] = [(); 2].map(|()| vec![Pose::IDENTITY; FRAMES + 1]);
+        Long.transforms(&q, &s, &mut found).unwrap();
+        straight.transforms(&q, &s, &mut expected).unwrap();
+        let flat = |poses: &[Pose]| poses.iter().flat_map(|pose| pose.0.concat()).collect::<Vec<f64>>();
+        assert_close("transforms", &flat(&found), &flat(&expected));
+        let [mut found, mut expected] = [(); 2].map(|()| vec![[0.0; 6]; VARIABLES]);
+        Long.joint_jacobian(&q, &s, &mut found).unwrap();
+        straight.joint_jacobian(&q, &s, &mut expected).unwrap();
+        assert_close("joint Jacobian", found.as_flattened(), expected.as_flattened());
+        let [mut found, mut expected] = [(); 2].map(|()| vec![[0.0; 6]; PARAMETERS]);
+        Long.parameter_jacobian(&q, &s, &mut found).unwrap();
+        straight.parameter_jacobian(&q, &s, &mut expected).unwrap();
+        assert_close("parameter Jacobian", found.as_flattened(), expected.as_flattened());
+    }
+}
+
+#[test]
+fn loops_obey_the_laws() {
+    abbe::laws::all(&Long, 60).unwrap_or_else(|failure| panic!("{failure}"));
+}
