@@ -45,9 +45,10 @@ pub fn norms(rows: &[f64; 6]) -> (f64, f64) {
 ///
 /// `step` gives the real pose at a configuration and fills in the nominal `J_q` with rotation-vector rows, one column
 /// for each variable: what a generated `compensator_step` computes; `columns` is room for them. It is asked
-/// `ITERATIONS + 1` times. The best configuration that was seen is returned: it is never worse than `start`, if that is within
-/// the limits. Where not all can be had the tool point comes first (1 rad counts as 1 mm). Whether the target is reached is what [`Compensated::after`] says: it is not where a
-/// limit, too few joints, or a singularity forbid it. An error is what `step` returns as such.
+/// `ITERATIONS + 1` times. The best configuration that was seen is returned: it is never worse than `start`, if that
+/// is within the limits. Where not all can be had the tool point comes first (1 rad counts as 1 mm). Whether the
+/// target is reached is what [`Compensated::after`] says: it is not where a limit, too few joints, or a singularity
+/// forbid it. An error is what `step` returns as such.
 pub fn compensate<Q, C>(
     description: &Description<'_>,
     target: &Pose,
