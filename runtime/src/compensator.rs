@@ -3,16 +3,24 @@
 //! With `d = q′ − q` every iteration solves `min ‖X_real(q′) ⊖ X*‖² + λ ‖d‖²` on the nominal `J_q`,
 //! `d ← (JᵀJ + λ)⁻¹ Jᵀ (r + J d)`, `r = X* ⊖ X_real(q′)`. The one formula gives the exact solution where there are six joints
 //! that move the tool in six ways, the one nearest to `q` where there are more, least squares where there are fewer, and
-//! a bounded step where `J` loses rank. As `J` differs from the real one by what the errors turn, what is missing
-//! shrinks by about that share each time: linear convergence, and the exact solution in the end. Nothing is allocated.
+//! a bounded step where `J` loses rank. As the real Jacobian differs from `J` by what the errors turn, what is missing
+//! shrinks each time to a share of about the errors' angles over the least singular value of `J` (in metres and rad).
+//!
+//! What is left after [`ITERATIONS`], on the exact chain, as the tests hold it: less than 0.001 mm and 1 µrad within the
+//! limits, for errors of millimetres and milliradians, where that singular value is above 0.1; of the paper's positioner
+//! over its treatment volume, 5.4 mm become less than 10⁻⁵ mm, and a turn is left only where a joint is at its limit. Nothing is
+//! allocated.
 
 use crate::{Description, Error, Orientation, Pose, Scalar, Variable, VariableKind, deviation};
 
 /// How many times the real chain is improved on; it is evaluated once more to know what is left.
-pub const ITERATIONS: usize = 4;
+pub const ITERATIONS: usize = 6;
 
 /// λ, in rad and metres: `√λ ‖d‖` bounds what it leaves, a nanometre where the correction is a millimetre.
-const DAMPING: f64 = 1e-12;
+const DAMPING: f64 = 1e-14;
+
+/// What a rad counts as, in metres: so little that the tool point comes first where not all can be had.
+const LEVER: f64 = 1e-3;
 
 /// Corrected joint commands, and what they gain.
 ///
@@ -37,10 +45,10 @@ pub fn norms(rows: &[f64; 6]) -> (f64, f64) {
 ///
 /// `step` gives the real pose at a configuration and fills in the nominal `J_q` with rotation-vector rows, one column
 /// for each variable: what a generated `compensator_step` computes; `columns` is room for them. It is asked
-/// `ITERATIONS + 1` times. The best configuration that was seen is returned: it is never worse than `start`, if that is within
-/// the limits. With fewer than six joints the tool point comes first (1 rad counts as 1 mm), else
-/// both count alike (1 rad as 1 m). Whether the target is reached is what [`Compensated::after`] says: it is not where a
-/// limit, too few joints, or a singularity forbid it. An error is what `step` returns as such.
+/// `ITERATIONS + 1` times. The best configuration that was seen is returned: it is never worse than `start`, if that
+/// is within the limits. Where not all can be had the tool point comes first (1 rad counts as 1 mm). Whether the
+/// target is reached is what [`Compensated::after`] says: it is not where a limit, too few joints, or a singularity
+/// forbid it. An error is what `step` returns as such.
 pub fn compensate<Q, C>(
     description: &Description<'_>,
     target: &Pose,
@@ -53,8 +61,7 @@ where
     C: AsMut<[[f64; 6]]>,
 {
     let Description { variables, length, .. } = *description;
-    let lever = if variables.len() < 6 { 1e-3 } else { 1.0 };
-    let problem = Problem { variables, metre: 1.0 / length.in_metres(), lever };
+    let problem = Problem { variables, metre: 1.0 / length.in_metres() };
     let error = |real: &Pose| deviation(Orientation::RotationVector, target, real);
 
     let before = error(&step(start, &mut columns)?);
@@ -79,13 +86,11 @@ struct Problem<'a> {
     variables: &'a [Variable<'a>],
     /// A metre in the manipulator's unit.
     metre: f64,
-    /// What a rad counts as, in metres.
-    lever: f64,
 }
 
 impl Problem<'_> {
     fn weighted(&self, [x, y, z, a, b, c]: [f64; 6]) -> [f64; 6] {
-        let (length, angle) = (1.0 / self.metre, self.lever);
+        let (length, angle) = (1.0 / self.metre, LEVER);
         [x * length, y * length, z * length, a * angle, b * angle, c * angle]
     }
 

@@ -1,8 +1,8 @@
 //! The compensator on the true model: corrected commands put the real tool where the ideal one is.
 
 use abbe::analysis::{Axis, Presentation, Workspace, corrected, presented_volume, sampling};
-use abbe::compensator::{Compensated, norms};
-use abbe::{Error, Manipulator, Orientation, Quantity, deviation};
+use abbe::compensator::norms;
+use abbe::{Error, Manipulator, Orientation, Quantity, VariableKind, deviation};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, iiwa, pps};
@@ -38,6 +38,7 @@ fn within(robot: &dyn Manipulator, q: &[f64]) -> bool {
 fn the_treatment_volume_is_compensated_within_limits() {
     let (volume, u) = (treatment_volume(), pps::Inputs::NOMINAL);
     let (mut before, mut after, mut turned) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut held, mut turned_at_limit) = (0, 0.0_f64);
     for index in 0..volume.len() {
         let (mut q, mut s) = ([0.0; pps::VARIABLES], pps::Parameters::NOMINAL.to_array());
         volume.fill(index, &mut q, &mut s).unwrap();
@@ -53,11 +54,16 @@ fn the_treatment_volume_is_compensated_within_limits() {
         let left = deviation(Orientation::RotationVector, &pps::pose(&q, &s).unwrap(), &real);
         before = before.max(norms(&found.before).0);
         after = after.max(norms(&left).0);
-        turned = turned.max(norms(&left).1);
+        // A limit takes the turn, not the tool point.
+        let at_limit = pps::DESCRIPTION.variables.iter().zip(&found.q).any(|(v, q)| v.limits.contains(q));
+        held += usize::from(at_limit);
+        let turn = if at_limit { &mut turned_at_limit } else { &mut turned };
+        *turn = turn.max(norms(&left).1);
     }
-    println!("pps: {before} mm down to {after} mm and {turned} rad, {} configurations", volume.len());
+    println!("pps: {before} mm down to {after} mm, {turned} rad; {held} at a limit, {turned_at_limit} rad");
     assert!((5.3..5.6).contains(&before));
-    assert!(after < 1e-6 && turned < 1e-9, "{after} mm, {turned} rad");
+    assert!(after < 1e-5 && turned < 1e-9 && turned_at_limit < 3e-3, "{after} mm, {turned} rad");
+    assert!(held < volume.len() / 10, "{held}");
 }
 
 /// A spec with errors beside its own: half a millimetre and a milliradian here and there.
@@ -96,61 +102,123 @@ fn samples(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(sample).map(inner).collect()
 }
 
-struct Judged {
-    q: Vec<f64>,
-    found: Compensated<Vec<f64>>,
-    before: (f64, f64),
-    after: (f64, f64),
-}
-
-fn judged(robot: &dyn Manipulator) -> Vec<Judged> {
+/// The least singular value of the nominal `J_q`, in metres and rad.
+fn least_singular_value(robot: &dyn Manipulator, q: &[f64], s: &[f64]) -> f64 {
     let description = robot.description();
-    let (s, u) = (sampling::nominal_parameters(&description), sampling::nominal_inputs(&description));
-    let each = samples(robot, 400).into_iter().map(|q| {
-        let found = corrected(robot, None, &q, &s, &u).unwrap();
-        let (before, after) = (norms(&found.before), norms(&found.after));
-        assert!(within(robot, &found.q));
-        Judged { q, found, before, after }
-    });
-    each.collect()
+    let metre = 1.0 / description.length.in_metres();
+    let column = |j: usize| {
+        let unit = match description.variables[j].kind {
+            VariableKind::Revolute => 1.0,
+            VariableKind::Prismatic => metre,
+        };
+        // Central differences: rotation vectors, whatever the rows of its Jacobians are.
+        let h = 1e-6 * unit;
+        let pose = |step: f64| {
+            let mut q = q.to_vec();
+            q[j] += step;
+            robot.pose(&q, s).unwrap()
+        };
+        let rows = deviation(Orientation::RotationVector, &pose(-h), &pose(h));
+        let scale = |i: usize| if i < 3 { metre } else { 1.0 };
+        nalgebra::Vector6::from_fn(|i, _| rows[i] / scale(i) * unit / (2.0 * h))
+    };
+    let columns: Vec<_> = (0..q.len()).map(column).collect();
+    let jacobian = nalgebra::Matrix6xX::from_columns(&columns);
+    let rows = if q.len() < 6 { 3 } else { 6 };
+    jacobian.rows(0, rows).singular_values().iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// The share of configurations with less than this left, and that nothing became worse.
-fn compensated(name: &str, angle: bool) -> f64 {
+/// What is left where the arm is far from singular, as the module documentation has it; nothing becomes worse anywhere.
+fn compensates(name: &str, whole: bool, regular_above: f64) {
     let spec = with_errors(name);
     let robot = Interpreter::new(&spec);
-    let judged = judged(&robot);
-    let unit = robot.description().length.in_metres();
-    let done = |j: &&Judged| j.after.0 * unit < 1e-9 && (!angle || j.after.1 < 1e-9);
-    let done = judged.iter().filter(done).count() as f64 / judged.len() as f64;
-    let worst = |norm: fn(&Judged) -> f64| judged.iter().map(norm).fold(0.0, f64::max);
-    println!(
-        "{name}: {:e} down to {:e} {}, {:e} down to {:e} rad, {done} to a nanometre",
-        worst(|j| j.before.0),
-        worst(|j| j.after.0),
-        robot.description().length.symbol(),
-        worst(|j| j.before.1),
-        worst(|j| j.after.1)
-    );
-    done
+    let description = robot.description();
+    let metre = description.length.in_metres();
+    let (s, u) = (sampling::nominal_parameters(&description), sampling::nominal_inputs(&description));
+    let (mut regular, mut before, mut after, mut turned) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
+    for q in samples(&robot, 300) {
+        let found = corrected(&robot, None, &q, &s, &u).unwrap();
+        assert!(within(&robot, &found.q));
+        let (was, is) = (norms(&found.before), norms(&found.after));
+        let cost = |(length, angle): (f64, f64)| (length * metre).hypot(1e-3 * angle);
+        assert!(cost(is) <= cost(was), "{name} at {q:?}");
+        if least_singular_value(&robot, &q, &s) > regular_above {
+            regular += 1;
+            before = before.max(was.0 * metre);
+            after = after.max(is.0 * metre);
+            turned = turned.max(is.1);
+        }
+    }
+    println!("{name}: {before:.1e} m down to {after:.1e} m and {turned:.1e} rad, {regular} of 300 regular");
+    assert!(before > 5e-4 && regular > 30, "{name}: {before}, {regular}");
+    assert!(after < 1e-6, "{name}: {after} m");
+    assert!(!whole || turned < 1e-6, "{name}: {turned} rad");
 }
 
 #[test]
-fn six_joints_are_exact_but_near_singularities() {
-    for name in ["pps", "puma560", "ur5", "stanford", "general6r"] {
-        assert!(compensated(name, true) > 0.95, "{name}");
-    }
-}
-#[test]
-fn seven_joints_are_exact_but_near_singularities() {
-    for name in ["iiwa", "panda", "wam"] {
-        assert!(compensated(name, true) > 0.97, "{name}");
+fn six_and_seven_joints_bring_the_tool_there() {
+    for name in ["pps", "puma560", "ur5", "stanford", "general6r", "iiwa", "panda", "wam"] {
+        compensates(name, true, 0.1);
     }
 }
 
 /// Three and four joints: the tool point is right, turns stay.
 #[test]
-fn few_joints_bring_the_tool_point_there() {
-    assert!(compensated("machine3", false) == 1.0);
-    assert!(compensated("scara", false) > 0.97);
+fn fewer_joints_bring_the_tool_point_there() {
+    compensates("machine3", false, 0.1);
+    compensates("scara", false, 0.03);
+}
+
+/// Seven joints: no other commands that do the same are closer, to first order: `d` has no part in the null space of `J`.
+#[test]
+fn a_redundant_arm_stays_near_the_nominal() {
+    let (s, u) = (iiwa::Parameters::NOMINAL, iiwa::Inputs::NOMINAL);
+    let spec = with_errors("iiwa");
+    let robot = Interpreter::new(&spec);
+    let mut judged = 0;
+    for q in samples(&robot, 100) {
+        if least_singular_value(&robot, &q, &s.to_array()) < 0.1 {
+            continue;
+        }
+        let found = corrected(&robot, None, &q, &s.to_array(), &u.to_array()).unwrap();
+        let q: [f64; 7] = q.try_into().unwrap();
+        let (_, columns) = iiwa::joint_jacobian(&q, &s).unwrap();
+        let jacobian = abbe::jacobian_view(&columns).into_owned();
+        let d = nalgebra::SVector::<f64, 7>::from_fn(|j, _| found.q[j] - q[j]);
+        let shortest = jacobian.pseudo_inverse(1e-9).unwrap() * (jacobian * d);
+        assert!((d - shortest).norm() < 0.1 * d.norm(), "{d} but {shortest}");
+        judged += 1;
+    }
+    assert!(judged > 10);
+}
+
+/// What the limits do not allow is said; the tool point comes first.
+#[test]
+fn limits_hold() {
+    let (s, u) = (pps::Parameters::NOMINAL, pps::Inputs::NOMINAL);
+    let [_, q4] = pps::DESCRIPTION.variables[3].limits;
+    let mut held = 0;
+    for d1 in [300.0, 1128.0, 2000.0] {
+        for sign in [-1.0, 1.0] {
+            let found = pps::compensated(&[d1, 280.0, 300.0, sign * q4, 0.0, 0.0], &s, &u).unwrap();
+            assert!(within(&pps::Pps, &found.q));
+            assert!(norms(&found.after).0 < 1e-6);
+            held += usize::from(norms(&found.after).1 > 1e-4 && found.q[3] == sign * q4);
+        }
+    }
+    assert!(held > 0, "a spin at its limit cannot be turned further");
+    // Commanded beyond a limit: it is brought back, and what that leaves is said.
+    let found = pps::compensated(&[-5.0, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u).unwrap();
+    assert!(found.q[0] == 0.0 && norms(&found.after).1 > 1e-3);
+}
+
+#[test]
+fn bad_input_is_an_error() {
+    let (s, u) = (pps::Parameters::NOMINAL, pps::Inputs::NOMINAL);
+    let nan = pps::compensated(&[f64::NAN, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u);
+    assert_eq!(nan.err(), Some(Error::NotFinite { quantity: Quantity::Variables, index: 0 }));
+    let home = [1128.0, 280.0, 300.0, 0.0, 0.0, 0.0];
+    let far = abbe::Pose([[f64::INFINITY; 3]; 4]);
+    let far = pps::compensated_to(&far, &home, &s, &u);
+    assert_eq!(far.err(), Some(Error::NotFinite { quantity: Quantity::Pose, index: 0 }));
 }

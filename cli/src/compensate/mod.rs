@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
         false => Data::read_commanded(&arguments.data, &map)?,
     };
     let manipulator = found.manipulator(changes.is_empty());
-    let rows = rows::of(&*manipulator, &mut data, tolerance)?;
+    let rows = rows::of(&*manipulator, &mut data, arguments.poses, tolerance)?;
     let report = Report {
         name: found.spec.name.clone(),
         length: found.spec.length.symbol(),

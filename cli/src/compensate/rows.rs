@@ -36,17 +36,19 @@ pub(super) struct Row {
     pub(super) reason: Option<String>,
 }
 
-/// All rows that can be evaluated; their commands become the corrected ones, the others are taken out of the data.
+/// All rows that can be evaluated, for their joints or for the poses that were seen; their commands become the corrected
+/// ones, the others are taken out of the data.
 pub(super) fn of(
     manipulator: &dyn Manipulator,
     data: &mut Data,
+    poses: bool,
     tolerance: f64,
 ) -> Result<Vec<Row>, Failure> {
     let description = manipulator.description();
     let s = sampling::nominal_parameters(&description);
     let (mut rows, mut dropped) = (Vec::new(), Vec::new());
     for (i, (asked, line)) in data.observations.iter_mut().zip(&data.lines).enumerate() {
-        match row(manipulator, &description, &s, asked) {
+        match row(manipulator, &description, &s, asked, poses) {
             Ok(found) => {
                 let reason = reason(&description, &asked.q, &found, tolerance);
                 let Compensated { q, before, after } = found;
@@ -82,10 +84,11 @@ fn row(
     description: &Description,
     s: &[f64],
     asked: &Observation,
+    poses: bool,
 ) -> Result<Compensated<Vec<f64>>, String> {
     let Observation { q, u, seen } = asked;
     let evaluation = |error: Error| evaluation(description, &error);
-    let Seen::Pose(wanted) = seen else {
+    let (Seen::Pose(wanted), true) = (seen, poses) else {
         return corrected(manipulator, None, q, s, u).map_err(evaluation);
     };
     let all: Vec<usize> = (0..q.len()).collect();
@@ -153,7 +156,7 @@ fn reason(
         "close to a singularity, where a small correction takes a large turn".to_owned()
     };
     Some(match after.length <= tolerance {
-        true => format!("{why}; {:.3e} rad left", after.angle),
+        true => format!("{why}; the tool point is there, {:.3e} rad are left", after.angle),
         false => format!("{why}; {} left", length(after.length, *unit)),
     })
 }

@@ -6,7 +6,7 @@ use abbe::{Class, Description, VariableKind};
 
 use super::{Report, Size};
 use crate::data::Data;
-use crate::number::{digits, error_decimals, fixed, length};
+use crate::number::{digits, error_decimals, fixed, length, short};
 use crate::table::{Table, wrapped};
 
 /// How many rows are shown one by one.
@@ -71,20 +71,27 @@ fn commands(description: &Description, report: &Report) -> String {
 
 /// What is done, and what is not and why.
 fn done(description: &Description, report: &Report, out: Option<&Path>) -> String {
+    let turn = match description.variables.len() {
+        0..6 => String::new(),
+        _ => format!(" and {} rad", short(report.tolerance * description.length.in_metres())),
+    };
     let tolerance = length(report.tolerance, description.length);
-    let mut lines = vec![format!(
-        "{} of {} rows are compensated: no more than {tolerance} is left at the tool point.",
+    let mut text = format!(
+        "{} of {} rows are compensated: no more than {tolerance}{turn} is left at the tool point.",
         report.compensated,
         report.rows.len()
-    )];
+    );
+    text = wrapped(&text, 0) + "\n";
     let failed = report.rows.iter().filter_map(|row| Some((row.line, row.reason.as_ref()?)));
-    let failed: Vec<String> = failed.map(|(line, reason)| format!("  line {line}: {reason}")).collect();
-    lines.extend(failed.iter().take(SHOWN).cloned());
+    let failed: Vec<String> = failed.map(|(line, reason)| format!("line {line}: {reason}")).collect();
+    for line in failed.iter().take(SHOWN) {
+        text += &format!("  {}\n", wrapped(line, 4));
+    }
     if failed.len() > SHOWN {
-        lines.push(format!("  … and {} more", failed.len() - SHOWN));
+        text += &format!("  … and {} more\n", failed.len() - SHOWN);
     }
     if let Some(file) = out {
-        lines.push(format!("{}: {} rows", file.display(), report.rows.len()));
+        text += &format!("{}: {} rows\n", file.display(), report.rows.len());
     }
-    lines.iter().map(|line| wrapped(line, 2) + "\n").collect()
+    text
 }

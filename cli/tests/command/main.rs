@@ -3,6 +3,7 @@
 mod analyze;
 mod bad_input;
 mod check;
+mod compensate;
 mod documents;
 mod generate;
 mod identify;
