@@ -1,6 +1,6 @@
 //! What a symbol does to one transform by itself: for the loops of long chains.
 
-use super::symbol_jacobian::twist;
+use super::symbol_jacobian::{twist, with_symbols};
 use super::walk::walk;
 use crate::expr::Symbol;
 use crate::graph::{Graph, Node};
@@ -26,7 +26,9 @@ pub(super) fn local_twists(graph: &mut Graph, spec: &Spec, symbols: &[Symbol]) -
         let mut steps = Vec::new();
         let identity = graph.identity();
         walk(graph, identity, factors, &mut steps);
-        for (column, symbol) in symbols.iter().enumerate() {
+        let steps = with_symbols(graph, steps);
+        let moves = |symbol| steps.iter().any(|(_, of)| of.contains(symbol));
+        for (column, symbol) in symbols.iter().enumerate().filter(|(_, symbol)| moves(symbol)) {
             let [velocity, turn] = twist(graph, &steps, *symbol, origin);
             if [velocity, turn] != [origin; 2] {
                 let ([a, b, c], [d, e, f]) = (velocity, turn);

@@ -66,7 +66,8 @@ pub struct Model {
     pub parameter_local_twists: Vec<LocalTwist>,
 }
 
-/// How many frames a chain may have whose functions are written without loops.
+/// How many frames a chain may have whose functions are written without loops: beyond, straight-line code outgrows the
+/// instruction cache, and takes minutes to compile where its loops take seconds.
 pub(super) const LONGEST_WITHOUT_LOOPS: usize = 30;
 
 impl Model {
@@ -91,6 +92,7 @@ impl Model {
         let margin = rows.margin();
         let moments = Moments::new(g, &frames, &tool, &steps, &ends);
         let by_frame = error_jacobian::columns(g, &frames, moments, &rows);
+        let steps = symbol_jacobian::with_symbols(g, steps);
         let columns = by_frame.iter().flat_map(|columns| columns.dense(g)).collect();
         let distinct = by_frame.iter().map(|columns| columns.distinct(&rows)).collect();
         let error_jacobian = Jacobian { columns, margin };

@@ -11,10 +11,17 @@ use crate::graph::{Graph, Node, Vector};
 /// rotation by f about a through p     (a × (p_T − p) ; a) ∂f/∂x
 /// matrix (R, t) after T = (R₀, p₀)    ω = R₀ vee(∂R/∂x Rᵀ),  (R₀ ∂t/∂x + ω × (p_T − p₀ − R₀ t) ; ω)
 /// ```
-pub(super) fn twist(graph: &mut Graph, steps: &[Step], symbol: Symbol, tool: Vector) -> [Vector; 2] {
+///
+/// Each step comes with the symbols that it depends on.
+pub(super) fn twist(
+    graph: &mut Graph,
+    steps: &[(Step, Vec<Symbol>)],
+    symbol: Symbol,
+    tool: Vector,
+) -> [Vector; 2] {
     let mut velocity = [graph.zero(); 3];
     let mut rotation = [graph.zero(); 3];
-    for step in steps {
+    for (step, _) in steps.iter().filter(|(_, symbols)| symbols.contains(&symbol)) {
         match step {
             Step::Translation { direction, amount } => {
                 let slope = graph.diff(*amount, symbol);
@@ -41,6 +48,15 @@ pub(super) fn twist(graph: &mut Graph, steps: &[Step], symbol: Symbol, tool: Vec
         }
     }
     [velocity, rotation]
+}
+
+/// Steps with the symbols that each depends on.
+pub(super) fn with_symbols(graph: &Graph, steps: Vec<Step>) -> Vec<(Step, Vec<Symbol>)> {
+    let with = |step: Step| {
+        let symbols = step.symbols(graph);
+        (step, symbols)
+    };
+    steps.into_iter().map(with).collect()
 }
 
 /// `v + ω × (p_T − p)`.

@@ -1,6 +1,6 @@
 //! Along the chain, one factor after the other: equation (2).
 
-use crate::expr::{Elementary, Motion};
+use crate::expr::{Elementary, Motion, Symbol};
 use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::Factor;
 
@@ -12,6 +12,20 @@ pub(super) enum Step {
     Rotation { axis: Vector, at: Vector, amount: Node },
     /// Any other rigid motion, from the frame `before` it to the point `after` it.
     Matrix { before: Frame, local: Frame, after: Vector },
+}
+
+impl Step {
+    /// The symbols that it depends on by itself, whatever stands before it.
+    pub(super) fn symbols(&self, graph: &Graph) -> Vec<Symbol> {
+        match self {
+            Self::Translation { amount, .. } | Self::Rotation { amount, .. } => graph.symbols(&[*amount]),
+            Self::Matrix { local, .. } => {
+                let entries: Vec<Node> =
+                    local.axes.iter().flatten().chain(&local.position).copied().collect();
+                graph.symbols(&entries)
+            }
+        }
+    }
 }
 
 /// Extends the pose `frame` by a product of factors.
@@ -123,7 +137,6 @@ fn is_quarter_turn(graph: &mut Graph, factor: &Factor) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::Symbol;
 
     #[test]
     fn rotation_about_any_axis_agrees_with_the_elementary_ones() {

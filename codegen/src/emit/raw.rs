@@ -255,7 +255,7 @@ impl Results {
                 self.assign("*effects", outputs, &values);
             }
             FunctionKind::Displacement | FunctionKind::PredictedDisplacement => {
-                self.array("*displacement", outputs)
+                self.array("*displacement", outputs);
             }
             FunctionKind::GeneralizedErrors => self.rows("errors", outputs),
             FunctionKind::Covariance => self.rows("covariance", outputs),

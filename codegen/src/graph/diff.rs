@@ -35,6 +35,15 @@ impl Graph {
         nodes.iter().map(|node| derivatives.get(node).copied().unwrap_or(zero)).collect()
     }
 
+    /// The symbols that some nodes depend on.
+    pub fn symbols(&self, nodes: &[Node]) -> Vec<Symbol> {
+        let symbol = |node| match self.op(node) {
+            Op::Symbol(symbol) => Some(symbol),
+            _ => None,
+        };
+        self.reached_from(nodes).into_iter().filter_map(symbol).collect()
+    }
+
     /// The nodes that some nodes are made of, they themselves among them, in ascending order.
     fn reached_from(&self, nodes: &[Node]) -> Vec<Node> {
         let mut reached: HashSet<Node> = nodes.iter().copied().collect();

@@ -91,11 +91,9 @@ pub fn euler_covariance<T: Scalar>(transforms: &[Motion<T>], covariance: &mut [[
     for column in &mut *covariance {
         euler.column(column);
     }
-    for row in 0..6 {
-        let [u, v, w] = euler.of([covariance[3][row], covariance[4][row], covariance[5][row]]);
-        covariance[3][row] = u;
-        covariance[4][row] = v;
-        covariance[5][row] = w;
+    let [_, _, _, spin, roll, pitch] = covariance;
+    for ((spin, roll), pitch) in spin.iter_mut().zip(roll).zip(pitch) {
+        [*spin, *roll, *pitch] = euler.of([*spin, *roll, *pitch]);
     }
     euler.margin
 }

@@ -1,6 +1,9 @@
-//! How generation grows with the length of the chain: operations of pose + `J_e`, time of each stage, size of the file.
+//! How generation grows with the length of the chain: operations of pose + `J_e`, time of each stage, size of the file;
+//! then how long the module takes to compile, how much code it becomes, and how quickly that runs.
 //!
-//! `cargo run --release -p abbe-tests --example growth`
+//! `cargo run --release -p abbe-tests --example growth`; nothing is downloaded.
+
+mod compiled;
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -10,6 +13,9 @@ use abbe_codegen::program::{FunctionKind, functions};
 use abbe_codegen::{emit, spec::Spec};
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::general_chain;
+
+/// How many frames the chains have.
+const LENGTHS: [usize; 4] = [6, 20, 50, 100];
 
 /// Of so many runs the quickest counts: what else the machine does only ever adds.
 const RUNS: usize = 20;
@@ -24,12 +30,12 @@ fn quickest<T>(work: impl Fn() -> T) -> (f64, T) {
     runs.min_by(|a, b| a.0.total_cmp(&b.0)).expect("some runs")
 }
 
-fn main() {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!(
         "{:<12} {:>6} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9}",
         "", "frames", "mul", "add", "nodes ms", "steps ms", "text ms", "all ms", "kB"
     );
-    let chains = [6, 20, 50, 100].map(|frames| ("general", general_chain(frames)));
+    let chains = LENGTHS.map(|frames| ("general", general_chain(frames)));
     let shipped = SHIPPED.iter().map(|shipped| (shipped.name, shipped.spec.to_owned()));
     for (name, text) in chains.into_iter().chain(shipped) {
         let read = || {
@@ -50,4 +56,5 @@ fn main() {
             module.len() as f64 / 1e3
         );
     }
+    compiled::report(&LENGTHS)
 }
