@@ -760,8 +760,7 @@ pub mod pps {
                 [r6_13, r6_23, r6_33],
                 [pt_x, pt_y, pt_z],
             ];
-            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
-            cos_roll
+            r5_11.mul_add(r5_11, t1 * t1).sqrt()
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.

@@ -97,7 +97,15 @@ fn straight_line(
             statements.push(assignment.statement);
         }
     }
-    statements.extend(margin.map(|margin| margin.expression.clone()));
+    if let Some(margin) = margin {
+        // What would be named only to be returned is returned as it is.
+        let named = format!("let {} = ", margin.expression);
+        let last = statements.pop_if(|last| last.starts_with(&named) && last.ends_with(';'));
+        statements.push(match &last {
+            Some(last) => last[named.len()..last.len() - 1].to_owned(),
+            None => margin.expression.clone(),
+        });
+    }
     (arguments, statements)
 }
 

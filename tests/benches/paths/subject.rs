@@ -1,7 +1,6 @@
 //! A manipulator, and the configurations at which it is measured.
 
 use abbe::analysis::sampling::{joint_sample, nominal_inputs, nominal_parameters};
-use abbe::lanes::Path;
 use abbe::{Manipulator, Pose};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
