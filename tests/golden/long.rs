@@ -1612,9 +1612,8 @@ pub mod long {
         const PARAMETER_TWISTS: [(usize, usize); 2] = [(0, 0), (40, 0)];
 
         /// What is constant in the velocity and rotation that each of these is.
-        const PARAMETER_TWIST_CONSTANTS: [f64; 12] = [
-            0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0,
-        ];
+        const PARAMETER_TWIST_CONSTANTS: [f64; 12] =
+            [0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 
         /// Entry of these, term, and the factor with which the term is added.
         const PARAMETER_TWIST_FACTORS: [(usize, usize, f64); 0] = [];

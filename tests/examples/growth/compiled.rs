@@ -31,7 +31,8 @@ pub(crate) fn report(lengths: &[usize]) -> Result<(), Box<dyn Error>> {
     let mut dependencies = "nalgebra = \"0.35\"\n".to_owned();
     let mut runs = String::new();
     for (name, &frames) in names.iter().zip(lengths) {
-        let spec = Spec::parse("chain.toml", &general_chain(frames)).map_err(|mistakes| mistakes.to_string())?;
+        let spec =
+            Spec::parse("chain.toml", &general_chain(frames)).map_err(|mistakes| mistakes.to_string())?;
         write(name, "Cargo.toml", &package(name, ""))?;
         write(name, "src/lib.rs", &emit::rust(&spec))?;
         dependencies.push_str(&format!("{name} = {{ path = \"../{name}\" }}\n"));
