@@ -39,7 +39,7 @@ pub(super) fn loop_body(spec: &Spec, kind: FunctionKind, program: &Program) -> O
         FunctionKind::JointJacobian => (
             vec![
                 transforms,
-                "let mut twists = [[T::constant(0.0); 6]; JOINT_TWISTS.len()];\n::abbe::long::combine(&JOINT_TWIST_FACTORS, &terms, twists.as_flattened_mut());",
+                JOINT_TWISTS,
                 "::abbe::long::symbol_jacobian(&transforms, &JOINT_TWISTS, &twists, pose, columns);",
             ],
             columns,
@@ -47,7 +47,7 @@ pub(super) fn loop_body(spec: &Spec, kind: FunctionKind, program: &Program) -> O
         FunctionKind::ParameterJacobian => (
             vec![
                 transforms,
-                "let mut twists = [[T::constant(0.0); 6]; PARAMETER_TWISTS.len()];\n::abbe::long::combine(&PARAMETER_TWIST_FACTORS, &terms, twists.as_flattened_mut());",
+                PARAMETER_TWISTS,
                 "::abbe::long::symbol_jacobian(&transforms, &PARAMETER_TWISTS, &twists, pose, columns);",
             ],
             columns,
@@ -86,7 +86,7 @@ pub(super) fn loop_body(spec: &Spec, kind: FunctionKind, program: &Program) -> O
         FunctionKind::CompensatorStep => (
             vec![
                 transforms,
-                "let mut twists = [[T::constant(0.0); 6]; JOINT_TWISTS.len()];\n::abbe::long::combine(&JOINT_TWIST_FACTORS, &terms, twists.as_flattened_mut());",
+                JOINT_TWISTS,
                 "::abbe::long::symbol_jacobian(&transforms, &JOINT_TWISTS, &twists, pose, columns);",
                 if spec.has_repeatable_source() { "real_pose(q, s, u, pose);" } else { "" },
             ],
@@ -97,24 +97,40 @@ pub(super) fn loop_body(spec: &Spec, kind: FunctionKind, program: &Program) -> O
     Some(lines.map(str::to_owned).collect())
 }
 
+const JOINT_TWISTS: &str = "let mut twists = [[T::constant(0.0); 6]; JOINT_TWISTS.len()];
+::abbe::long::combine(
+    &JOINT_TWIST_CONSTANTS,
+    &JOINT_TWIST_FACTORS,
+    &terms,
+    twists.as_flattened_mut(),
+);";
+
+const PARAMETER_TWISTS: &str = "let mut twists = [[T::constant(0.0); 6]; PARAMETER_TWISTS.len()];
+::abbe::long::combine(
+    &PARAMETER_TWIST_CONSTANTS,
+    &PARAMETER_TWIST_FACTORS,
+    &terms,
+    twists.as_flattened_mut(),
+);";
+
 /// What the loops take: transforms, and what symbols do to each of them, as sums of constants times few terms.
 pub(super) fn helpers(writer: &mut Writer, spec: &Spec, model: &Model) {
     let mut sums = Sums { graph: &model.graph, terms: IndexSet::new() };
     let poses = model.transforms.iter();
     let entries: Vec<Node> =
         poses.flat_map(|frame| frame.axes.iter().flatten().chain(&frame.position)).copied().collect();
-    factors(writer, "MOTION_FACTORS", "Of the entries of all transforms", &sums.of(&entries));
+    tables(writer, "MOTION", "the entries of all transforms", sums.of(&entries));
     for (name, twists) in [("JOINT", &model.joint_local_twists), ("PARAMETER", &model.parameter_local_twists)]
     {
         writer.blank();
-        writer.documentation("Transform and column of everything that one of the other moves.");
+        writer.documentation("Transform and column of everything that a symbol moves.");
         let places: Vec<String> =
             twists.iter().map(|twist| format!("({}, {})", twist.transform, twist.column)).collect();
         let head = format!("const {name}_TWISTS: [(usize, usize); {}] = ", places.len());
         writer.array(&head, &places, ";");
         let entries: Vec<Node> = twists.iter().flat_map(|twist| twist.twist).collect();
-        let what = "Of the velocity and rotation that each of these is";
-        factors(writer, &format!("{name}_TWIST_FACTORS"), what, &sums.of(&entries));
+        let what = "the velocity and rotation that each of these is";
+        tables(writer, &format!("{name}_TWIST"), what, sums.of(&entries));
     }
 
     let terms: Vec<Node> = sums.terms.into_iter().collect();
@@ -124,11 +140,10 @@ pub(super) fn helpers(writer: &mut Writer, spec: &Spec, model: &Model) {
     let written = body(&program, &mut names, indent);
     let (arguments, mut statements) = bindings(spec, &names, &program, indent, false);
     statements.extend(written.statements);
-    let one = ["T::constant(1.0)".to_owned()].into_iter();
-    let values: Vec<String> = one.chain(written.outputs.into_iter().map(|term| term.expression)).collect();
+    let values: Vec<String> = written.outputs.into_iter().map(|term| term.expression).collect();
     statements.push(array(indent, "", &values, ""));
     writer.blank();
-    writer.documentation("1, and all that is not constant in the transforms.");
+    writer.documentation("All that is not constant in the transforms.");
     writer.lines("#[inline(always)]");
     writer.function("fn terms<T: Scalar>", &arguments, &format!(" -> [T; {}]", values.len()), &statements);
 
@@ -137,7 +152,7 @@ pub(super) fn helpers(writer: &mut Writer, spec: &Spec, model: &Model) {
     let lines = [
         "let mut motions = [[[T::constant(0.0); 3]; 4]; FRAMES + 1];",
         "let entries = motions.as_flattened_mut().as_flattened_mut();",
-        "::abbe::long::combine(&MOTION_FACTORS, terms, entries);",
+        "::abbe::long::combine(&MOTION_CONSTANTS, &MOTION_FACTORS, terms, entries);",
         "motions",
     ];
     writer.function(
@@ -148,57 +163,65 @@ pub(super) fn helpers(writer: &mut Writer, spec: &Spec, model: &Model) {
     );
 }
 
-/// A table of entry, term and factor.
-fn factors(writer: &mut Writer, name: &str, what: &str, factors: &[(usize, usize, f64)]) {
+/// The constants of sums, and a table of entry, term and factor.
+fn tables(writer: &mut Writer, name: &str, what: &str, (constants, factors): (Vec<f64>, Vec<Factor>)) {
     writer.blank();
-    writer.documentation(&format!("{what}: entry, term, and the factor with which the term is added."));
+    writer.documentation(&format!("What is constant in {what}."));
+    let values: Vec<String> = constants.into_iter().map(number).collect();
+    writer.array(&format!("const {name}_CONSTANTS: [f64; {}] = ", values.len()), &values, ";");
+    writer.blank();
+    writer.documentation("Entry of these, term, and the factor with which the term is added.");
     let rows: Vec<String> = factors
         .iter()
         .map(|(entry, term, factor)| format!("({entry}, {term}, {})", number(*factor)))
         .collect();
-    writer.array(&format!("const {name}: [(usize, usize, f64); {}] = ", rows.len()), &rows, ";");
+    writer.array(&format!("const {name}_FACTORS: [(usize, usize, f64); {}] = ", rows.len()), &rows, ";");
 }
 
-/// Nodes as sums of constants times terms; term 0 is 1.
+/// Entry, term, factor.
+type Factor = (usize, usize, f64);
+
+/// Nodes as sums of a constant and of constants times terms.
 struct Sums<'g> {
     graph: &'g Graph,
     terms: IndexSet<Node>,
 }
 
 impl Sums<'_> {
-    /// Entry, term, factor.
-    fn of(&mut self, entries: &[Node]) -> Vec<(usize, usize, f64)> {
-        let mut factors = Vec::new();
+    /// The constant of each entry, and the factors.
+    fn of(&mut self, entries: &[Node]) -> (Vec<f64>, Vec<Factor>) {
+        let (mut constants, mut factors) = (Vec::with_capacity(entries.len()), Vec::new());
         for (entry, node) in entries.iter().enumerate() {
-            let mut sum = BTreeMap::new();
-            self.add(*node, 1.0, &mut sum);
+            let (mut constant, mut sum) = (0.0, BTreeMap::new());
+            self.add(*node, 1.0, &mut constant, &mut sum);
+            constants.push(constant);
             factors.extend(sum.into_iter().filter(|(_, k)| *k != 0.0).map(|(term, k)| (entry, term, k)));
         }
-        factors
+        (constants, factors)
     }
 
-    fn add(&mut self, node: Node, factor: f64, sum: &mut BTreeMap<usize, f64>) {
+    fn add(&mut self, node: Node, factor: f64, constant: &mut f64, sum: &mut BTreeMap<usize, f64>) {
         let term = match self.graph.op(node) {
             Op::Constant(bits) => {
-                *sum.entry(0).or_default() += factor * f64::from_bits(bits);
+                *constant += factor * f64::from_bits(bits);
                 return;
             }
-            Op::Neg(a) => return self.add(a, -factor, sum),
+            Op::Neg(a) => return self.add(a, -factor, constant, sum),
             Op::Add(a, b) => {
-                self.add(a, factor, sum);
-                return self.add(b, factor, sum);
+                self.add(a, factor, constant, sum);
+                return self.add(b, factor, constant, sum);
             }
             Op::Sub(a, b) => {
-                self.add(a, factor, sum);
-                return self.add(b, -factor, sum);
+                self.add(a, factor, constant, sum);
+                return self.add(b, -factor, constant, sum);
             }
             Op::Mul(a, b) if self.graph.value(a).is_some() => {
-                return self.add(b, factor * self.graph.value(a).unwrap_or(f64::NAN), sum);
+                return self.add(b, factor * self.graph.value(a).unwrap_or(f64::NAN), constant, sum);
             }
             Op::Mul(a, b) if self.graph.value(b).is_some() => {
-                return self.add(a, factor * self.graph.value(b).unwrap_or(f64::NAN), sum);
+                return self.add(a, factor * self.graph.value(b).unwrap_or(f64::NAN), constant, sum);
             }
-            _ => self.terms.insert_full(node).0 + 1,
+            _ => self.terms.insert_full(node).0,
         };
         *sum.entry(term).or_default() += factor;
     }

@@ -113,6 +113,11 @@ pub(super) fn array(indent: usize, before: &str, entries: &[String], after: &str
     if let Some(line) = on_one_line(indent, before, ["[", "]"], entries, after) {
         return line;
     }
+    if before.ends_with("= ")
+        && let Some(line) = on_one_line(indent + STEP, "", ["[", "]"], entries, after)
+    {
+        return format!("{}\n    {line}", before.trim_end());
+    }
     if let [entry] = entries {
         return format!("{before}[{entry}]{after}");
     }

@@ -2,9 +2,17 @@
 
 use crate::Scalar;
 
-/// Adds to each entry its factors times terms: (entry, term, factor).
+/// Entries that begin as constants, and to each of them its factors times terms: (entry, term, factor).
 #[inline(always)]
-pub fn combine<T: Scalar>(factors: &[(usize, usize, f64)], terms: &[T], entries: &mut [T]) {
+pub fn combine<T: Scalar>(
+    constants: &[f64],
+    factors: &[(usize, usize, f64)],
+    terms: &[T],
+    entries: &mut [T],
+) {
+    for (entry, constant) in entries.iter_mut().zip(constants) {
+        *entry = T::constant(*constant);
+    }
     for &(entry, term, factor) in factors {
         entries[entry] = terms[term].mul_add(T::constant(factor), entries[entry]);
     }
