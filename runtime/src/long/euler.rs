@@ -91,11 +91,9 @@ pub fn euler_covariance<T: Scalar>(transforms: &[Motion<T>], covariance: &mut [[
     for column in &mut *covariance {
         euler.column(column);
     }
-    for row in 0..6 {
-        let [u, v, w] = euler.of([covariance[3][row], covariance[4][row], covariance[5][row]]);
-        covariance[3][row] = u;
-        covariance[4][row] = v;
-        covariance[5][row] = w;
+    let [.., first, second, third] = covariance;
+    for ((a, b), c) in first.iter_mut().zip(second).zip(third) {
+        [*a, *b, *c] = euler.of([*a, *b, *c]);
     }
     euler.margin
 }
