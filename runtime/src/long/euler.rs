@@ -91,9 +91,9 @@ pub fn euler_covariance<T: Scalar>(transforms: &[Motion<T>], covariance: &mut [[
     for column in &mut *covariance {
         euler.column(column);
     }
-    let [_, _, _, spin, roll, pitch] = covariance;
-    for ((spin, roll), pitch) in spin.iter_mut().zip(roll).zip(pitch) {
-        [*spin, *roll, *pitch] = euler.of([*spin, *roll, *pitch]);
+    let [.., first, second, third] = covariance;
+    for ((a, b), c) in first.iter_mut().zip(second).zip(third) {
+        [*a, *b, *c] = euler.of([*a, *b, *c]);
     }
     euler.margin
 }
