@@ -75,11 +75,11 @@ fn table(report: &Report) -> String {
                 .iter()
                 .map(|v| format!("<td class=\"number\">{}</td>", fixed(*v, decimals)))
                 .collect();
-            format!("<tr><td>{} ({})</td>{cells}</tr>\n", size.name, size.unit)
+            format!("<tr><td class=\"words\">{} ({})</td>{cells}</tr>\n", size.name, size.unit)
         })
         .collect();
     format!(
-        "<table>\n<thead><tr><th></th><th>mean</th><th>rms</th><th>largest</th><th>3 σ about the mean</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n"
+        "<table class=\"ledger\">\n<thead><tr><th></th><th>mean</th><th>rms</th><th>largest</th><th>3 σ about the mean</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n"
     )
 }
 
