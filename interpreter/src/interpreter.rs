@@ -172,7 +172,7 @@ impl Manipulator for Interpreter<'_> {
     fn batch(&self, path: Path, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
         path.check(&self.description(), arguments, results)?;
         let tape = &self.batches[path as usize];
-        arguments.set().run(Batch { tape, arguments, results });
+        arguments.instruction_set().run(Batch { tape, arguments, results });
         Ok(())
     }
 }

@@ -57,31 +57,27 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
                 Action::NegMulAdd(..) => self.map(instruction, Scalar::neg_mul_add),
                 Action::Div(..) => self.map(instruction, |a, b, _| a / b),
                 Action::SinCos(_) => self.sin_cos(instruction),
-                Action::Call(Function::Sqrt, _) => self.map(instruction, |a, _, _| a.sqrt()),
-                _ => self.rare(instruction),
+                Action::Call(function, _) => match function {
+                    Function::Sin => self.map(instruction, |a, _, _| a.sin()),
+                    Function::Cos => self.map(instruction, |a, _, _| a.cos()),
+                    Function::Sqrt => self.map(instruction, |a, _, _| a.sqrt()),
+                    Function::Abs => self.map(instruction, |a, _, _| a.abs()),
+                    // What goes number by number anyway: nothing is lost by a call.
+                    Function::Sign => self.by_call(instruction, |a, _, _| a.sign()),
+                    Function::Tan => self.by_call(instruction, |a, _, _| a.tan()),
+                    Function::Asin => self.by_call(instruction, |a, _, _| a.asin()),
+                    Function::Acos => self.by_call(instruction, |a, _, _| a.acos()),
+                    Function::Atan => self.by_call(instruction, |a, _, _| a.atan()),
+                },
+                Action::Pow(..) => self.by_call(instruction, |a, b, _| a.powf(b)),
+                Action::Atan2(..) => self.by_call(instruction, |a, b, _| a.atan2(b)),
             }
         }
     }
 
-    /// What takes so long by itself that nothing is lost by a call.
     #[inline(never)]
-    fn rare(&mut self, instruction: &Instruction) {
-        match instruction.action {
-            Action::Pow(..) => self.map(instruction, |a, b, _| a.powf(b)),
-            Action::Atan2(..) => self.map(instruction, |a, b, _| a.atan2(b)),
-            Action::Call(function, _) => match function {
-                Function::Sin => self.map(instruction, |a, _, _| a.sin()),
-                Function::Cos => self.map(instruction, |a, _, _| a.cos()),
-                Function::Tan => self.map(instruction, |a, _, _| a.tan()),
-                Function::Asin => self.map(instruction, |a, _, _| a.asin()),
-                Function::Acos => self.map(instruction, |a, _, _| a.acos()),
-                Function::Atan => self.map(instruction, |a, _, _| a.atan()),
-                Function::Sqrt => self.map(instruction, |a, _, _| a.sqrt()),
-                Function::Abs => self.map(instruction, |a, _, _| a.abs()),
-                Function::Sign => self.map(instruction, |a, _, _| a.sign()),
-            },
-            _ => unreachable!("`run` does the others"),
-        }
+    fn by_call(&mut self, instruction: &Instruction, f: impl Fn(T, T, T) -> T) {
+        self.map(instruction, f);
     }
 
     // Loops, and no adapters: those could stay without the instruction set.
@@ -119,28 +115,44 @@ impl Kernel for Batch<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<R: Register>(self) {
-        let Self { tape, arguments, results } = self;
+    fn run<R: Register>(mut self) {
+        let set = self.arguments.instruction_set();
         let mut rows = ROWS.take();
-        rows.reshape(arguments.set(), TILES * tape.slots, arguments.set().width());
-        let (slots, _) = rows.tile_mut::<R>(0).as_chunks_mut();
-        let mut block = Block::<Lanes<R>, TILES>::new(tape, slots);
-        let tiles = arguments.tiles();
-        for first in (0..tiles).step_by(TILES) {
-            let here = TILES.min(tiles - first);
-            for place in 0..here {
+        rows.reshape(set, TILES * self.tape.slots, set.width());
+        let lanes = rows.tile_mut::<R>(0);
+        // What is left over is not computed as if it were many.
+        let done = self.tiles::<R, TILES>(0, lanes);
+        let done = self.tiles::<R, 2>(done, lanes);
+        self.tiles::<R, 1>(done, lanes);
+        ROWS.set(rows);
+    }
+}
+
+impl Batch<'_> {
+    /// Evaluates N tiles at a time, from `first` on, and says which is the first that is left.
+    #[inline(always)]
+    fn tiles<R: Register, const N: usize>(&mut self, first: usize, lanes: &mut [Lanes<R>]) -> usize {
+        let Self { tape, arguments, results } = self;
+        let end = first + (arguments.tiles() - first) / N * N;
+        if end == first {
+            return first;
+        }
+        let (rows, _) = lanes.as_chunks_mut();
+        let mut block = Block::<Lanes<R>, N>::new(tape, rows);
+        for first in (first..end).step_by(N) {
+            for place in 0..N {
                 for (slot, value) in arguments.tile::<R>(first + place).iter().enumerate() {
                     block.set(slot, place, *value);
                 }
             }
             block.run(tape);
-            for place in 0..here {
+            for place in 0..N {
                 let rows = results.tile_mut::<R>(first + place);
                 for (result, slot) in rows.iter_mut().zip(&tape.outputs) {
                     *result = block.value(*slot, place);
                 }
             }
         }
-        ROWS.set(rows);
+        end
     }
 }

@@ -95,7 +95,7 @@ fn arguments(robot: &dyn Manipulator, path: Path, set: InstructionSet, count: us
 
 fn results(robot: &dyn Manipulator, path: Path, arguments: &Tiles) -> Tiles {
     let rows = path.results(&robot.description());
-    let mut results = Tiles::new(arguments.set(), rows, arguments.count());
+    let mut results = Tiles::new(arguments.instruction_set(), rows, arguments.count());
     robot.batch(path, arguments, &mut results).unwrap();
     results
 }

@@ -22,7 +22,6 @@ use crate::report::Report;
 use crate::row::{Row, Side};
 
 /// The bench's own specs as generated.
-#[allow(dead_code, clippy::wrong_self_convention)]
 mod bench {
     abbe::include_manipulators!();
 }

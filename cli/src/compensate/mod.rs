@@ -80,7 +80,7 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
         true => json(&report)?,
         false => text::of(&manipulator.description(), &data, &report, arguments.out.as_deref()),
     };
-    Ok(Outcome::checked(text, report.compensated == report.rows.len()))
+    Ok(Outcome::checked(text, report.compensated == report.rows.len() + report.unusable.len()))
 }
 
 /// The map that is given, or the names of the spec.

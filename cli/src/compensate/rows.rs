@@ -3,7 +3,7 @@
 use abbe::analysis::{Target, Unreached, corrected, inverse, sampling};
 use abbe::compensator::{Compensated, norms};
 use abbe::identify::{Observation, Seen};
-use abbe::{Description, Error, Manipulator};
+use abbe::{Description, Error, Manipulator, Variable};
 use serde::Serialize;
 
 use crate::data::Data;
@@ -50,7 +50,7 @@ pub(super) fn of(
     for (i, (asked, line)) in data.observations.iter_mut().zip(&data.lines).enumerate() {
         match row(manipulator, &description, &s, asked, poses) {
             Ok(found) => {
-                let reason = reason(&description, &asked.q, &found, tolerance);
+                let reason = reason(&description, &found, tolerance);
                 let Compensated { q, before, after } = found;
                 let names = description.variables.iter().map(|variable| variable.name.to_owned());
                 let (before, after) = (Norms::of(&before), Norms::of(&after));
@@ -89,6 +89,7 @@ fn row(
     let Observation { q, u, seen } = asked;
     let evaluation = |error: Error| evaluation(description, &error);
     let (Seen::Pose(wanted), true) = (seen, poses) else {
+        within_limits(description, q)?;
         return corrected(manipulator, None, q, s, u).map_err(evaluation);
     };
     let all: Vec<usize> = (0..q.len()).collect();
@@ -99,6 +100,18 @@ fn row(
     let ideal =
         inverse(manipulator, s, q, &all, &target).map_err(|reason| unreached(description, &reason))?;
     corrected(manipulator, Some(wanted), &ideal, s, u).map_err(evaluation)
+}
+
+/// A command that the machine would refuse is not one to be corrected.
+fn within_limits(description: &Description, q: &[f64]) -> Result<(), String> {
+    let outside = |(variable, value): &(&Variable, &f64)| {
+        let [lower, upper] = variable.limits;
+        !(lower..=upper).contains(*value)
+    };
+    let Some((variable, value)) = description.variables.iter().zip(q).find(outside) else { return Ok(()) };
+    let [value, lower, upper] = [*value, variable.limits[0], variable.limits[1]]
+        .map(|value| of_variable(value, variable.kind, description.length));
+    Err(format!("{} is commanded to {value}, beyond its limits {lower} … {upper}", variable.name))
 }
 
 fn evaluation(description: &Description, error: &Error) -> String {
@@ -123,32 +136,21 @@ fn unreached(description: &Description, reason: &Unreached) -> String {
     }
 }
 
-/// Why a row is not compensated: limits, too few joints, or a singularity. With fewer than six joints the tool point is
+/// Why a row is not compensated: a joint at its limit, too few joints, or a singularity. With fewer than six joints the tool point is
 /// all that is asked for.
-fn reason(
-    description: &Description,
-    given: &[f64],
-    found: &Compensated<Vec<f64>>,
-    tolerance: f64,
-) -> Option<String> {
+fn reason(description: &Description, found: &Compensated<Vec<f64>>, tolerance: f64) -> Option<String> {
     let Description { variables, length: unit, .. } = description;
     let after = Norms::of(&found.after);
     let few = variables.len() < 6;
     if after.length <= tolerance && (few || after.angle <= tolerance * unit.in_metres()) {
         return None;
     }
-    let each = || variables.iter().zip(given.iter().zip(&found.q));
-    let names = |list: Vec<String>| list.join(", ");
-    let outside = each().filter(|(v, (given, _))| **given < v.limits[0] || **given > v.limits[1]);
-    let outside = names(outside.map(|(v, _)| v.name.to_owned()).collect());
-    let held = each().filter(|(v, (_, q))| v.limits.contains(q));
-    let held = names(
-        held.map(|(v, (_, q))| format!("{} at its limit {}", v.name, of_variable(*q, v.kind, *unit)))
-            .collect(),
-    );
-    let why = if !outside.is_empty() {
-        format!("{outside} was commanded beyond its limits")
-    } else if !held.is_empty() {
+    let held = variables.iter().zip(&found.q).filter(|(v, q)| v.limits.contains(q));
+    let held = held
+        .map(|(v, q)| format!("{} at its limit {}", v.name, of_variable(*q, v.kind, *unit)))
+        .collect::<Vec<_>>()
+        .join(", ");
+    let why = if !held.is_empty() {
         held
     } else if few {
         format!("{} joints cannot move it there", variables.len())

@@ -129,12 +129,17 @@ fn open(file: &Path) -> Result<(Reader<File>, Vec<String>), Failure> {
     let fail = |error| unreadable(file, error);
     let reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).flexible(true).from_path(file);
     let mut reader = reader.map_err(fail)?;
-    let header = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
+    let header: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
+    if header.is_empty() {
+        return Err(Failure::of(file.display(), "this file is empty").help(WANTED));
+    }
     Ok((reader, header))
 }
 
+const WANTED: &str = "give a CSV file with a heading in its first line";
+
 fn unreadable(file: &Path, error: csv::Error) -> Failure {
-    Failure::of(file.display(), error).help("a CSV file with a heading in its first line")
+    Failure::of(file.display(), format!("cannot read this file: {error}")).help(WANTED)
 }
 
 /// The digits of a row, by which it is known again.

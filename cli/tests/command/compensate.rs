@@ -94,7 +94,11 @@ fn what_cannot_be_had_within_limits_is_said() {
     let run = abbe(&["compensate", "pps", "--data", path(&data), "--map", path(&map)]);
     assert_eq!(run.status, 1, "{}", run.stderr);
     narrow(&run.stdout);
-    for expected in ["q4 at its limit", "d1 was commanded beyond its limits", "`d1` is `x`, not a number"] {
+    for expected in [
+        "q4 at its limit",
+        "d1 is commanded to -5 mm, beyond its limits 0 mm … 2256 mm",
+        "`d1` is `x`, not a number",
+    ] {
         assert!(run.stdout.contains(expected), "{expected}\n{}", run.stdout);
     }
 }

@@ -60,7 +60,7 @@ impl<'a> Block<'a> {
                 self.manipulator.batch(Path::SourceDisplacements, &self.arguments, &mut self.displacements);
             batch.map_err(|error| self.at(0, error))?;
             let euler = self.manipulator.description().orientation == Orientation::EulerYzx;
-            let sound = self.displacements.set().run(Scaled {
+            let sound = self.displacements.instruction_set().run(Scaled {
                 displacements: &mut self.displacements,
                 bounds: &self.bounds,
                 euler,
@@ -70,6 +70,7 @@ impl<'a> Block<'a> {
                 break;
             }
             self.set_aside()?;
+            // What scalar code takes as it is stays, though lanes were nearer to a singularity by a rounding.
             if self.indices.len() == reached {
                 break;
             }
@@ -171,7 +172,7 @@ impl<'a> Block<'a> {
     /// Visits the rows in order. The place holds one configuration at a time, as long as those of the workspace.
     pub(super) fn visit(&self, here: &mut Configuration, visit: &mut dyn FnMut(&Row)) {
         let description = self.manipulator.description();
-        let mut poses = Tiles::new(self.arguments.set(), 12, self.indices.len());
+        let mut poses = Tiles::new(self.arguments.instruction_set(), 12, self.indices.len());
         let posed = self.manipulator.batch(Path::Pose, &self.arguments, &mut poses);
         debug_assert!(posed.is_ok(), "the same arguments served before");
         let mut sources = vec![[0.0; 6]; description.sources.len()];

@@ -74,7 +74,7 @@ impl<R: Register> Lane<R> {
                 None => continue,
                 Some(Residual::Share(share)) => *norm * Lanes::constant(share),
                 // Wherever there is an error at all.
-                Some(Residual::Bound(bound)) => Lanes::constant(bound).or(zero, norm.more_than(zero)),
+                Some(Residual::Bound(bound)) => norm.more_than(zero).select(Lanes::constant(bound), zero),
             };
             sum = sum + residual;
             square = residual.mul_add(residual, square);

@@ -19,8 +19,8 @@ impl<R: Register> Peak<R> {
     #[inline(always)]
     pub(super) fn add(&mut self, value: Lanes<R>, place: Lanes<R>) {
         let more = value.more_than(self.value);
-        self.value = value.or(self.value, more);
-        self.place = place.or(self.place, more);
+        self.value = more.select(value, self.value);
+        self.place = more.select(place, self.place);
     }
 
     /// The largest of all lanes and its place, the first if there are several. None if nothing was added.

@@ -1,6 +1,6 @@
 //! A function of rows, run over tiles.
 
-use super::{InstructionSet, Kernel, Register, Tiles};
+use super::{Kernel, Register, Tiles};
 use crate::Scalar;
 
 /// A function from rows of arguments to rows of results, for any scalar. Generated code has one per [`Path`](super::Path).
@@ -29,8 +29,7 @@ pub fn run<F: Function>(arguments: &Tiles, results: &mut Tiles) {
         }
     }
 
-    let set: InstructionSet = arguments.set();
-    set.run(Over::<F>(arguments, results, core::marker::PhantomData));
+    arguments.instruction_set().run(Over::<F>(arguments, results, core::marker::PhantomData));
 }
 
 /// The next N values, to be filled.

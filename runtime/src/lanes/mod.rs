@@ -16,20 +16,22 @@ mod function;
 mod instruction_set;
 mod one_by_one;
 mod path;
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(any(test, not(target_arch = "x86_64")))]
 mod portable;
 mod register;
+#[cfg(test)]
+mod tests;
 mod tiles;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use function::{Function, run};
 /// The two lanes that every machine has.
 #[cfg(target_arch = "x86_64")]
 pub(crate) type Pair = x86::Sse2;
 #[cfg(not(target_arch = "x86_64"))]
 pub(crate) type Pair = [f64; 2];
 
+pub use function::{Function, run};
 #[doc(hidden)]
 pub use function::{Margin, fill, fill_columns, fill_vectors};
 pub use instruction_set::{InstructionSet, Kernel};

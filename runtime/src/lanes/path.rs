@@ -83,7 +83,7 @@ impl Path {
             (Quantity::Arguments, self.arguments(description), arguments.rows()),
             (Quantity::Results, self.results(description), results.rows()),
             (Quantity::Configurations, arguments.count(), results.count()),
-            (Quantity::Lanes, arguments.set().width(), results.set().width()),
+            (Quantity::Lanes, arguments.instruction_set().width(), results.instruction_set().width()),
         ] {
             if expected != found {
                 return Err(Error::Count { quantity, expected, found });

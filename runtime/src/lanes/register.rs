@@ -180,16 +180,16 @@ impl<R: Register> Lanes<R> {
     pub fn more_than(self, other: Self) -> Mask<R> {
         Mask(R::more_than(self.0, other.0))
     }
-
-    /// `self` where the mask is set, `other` elsewhere.
-    #[inline(always)]
-    pub fn or(self, other: Self, mask: Mask<R>) -> Self {
-        let change = R::and(R::xor(self.0, other.0), mask.0);
-        Self(R::xor(other.0, change))
-    }
 }
 
 impl<R: Register> Mask<R> {
+    /// `yes` where it is set, `no` elsewhere.
+    #[inline(always)]
+    pub fn select(self, yes: Lanes<R>, no: Lanes<R>) -> Lanes<R> {
+        let change = R::and(R::xor(yes.0, no.0), self.0);
+        Lanes(R::xor(no.0, change))
+    }
+
     /// Whether it is set in any lane.
     #[inline(always)]
     pub fn any(&self) -> bool {

@@ -52,7 +52,7 @@ impl Tiles {
     }
 
     /// The instruction set that it is laid out for.
-    pub fn set(&self) -> InstructionSet {
+    pub fn instruction_set(&self) -> InstructionSet {
         self.set
     }
 
@@ -93,7 +93,12 @@ impl Tiles {
     }
 
     /// Sets a row to one value in all configurations.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such row, as for a slice.
     pub fn fill_row(&mut self, row: usize, value: f64) {
+        assert!(row < self.rows, "row {row} of {}", self.rows);
         for lane in 0..self.tiles() * self.set.width() {
             let place = self.place_of_lane(row, lane);
             self.numbers_mut()[place] = value;
@@ -115,7 +120,7 @@ impl Tiles {
     ) {
         assert!(
             rows.iter().all(|row| *row < self.rows) && first + count <= self.count,
-            "rows or configurations"
+            "no such row or configuration"
         );
         let (width, height) = (self.set.width(), self.rows);
         let shift = width.trailing_zeros();
@@ -186,7 +191,10 @@ impl Tiles {
 
     #[inline]
     fn place(&self, row: usize, configuration: usize) -> usize {
-        assert!(row < self.rows && configuration < self.count, "row {row} of configuration {configuration}");
+        assert!(
+            row < self.rows && configuration < self.count,
+            "no row {row} or no configuration {configuration}"
+        );
         self.place_of_lane(row, configuration)
     }
 

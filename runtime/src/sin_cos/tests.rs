@@ -55,31 +55,31 @@ impl Scalar for Fused {
         near(self)
     }
     fn tan(self) -> Self {
-        unimplemented!("reduction and polynomials do without")
+        Self(self.0.tan())
     }
     fn asin(self) -> Self {
-        self.tan()
+        Self(self.0.asin())
     }
     fn acos(self) -> Self {
-        self.tan()
+        Self(self.0.acos())
     }
     fn atan(self) -> Self {
-        self.tan()
+        Self(self.0.atan())
     }
-    fn atan2(self, _: Self) -> Self {
-        self.tan()
+    fn atan2(self, x: Self) -> Self {
+        Self(self.0.atan2(x.0))
     }
     fn sqrt(self) -> Self {
-        self.tan()
+        Self(self.0.sqrt())
     }
     fn abs(self) -> Self {
-        self.tan()
+        Self(self.0.abs())
     }
     fn sign(self) -> Self {
-        self.tan()
+        Self(self.0.sign())
     }
-    fn powf(self, _: Self) -> Self {
-        self.tan()
+    fn powf(self, exponent: Self) -> Self {
+        Self(self.0.powf(exponent.0))
     }
 }
 

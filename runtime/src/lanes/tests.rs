@@ -1,0 +1,112 @@
+//! Every instruction of every register against the same with plain numbers, bit for bit.
+
+use super::{InstructionSet, Kernel, Register, Tiles};
+
+/// Numbers of all kinds, three at a time.
+fn numbers() -> Vec<[f64; 3]> {
+    let some =
+        [0.0, -0.0, 1.0, -2.5, 1e-310, f64::MAX, f64::INFINITY, f64::NAN, 0.1, -1e17, 3.0, f64::MIN_POSITIVE];
+    let count = some.len();
+    (0..count * count * 3)
+        .map(|i| [some[i % count], some[i / count % count], some[(i * 7 + i / 5) % count]])
+        .collect()
+}
+
+/// Equal to the last bit; what is not a number may be any such.
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+}
+
+struct Check;
+
+impl Kernel for Check {
+    type Output = ();
+
+    fn run<R: Register>(self) {
+        type Numbers = fn(f64, f64, f64) -> f64;
+        type Bits = fn(u64, u64) -> u64;
+        let fused = |a: f64, b: f64, c: f64| if R::FUSED { a.mul_add(b, c) } else { a * b + c };
+        let arithmetic: [(&str, fn(R, R, R) -> R, Numbers); 7] = [
+            ("add", |a, b, _| R::add(a, b), |a, b, _| a + b),
+            ("sub", |a, b, _| R::sub(a, b), |a, b, _| a - b),
+            ("mul", |a, b, _| R::mul(a, b), |a, b, _| a * b),
+            ("div", |a, b, _| R::div(a, b), |a, b, _| a / b),
+            ("sqrt", |a, _, _| R::sqrt(a), |a, _, _| a.sqrt()),
+            ("min", |a, b, _| R::min(a, b), |a, b, _| if a < b { a } else { b }),
+            ("max", |a, b, _| R::max(a, b), |a, b, _| if a > b { a } else { b }),
+        ];
+        let bits: [(&str, fn(R, R) -> R, Bits); 8] = [
+            ("xor", R::xor, |a, b| a ^ b),
+            ("and", R::and, |a, b| a & b),
+            ("or", R::or, |a, b| a | b),
+            ("and_not", R::and_not, |a, b| a & !b),
+            ("odd", |a, _| R::odd(a), |a, _| 0_u64.wrapping_sub(a & 1)),
+            ("shifted by 62", |a, _| R::shifted::<62>(a), |a, _| a << 62),
+            ("shifted by 63", |a, _| R::shifted::<63>(a), |a, _| a << 63),
+            (
+                "more_than",
+                R::more_than,
+                |a, b| if f64::from_bits(a) > f64::from_bits(b) { u64::MAX } else { 0 },
+            ),
+        ];
+        let all = &numbers();
+        for first in 0..all.len() - R::WIDTH {
+            let at = |k: usize| move |lane: usize| all[first + lane][k];
+            let [a, b, c] = [R::from_fn(at(0)), R::from_fn(at(1)), R::from_fn(at(2))];
+            let check = |name: &str, found: R, expected: &dyn Fn([f64; 3]) -> f64| {
+                for (lane, found) in found.lanes().iter().enumerate() {
+                    let expected = expected(all[first + lane]);
+                    assert!(
+                        same(*found, expected),
+                        "{name} {:?}: {found}, not {expected}",
+                        all[first + lane]
+                    );
+                }
+            };
+            for (name, lanes, number) in arithmetic {
+                check(name, lanes(a, b, c), &|[a, b, c]| number(a, b, c));
+            }
+            for (name, lanes, number) in bits {
+                check(name, lanes(a, b), &|[a, b, _]| f64::from_bits(number(a.to_bits(), b.to_bits())));
+            }
+            check("mul_add", R::mul_add(a, b, c), &|[a, b, c]| fused(a, b, c));
+            check("mul_sub", R::mul_sub(a, b, c), &|[a, b, c]| fused(a, b, -c));
+            check("neg_mul_add", R::neg_mul_add(a, b, c), &|[a, b, c]| fused(-a, b, c));
+            check("splat", R::splat(0.3), &|_| 0.3);
+        }
+    }
+}
+
+#[test]
+fn registers_compute_what_numbers_do() {
+    InstructionSet::all().for_each(|set| set.run(Check));
+    // What other machines take.
+    Check.run::<[f64; 2]>();
+}
+
+#[test]
+fn a_number_is_where_it_was_put() {
+    for set in InstructionSet::all() {
+        for count in [0, 1, 7, 8, 9, 33] {
+            let mut tiles = Tiles::new(set, 3, count);
+            let value = |row: usize, i: usize| (100 * row + i) as f64;
+            for i in 0..count {
+                (0..3).for_each(|row| tiles.set_value(row, i, value(row, i)));
+            }
+            tiles.pad();
+            let mut rows = [0.0; 2];
+            for i in 0..count {
+                tiles.copy_rows(1..3, i, &mut rows);
+                assert_eq!([tiles.get(0, i), rows[0], rows[1]], [0, 1, 2].map(|row| value(row, i)));
+            }
+            tiles.set_each(&[2, 0], 0, count, |which| which as f64);
+            assert!((0..count).all(|i| tiles.get(2, i) == 0.0 && tiles.get(0, i) == 1.0));
+        }
+    }
+}
+
+#[test]
+#[should_panic(expected = "row 3 of 3")]
+fn there_is_no_row_behind_the_last() {
+    Tiles::new(InstructionSet::BASELINE, 3, 1).fill_row(3, 1.0);
+}
