@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::spec::Spec;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Predict, rank and check the position errors of a manipulator from its spec
@@ -308,4 +310,11 @@ pub(crate) struct Changes {
     /// Switch an error source off
     #[arg(long, value_name = "SOURCE")]
     pub(crate) disable: Vec<String>,
+}
+
+impl Changes {
+    /// Reads them; the options are where mistakes are shown.
+    pub(crate) fn read(&self, spec: &Spec) -> Result<abbe_study::Changes, Diagnostics> {
+        abbe_study::Changes::read(&self.set, &self.enable, &self.disable, spec)
+    }
 }

@@ -3,10 +3,10 @@
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stderr};
 use std::process::ExitCode;
-use std::sync::Arc;
 
-use abbe::{Description, Error, Quantity};
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
+use abbe::{Description, Error};
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_study::mistake;
 
 /// Bad usage or input: exit status 2.
 #[derive(Debug)]
@@ -15,8 +15,7 @@ pub(crate) struct Failure(Box<Diagnostics>);
 impl Failure {
     /// Something wrong with a file, a spec or an argument as a whole.
     pub(crate) fn of(subject: impl Display, message: impl Display) -> Self {
-        let list = vec![Diagnostic::whole_file(message.to_string())];
-        Diagnostics { path: subject.to_string(), text: Arc::from(""), list }.into()
+        mistake::whole(subject, message).into()
     }
 
     /// A configuration that could not be evaluated.
@@ -26,15 +25,7 @@ impl Failure {
         error: &Error,
         description: &Description,
     ) -> Self {
-        let source = match error {
-            Error::NotFinite { quantity: Quantity::Errors, index } => description.effects.get(*index),
-            _ => None,
-        };
-        let message = match source.map(|effect| description.sources[effect.source].name) {
-            Some(source) => format!("at {at}: the source \"{source}\" has no finite value"),
-            None => format!("at {at}: {error}"),
-        };
-        Self::of(subject, message)
+        mistake::not_evaluated(subject, at, error, description).into()
     }
 
     /// Says a way out.

@@ -6,11 +6,11 @@ use abbe_codegen::emit;
 
 use crate::arguments::{Generate, Language};
 use crate::failure::Failure;
-use crate::manipulator;
 use crate::output::{Outcome, Pending, cannot_write, note};
+use abbe_study::Machine;
 
 pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
-    let found = manipulator::find(&arguments.spec)?;
+    let found = Machine::find(&arguments.spec)?;
     let code = match arguments.lang {
         Language::Rust => emit::rust(&found.spec),
     };

@@ -12,12 +12,11 @@ use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 use crate::arguments::Jacobian;
-use crate::changes::Changes;
 use crate::failure::Failure;
-use crate::manipulator;
-use crate::number;
 use crate::output::{Outcome, json, note};
 use crate::table::{Table, unbroken, wrapped};
+use abbe_study::Machine;
+use abbe_study::number;
 
 /// What is printed, in the order of design section 4.
 #[derive(Serialize)]
@@ -34,8 +33,8 @@ struct Report<'a> {
 }
 
 pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome, Failure> {
-    let mut found = manipulator::find(&arguments.spec)?;
-    Changes::from_arguments(&arguments.changes, &found.spec)?.apply(&mut found.spec);
+    let mut found = Machine::find(&arguments.spec)?;
+    found.change(&arguments.changes.read(&found.spec)?);
     let interpreter = Interpreter::new(&found.spec);
     let description = interpreter.description();
     let q = match &arguments.q {

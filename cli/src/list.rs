@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use crate::arguments::List;
 use crate::failure::Failure;
-use crate::manipulator::shipped_spec;
 use crate::output::{Outcome, json};
 use crate::table::Table;
+use abbe_study::Machine;
 
 #[derive(Serialize)]
 struct Line {
@@ -24,7 +24,7 @@ struct Line {
 pub(crate) fn run(arguments: &List) -> Result<Outcome, Failure> {
     let mut lines = Vec::new();
     for shipped in SHIPPED {
-        let found = shipped_spec(shipped)?;
+        let found = Machine::shipped(shipped)?;
         lines.push(line(&found.spec, shipped.study.is_some()));
     }
     if arguments.json {

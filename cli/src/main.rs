@@ -1,12 +1,11 @@
 //! The `abbe` command: predicts, ranks and checks the errors of a manipulator from its spec.
 //!
-//! `arguments` is what it is told; `manipulator` finds the spec and `changes` what differs from it. Then one
-//! module per command. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
+//! `arguments` is what it is told. Then one module per command: arguments into a job of `abbe_study`, its report into
+//! text, JSON and files. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
 //! failed, 2 for bad usage or input, 130 if it was interrupted.
 
 mod analyze;
 mod arguments;
-mod changes;
 mod check;
 mod compensate;
 mod data;
@@ -16,15 +15,12 @@ mod identify;
 mod interrupt;
 mod jacobian;
 mod list;
-mod manipulator;
 mod measure;
-mod number;
 mod output;
 mod plan;
 mod progress;
 mod report;
 mod simulate;
-mod study;
 mod table;
 
 use std::process::ExitCode;

@@ -3,8 +3,8 @@
 use abbe::analysis::{Figures, SourceErrors};
 
 use super::Analysis;
-use crate::number;
-use crate::study::{CombinedFigure, Metric, Published, Subject};
+use abbe_study::number;
+use abbe_study::study_file::{CombinedFigure, Metric, Published, Subject};
 
 /// Whether a published figure is met.
 #[derive(Clone, Copy, Debug, PartialEq)]

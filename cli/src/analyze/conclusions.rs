@@ -3,8 +3,8 @@
 use abbe::analysis::Compensation;
 
 use super::Analysis;
-use crate::number::{self, percent, short};
 use crate::table::wrapped;
+use abbe_study::number::{self, percent, short};
 
 /// One paragraph for each, for a terminal.
 pub(super) fn of(analysis: &Analysis) -> String {

@@ -3,8 +3,8 @@
 use abbe::analysis::MonteCarlo;
 
 use super::{Analysis, Drawn};
-use crate::number::{self, fixed};
 use crate::table::{Table, wrapped};
+use abbe_study::number::{self, fixed};
 
 impl Drawn {
     /// Both places, with their names.

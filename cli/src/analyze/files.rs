@@ -12,7 +12,7 @@ use super::agreement::of_source;
 use super::{Analysis, json, unreachable};
 use crate::failure::Failure;
 use crate::output::{Pending, cannot_write};
-use crate::study::{CombinedFigure, Metric};
+use abbe_study::study_file::{CombinedFigure, Metric};
 
 /// The files of a folder; none appears before all are complete.
 pub(super) struct Files<'v> {

@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use super::agreement::{Agreement, of_source};
 use super::{Analysis, unreachable};
-use crate::number::Named;
-use crate::study::{CombinedFigure, Metric, Published};
+use abbe_study::number::Named;
+use abbe_study::study_file::{CombinedFigure, Metric, Published};
 
 #[derive(Serialize)]
 pub(super) struct Report<'a> {

@@ -3,8 +3,8 @@
 use abbe::analysis::Extreme;
 
 use super::{Analysis, json};
-use crate::number::{self, fixed, percent};
 use crate::table::{Listing, unbroken};
+use abbe_study::number::{self, fixed, percent};
 
 /// One row: a source, or a sum over the sources. Norms of the position error, in the length unit.
 pub(super) struct Entry<'a> {

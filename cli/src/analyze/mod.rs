@@ -23,14 +23,13 @@ use abbe::analysis::{
 };
 
 use crate::arguments::Analyze;
-use crate::changes::Changes;
 use crate::failure::Failure;
-use crate::manipulator;
-use crate::number;
 use crate::output::{self, Outcome, note};
 use crate::progress::Progress;
 use crate::report::Pictures;
-use crate::study::Study;
+use abbe_study::Machine;
+use abbe_study::Study;
+use abbe_study::number;
 
 use files::Files;
 use first_order::FirstOrder;
@@ -81,21 +80,20 @@ struct Drawn {
 }
 
 pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
-    let mut found = manipulator::find(&arguments.spec)?;
+    let mut found = Machine::find(&arguments.spec)?;
     let mut study = Study::find(arguments.study.as_deref(), &found)?;
-    let changes = Changes::from_arguments(&arguments.changes, &found.spec)?;
+    let changes = arguments.changes.read(&found.spec)?;
     if !changes.is_empty() && study.forget_published() {
         note("note: published figures are left out: --set, --enable and --disable make another machine");
     }
-    study.changes.apply(&mut found.spec);
-    changes.apply(&mut found.spec);
+    found.change(&study.changes);
+    found.change(&changes);
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
         pool.build_global().map_err(|error| Failure::of("--threads", error))?;
     }
 
-    let changed = !changes.is_empty() || !study.changes.is_empty();
-    let manipulator = found.manipulator(!changed && !arguments.interpret);
+    let manipulator = found.evaluator(!arguments.interpret);
     let manipulator = &*manipulator;
     let description = manipulator.description();
     let workspace = study.region.workspace(manipulator, arguments.seed);

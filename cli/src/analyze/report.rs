@@ -5,7 +5,7 @@ use abbe_codegen::spec::Spec;
 use super::agreement::{Agreement, of_source};
 use super::{Analysis, conclusions, ledger, tables, unreachable};
 use crate::report::{Compared, Subject};
-use crate::study::{Published, Subject as Of};
+use abbe_study::study_file::{Published, Subject as Of};
 
 pub(super) fn subject<'a>(analysis: &'a Analysis<'a>, spec: &'a Spec) -> Subject<'a> {
     let Analysis { description, study, workspace, budget, first_order, .. } = analysis;

@@ -4,9 +4,9 @@ use abbe::analysis::Admissible;
 
 use super::agreement::{Agreement, of_source};
 use super::{Analysis, json};
-use crate::number::{self, error_decimals, fixed, short};
-use crate::study::{CombinedFigure, Metric, Published};
 use crate::table::{Listing, Table};
+use abbe_study::number::{self, error_decimals, fixed, short};
+use abbe_study::study_file::{CombinedFigure, Metric, Published};
 
 impl Analysis<'_> {
     /// How many decimals errors have: three digits of the smallest source that matters.

@@ -1,8 +1,8 @@
 //! The results for people.
 
 use super::{Analysis, conclusions, drawn, ledger, tables, unreachable};
-use crate::number;
 use crate::table::{unbroken, wrapped};
+use abbe_study::number;
 
 pub(super) fn of(analysis: &Analysis) -> String {
     let unit = analysis.description.length.symbol();

@@ -4,7 +4,7 @@ use abbe::Description;
 use abbe::analysis::{Configuration, Unreachable, Unreachables, Unreached};
 use serde::Serialize;
 
-use crate::number;
+use abbe_study::number;
 
 /// How many are shown one by one.
 const SHOWN: usize = 3;

@@ -13,8 +13,8 @@ use serde::Serialize;
 
 use crate::arguments::Check;
 use crate::failure::Failure;
-use crate::manipulator;
 use crate::output::{Outcome, json};
+use abbe_study::Machine;
 
 use facts::Facts;
 use identifiable::Identified;
@@ -31,7 +31,7 @@ struct Report<'a> {
 }
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
-    let found = manipulator::find(&arguments.spec)?;
+    let found = Machine::find(&arguments.spec)?;
     let interpreter = Interpreter::new(&found.spec);
     let configurations = laws::configurations(&found.spec);
     let report = Report {

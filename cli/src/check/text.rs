@@ -6,8 +6,8 @@ use super::Report;
 use super::facts::kind;
 use super::identifiable::{Identified, configurations};
 use super::laws::Law;
-use crate::number::{quantity, short};
 use crate::table::{Table, wrapped};
+use abbe_study::number::{quantity, short};
 
 pub(super) fn of(spec: &Spec, report: &Report) -> String {
     let length = spec.length.symbol();

@@ -10,12 +10,11 @@ use abbe_codegen::spec::Spec;
 use serde::Serialize;
 
 use crate::arguments::Compensate;
-use crate::changes::Changes;
 use crate::data::{Data, Map, Unusable};
 use crate::failure::Failure;
-use crate::manipulator;
 use crate::output::{Outcome, json};
 use crate::simulate::{csv, length, write};
+use abbe_study::Machine;
 
 use rows::Row;
 
@@ -52,16 +51,16 @@ impl Size {
 }
 
 pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
-    let mut found = manipulator::find(&arguments.spec)?;
-    let changes = Changes::from_arguments(&arguments.changes, &found.spec)?;
-    changes.apply(&mut found.spec);
+    let mut found = Machine::find(&arguments.spec)?;
+    let changes = arguments.changes.read(&found.spec)?;
+    found.change(&changes);
     let map = map(arguments, &found.spec)?;
     let tolerance = length("--tolerance", &arguments.tolerance, &found.spec)?;
     let mut data = match arguments.poses {
         true => Data::read_wanted(&arguments.data, &map)?,
         false => Data::read_commanded(&arguments.data, &map)?,
     };
-    let manipulator = found.manipulator(changes.is_empty());
+    let manipulator = found.evaluator(true);
     let rows = rows::of(&*manipulator, &mut data, arguments.poses, tolerance)?;
     let report = Report {
         name: found.spec.name.clone(),

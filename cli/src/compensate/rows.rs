@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::data::Data;
 use crate::failure::Failure;
-use crate::number::{Named, length, of_variable};
+use abbe_study::number::{Named, length, of_variable};
 
 /// The norms of ΔX: in the spec's length unit, and in rad.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -118,7 +118,7 @@ fn evaluation(description: &Description, error: &Error) -> String {
     match error {
         Error::OutOfRange { input, value, range: [lower, upper] } => {
             let input = &description.inputs[*input];
-            let shown = crate::number::quantity(*value, input.unit);
+            let shown = abbe_study::number::quantity(*value, input.unit);
             format!("`{}` is {shown}, outside its range {lower} … {upper}", input.name)
         }
         error => error.to_string(),

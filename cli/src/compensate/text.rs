@@ -6,8 +6,8 @@ use abbe::{Class, Description, VariableKind};
 
 use super::{Report, Size};
 use crate::data::Data;
-use crate::number::{digits, error_decimals, fixed, length, short};
 use crate::table::{Table, wrapped};
+use abbe_study::number::{digits, error_decimals, fixed, length, short};
 
 /// How many rows are shown one by one.
 const SHOWN: usize = 20;

@@ -16,19 +16,18 @@ mod written;
 use abbe_interpreter::Interpreter;
 
 use crate::arguments::Identify;
-use crate::changes::Changes;
 use crate::data::{Data, Map};
 use crate::failure::Failure;
-use crate::manipulator;
 use crate::output::{Outcome, json, note};
+use abbe_study::Machine;
 
 pub(crate) use readings::check_readings;
 pub(crate) use setup::{Counts, Setup};
 pub(crate) use words::table as alike_table;
 
 pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
-    let mut found = manipulator::find(&arguments.spec)?;
-    let changes = Changes::from_arguments(&arguments.changes, &found.spec)?;
+    let mut found = Machine::find(&arguments.spec)?;
+    let changes = arguments.changes.read(&found.spec)?;
     if arguments.out.is_some() && !changes.is_empty() {
         return Err(Failure::of(
             "--out",
@@ -36,7 +35,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
         )
         .help("make them in a copy of the spec, then identify that"));
     }
-    changes.apply(&mut found.spec);
+    found.change(&changes);
     let map = Map::find(&arguments.map, &found.spec)?;
     let data = Data::read(&arguments.data, &map)?;
     let text = found.text()?;

@@ -6,7 +6,7 @@ use abbe::{Pose, VariableKind};
 use super::setup::{Setup, base};
 use crate::data::{Data, Layout, Map, Order, Turn};
 use crate::failure::Failure;
-use crate::number;
+use abbe_study::number;
 
 /// The most rows that are looked at.
 const ROWS: usize = 150;

@@ -8,8 +8,8 @@ use super::setup::Setup;
 use super::solved::{Solved, some};
 use super::words;
 use crate::data::Data;
-use crate::number::{self, digits, fixed};
 use crate::table::{Table, wrapped};
+use abbe_study::number::{self, digits, fixed};
 
 pub(super) fn of(
     spec: &Spec,

@@ -3,8 +3,8 @@
 use abbe::identify::{Group, Model, Reason, Unknown};
 use abbe::{Description, VariableKind};
 
-use crate::number;
 use crate::table::Table;
+use abbe_study::number;
 
 /// Groups that have the same reason.
 struct Sentence {

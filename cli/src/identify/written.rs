@@ -12,8 +12,8 @@ use super::solved::Solved;
 use super::terms::{Source, number, weight};
 use crate::data::Data;
 use crate::failure::Failure;
-use crate::number::digits;
 use crate::output::{Pending, cannot_write};
+use abbe_study::number::digits;
 
 /// Writes the spec; what was added to it comes back, line by line.
 pub(super) fn write(

@@ -13,13 +13,12 @@ use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 use crate::arguments::Measure;
-use crate::changes::Changes;
 use crate::data::{Data, Map};
 use crate::failure::Failure;
 use crate::identify::{Setup, check_readings};
-use crate::manipulator;
 use crate::output::{Outcome, cannot_write, json};
 use crate::simulate::{csv, write};
+use abbe_study::Machine;
 
 use errors::Errors;
 use explained::Explained;
@@ -69,8 +68,8 @@ impl Size {
 }
 
 pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
-    let mut found = manipulator::find(&arguments.spec)?;
-    Changes::from_arguments(&arguments.changes, &found.spec)?.apply(&mut found.spec);
+    let mut found = Machine::find(&arguments.spec)?;
+    found.change(&arguments.changes.read(&found.spec)?);
     let map = Map::find(&arguments.map, &found.spec)?;
     let mut data = Data::read(&arguments.data, &map)?;
     let interpreter = Interpreter::new(&found.spec);

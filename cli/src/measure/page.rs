@@ -8,8 +8,8 @@ use plotly::{Bar, Layout, Plot, Scatter3D};
 use super::errors::Errors;
 use super::{Report, repeated, text};
 use crate::data::Data;
-use crate::number::{fixed, trimmed};
 use crate::report::{BAR, INK, XYZ, css, document, escaped, section, style};
+use abbe_study::number::{fixed, trimmed};
 
 /// The most points that are drawn.
 const MOST: usize = 5000;

@@ -4,8 +4,8 @@ use abbe_codegen::spec::Spec;
 
 use super::{Report, Size};
 use crate::data::{Data, Map};
-use crate::number::{fixed, percent};
 use crate::table::{Table, wrapped};
+use abbe_study::number::{fixed, percent};
 
 pub(super) fn of(spec: &Spec, map: &Map, data: &Data, report: &Report) -> String {
     let mut parts = vec![format!("{}: measured\n\n", spec.title)];

@@ -12,16 +12,15 @@ use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 use crate::arguments::Plan;
-use crate::changes::Changes;
 use crate::data::Map;
 use crate::failure::Failure;
 use crate::identify::{Counts, Setup, alike_table};
-use crate::manipulator::{self, Found};
-use crate::number::{self, digits};
 use crate::output::{Outcome, json};
 use crate::simulate::{csv, write};
-use crate::study::Study;
 use crate::table::wrapped;
+use abbe_study::Machine;
+use abbe_study::Study;
+use abbe_study::number::{self, digits};
 
 use sets::{Counted, Sets};
 
@@ -59,8 +58,8 @@ struct Predicted {
 }
 
 pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
-    let mut found = manipulator::find(&arguments.spec)?;
-    Changes::from_arguments(&arguments.changes, &found.spec)?.apply(&mut found.spec);
+    let mut found = Machine::find(&arguments.spec)?;
+    found.change(&arguments.changes.read(&found.spec)?);
     let map = Map::find(&arguments.map, &found.spec)?;
     let interpreter = Interpreter::new(&found.spec);
     let description = interpreter.description();
@@ -133,7 +132,7 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
 
 /// Where the machine is to be used.
 fn used(
-    found: &Found,
+    found: &Machine,
     manipulator: &dyn Manipulator,
     description: &Description,
     arguments: &Plan,
@@ -179,7 +178,7 @@ fn at_the_tool(
     predicted(&model, known, &design.covariance, &list)
 }
 
-fn text(found: &Found, map: &Map, report: &Report, alike: &str, arguments: &Plan) -> String {
+fn text(found: &Machine, map: &Map, report: &Report, alike: &str, arguments: &Plan) -> String {
     let unit = found.spec.length.symbol();
     let mut text = format!("{}: where to measure\n\n{}\n", found.spec.title, wrapped(&report.title, 0));
     text += &format!("{} rows", report.rows);

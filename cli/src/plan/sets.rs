@@ -28,7 +28,7 @@ use abbe_codegen::spec::Spec;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::study::{Candidates, Region, count};
+use abbe_study::workspace::{Candidates, Region, count, read_region};
 
 /// A plan, read and checked.
 pub(super) struct Sets {
@@ -161,7 +161,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
             Content::Axes(Candidates::variables(spec).axes(&axes, document, spec))
         } else {
             let workspace = section.required("workspace", document)?;
-            Content::Workspace(Region::read(&workspace, document, spec)?)
+            Content::Workspace(read_region(&workspace, document, spec)?)
         };
         sets.push(Set { name, content });
     }

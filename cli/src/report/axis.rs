@@ -2,7 +2,7 @@
 
 use abbe::{Description, LengthUnit, VariableKind};
 
-use crate::study::Over;
+use abbe_study::study_file::Over;
 
 /// Colours that those who confuse red and green can tell apart as well (Okabe and Ito): of x, y and z.
 pub(crate) const XYZ: [(u8, u8, u8); 3] = [(213, 94, 0), (0, 158, 115), (0, 114, 178)];
@@ -100,9 +100,9 @@ impl Ticks {
     /// The label of a value.
     pub(super) fn label(&self, value: f64) -> String {
         if self.decimals > 6 {
-            crate::number::short(value)
+            abbe_study::number::short(value)
         } else {
-            crate::number::fixed(value, self.decimals)
+            abbe_study::number::fixed(value, self.decimals)
         }
     }
 }

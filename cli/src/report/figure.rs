@@ -4,11 +4,11 @@ use super::axis::Axis;
 use super::data::extremes::Range;
 use super::data::gather::Gathered;
 use super::subject::Subject;
-use crate::study::{self, CombinedFigure, Content, Metric};
+use abbe_study::study_file::{self, CombinedFigure, Content, Metric};
 
 /// A figure, ready to be drawn.
 pub(super) struct Figure<'a> {
-    pub(super) asked: &'a study::Figure,
+    pub(super) asked: &'a study_file::Figure,
     /// What it shows, as words of a file name.
     pub(super) stem: String,
     /// The name of its file, without the ending; no two figures of a report have the same.
@@ -39,7 +39,7 @@ impl Printed {
 
 impl<'a> Figure<'a> {
     pub(super) fn new(
-        asked: &'a study::Figure,
+        asked: &'a study_file::Figure,
         source: Option<usize>,
         bounds: bool,
         data: Gathered,
@@ -85,7 +85,9 @@ impl<'a> Figure<'a> {
     pub(super) fn printed(&self, axis: usize, found: Range, subject: &Subject) -> Option<Printed> {
         let name = self.asked.source.as_deref()?;
         let published = subject.study.published.iter().find_map(|published| match &published.subject {
-            study::Subject::Source(of, metric) if of == name => Some((published.figures[axis]?, *metric)),
+            study_file::Subject::Source(of, metric) if of == name => {
+                Some((published.figures[axis]?, *metric))
+            }
             _ => None,
         });
         let (value, metric) = published?;
@@ -96,7 +98,7 @@ impl<'a> Figure<'a> {
             Metric::RelativeToHome => return None,
         };
         let errors = Axis::errors("", subject.description.length);
-        let shown = crate::number::short(errors.show(value));
+        let shown = abbe_study::number::short(errors.show(value));
         Some(Printed {
             range: Range { least: middle - value, largest: middle + value },
             lines: [
@@ -112,7 +114,7 @@ impl<'a> Figure<'a> {
 
     /// The radius that is published for all sources together, if this figure shows them.
     pub(super) fn printed_radius(&self, subject: &Subject) -> Option<f64> {
-        let radius = study::Subject::Combined(CombinedFigure::Both);
+        let radius = study_file::Subject::Combined(CombinedFigure::Both);
         let published = subject.study.published.iter().find(|published| published.subject == radius);
         published.filter(|_| self.source.is_none() && self.asked.region.is_none())?.figures[3]
     }

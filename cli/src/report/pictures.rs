@@ -10,7 +10,7 @@ use super::html;
 use super::subject::Subject;
 use super::svg;
 use crate::failure::Failure;
-use crate::study::{Content, Study};
+use abbe_study::study_file::{Content, Study};
 
 /// The figures of a study, in the making.
 pub(crate) struct Pictures<'a> {

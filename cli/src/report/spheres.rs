@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::data::points::Points;
 use super::figure::Figure;
 use super::subject::Subject;
-use crate::number::{self, short};
+use abbe_study::number::{self, short};
 
 /// Radii in the length unit.
 pub(super) struct Spheres {

@@ -4,9 +4,9 @@ use abbe::analysis::{Budget, Configuration};
 use abbe::{Description, Manipulator};
 use abbe_codegen::spec::Spec;
 
-use crate::number;
-use crate::study::{self, Published, Study};
 use crate::table::Listing;
+use abbe_study::number;
+use abbe_study::study_file::{self, Published, Study};
 
 /// What was analyzed, and what was found.
 pub(crate) struct Subject<'a> {
@@ -53,7 +53,7 @@ impl Subject<'_> {
     }
 
     /// What is published on something, with the verdict.
-    pub(super) fn published(&self, of: &study::Subject) -> Option<(&Published, &Compared)> {
+    pub(super) fn published(&self, of: &study_file::Subject) -> Option<(&Published, &Compared)> {
         let mut both = self.study.published.iter().zip(&self.compared);
         both.find_map(|(published, compared)| {
             Some((published, compared.as_ref()?)).filter(|(p, _)| p.subject == *of)

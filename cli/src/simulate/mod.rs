@@ -12,16 +12,15 @@ use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 
 use crate::arguments::Simulate;
-use crate::changes::Changes;
 use crate::data::{Data, Map};
 use crate::failure::Failure;
 use crate::identify::Setup;
-use crate::manipulator;
 use crate::output::{Outcome, Pending, cannot_write};
+use abbe_study::Machine;
 
 pub(crate) fn run(arguments: &Simulate) -> Result<Outcome, Failure> {
-    let mut found = manipulator::find(&arguments.spec)?;
-    Changes::from_arguments(&arguments.changes, &found.spec)?.apply(&mut found.spec);
+    let mut found = Machine::find(&arguments.spec)?;
+    found.change(&arguments.changes.read(&found.spec)?);
     let map = Map::find(&arguments.map, &found.spec)?;
     let noise = match &arguments.noise {
         Some(text) => length("--noise", text, &found.spec)?,

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::super::{Analysis, Drawn};
 use super::{parameters, variables};
-use crate::number::Named;
+use abbe_study::number::Named;
 
 #[derive(Serialize)]
 pub(super) struct Report {

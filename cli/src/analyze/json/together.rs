@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::super::Analysis;
 use super::variables;
-use crate::number::Named;
+use abbe_study::number::Named;
 
 /// Further figures of `combined`.
 #[derive(Serialize)]

@@ -6,7 +6,7 @@ use abbe::{Class, Description, Source};
 use super::bins::{Bins, Merge};
 use super::extremes::{Envelope, Grid, Mesh};
 use super::points::Points;
-use crate::study::{Content, Figure, Over};
+use abbe_study::study_file::{Content, Figure, Over};
 
 /// The error of the tool point: the repeatable part, and the bound of the random one, plus or minus.
 #[derive(Clone, Copy, Debug)]

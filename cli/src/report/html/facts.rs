@@ -3,8 +3,8 @@
 use abbe::{Orientation, VariableKind};
 
 use super::escaped;
-use crate::number::{self, quantity};
 use crate::report::subject::Subject;
+use abbe_study::number::{self, quantity};
 
 /// What the numbers mean.
 pub(super) fn conventions(subject: &Subject) -> String {

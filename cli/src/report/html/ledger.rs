@@ -4,10 +4,10 @@ use abbe::analysis::{Configuration, Figures, SourceErrors};
 use abbe::{Class, Distribution};
 
 use super::escaped;
-use crate::number::{percent, short};
 use crate::report::subject::Subject;
-use crate::study::{self, CombinedFigure, Metric};
 use crate::table::{Listing, unbroken};
+use abbe_study::number::{percent, short};
+use abbe_study::study_file::{self, CombinedFigure, Metric};
 
 /// Every source alone, the largest first.
 pub(super) fn sources(subject: &Subject) -> String {
@@ -35,7 +35,7 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, sub
             Metric::HalfPeakToPeak => errors.half_peak_to_peak,
             Metric::RelativeToHome => errors.relative_to_home,
         };
-        (name, figures, subject.published(&study::Subject::Source(source.name.to_owned(), metric)))
+        (name, figures, subject.published(&study_file::Subject::Source(source.name.to_owned(), metric)))
     });
     let lines = metrics.iter().map(|(_, _, published)| 1 + usize::from(published.is_some())).sum::<usize>();
     let share = |figures: &Figures| {
@@ -103,7 +103,7 @@ pub(super) fn combined(subject: &Subject) -> String {
         let of = subject.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
         let of = of.unwrap_or_default();
         rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}<td></td></tr>\n");
-        if let Some((published, compared)) = subject.published(&study::Subject::Combined(figure)) {
+        if let Some((published, compared)) = subject.published(&study_file::Subject::Combined(figure)) {
             let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
             let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
             let skipped = subject.study.tolerance.map_or("", |_| "<td></td>");

@@ -3,9 +3,9 @@
 use plotly::Plot;
 
 use super::{escaped, facts, ledger, plots};
-use crate::number::{percent, trimmed};
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
+use abbe_study::number::{percent, trimmed};
 
 const STYLE: &str = include_str!("style.css");
 

@@ -86,7 +86,7 @@ fn scale_bar(area: &super::canvas::Area, size: f64, scale: f64, subject: &Subjec
     // Lengths along an axis are seen at their full size in this view.
     let right = left + (bar * scale) as i32;
     area.draw(&PathElement::new(vec![(left, y), (right, y)], line(INK, 2.0)))?;
-    let label = format!("{} {}, along an axis", crate::number::short(bar), length.unit);
+    let label = format!("{} {}, along an axis", abbe_study::number::short(bar), length.unit);
     area.draw(&Text::new(label, (left, y + px(5.0)), text(11.0, GREY, HPos::Left, VPos::Top)))?;
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let x = left + px(38.0 * axis as f64);

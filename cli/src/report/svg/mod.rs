@@ -12,7 +12,7 @@ mod travel;
 use super::data::gather::Gathered;
 use super::figure::Figure;
 use super::subject::Subject;
-use crate::study::Content;
+use abbe_study::study_file::Content;
 
 use canvas::{Failed, Sheet};
 

@@ -27,7 +27,7 @@ pub(super) fn draw(sheet: &Sheet, subject: &Subject) -> Result<String, Failed> {
         chart.draw_series(LineSeries::new(curve.iter().copied(), line(XYZ[0], 1.8)))?;
         chart.draw_series(curve.iter().map(|at| Circle::new(*at, px(3.2), rgb(XYZ[0]).filled())))?;
         for (i, bar) in shares.iter().enumerate() {
-            let label = format!("{} mm", crate::number::trimmed(bar.millimetres, 3));
+            let label = format!("{} mm", abbe_study::number::trimmed(bar.millimetres, 3));
             let at = (i as f64, share.show(bar.share));
             // Where the curve begins the number makes room for it.
             let inside = i == 0 && bar.share > 0.15 && shares.len() < 9;

@@ -10,7 +10,7 @@ use crate::report::axis::{Axis, FAINT, GREY, INK, PUBLISHED, with_room};
 use crate::report::data::extremes::{Mesh, Range};
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
-use crate::study::Over;
+use abbe_study::study_file::Over;
 
 pub(super) fn draw(
     mesh: &Mesh,
@@ -116,7 +116,7 @@ fn printed(
     let mut span = Range::default();
     mesh.cells.iter().flatten().flatten().for_each(|cell| span.join(cell.errors[axis]));
     let errors = Axis::errors("", subject.description.length);
-    let here = format!("here: {} mm", crate::number::trimmed(errors.show(span.farther()), 4));
+    let here = format!("here: {} mm", abbe_study::number::trimmed(errors.show(span.farther()), 4));
     let label = match figure.printed(axis, span, subject) {
         Some(printed) => format!("{here} · {}", printed.label()),
         None => here,

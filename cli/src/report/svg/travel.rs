@@ -8,7 +8,7 @@ use crate::report::axis::{Axis, PUBLISHED, XYZ, with_room};
 use crate::report::data::extremes::{Envelope, Range};
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
-use crate::study::Over;
+use abbe_study::study_file::Over;
 
 pub(super) fn draw(
     envelope: &Envelope,

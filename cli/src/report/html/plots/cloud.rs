@@ -6,13 +6,13 @@ use plotly::{Scatter3D, Surface};
 
 use super::Plots;
 use super::style::{margin, plot, scene};
-use crate::number::trimmed;
 use crate::report::axis::{Axis, BAR, INK, TOLERANCE, XYZ, css};
 use crate::report::data::gather::norm;
 use crate::report::data::points::{Point, Points};
 use crate::report::figure::Figure;
 use crate::report::spheres::Spheres;
 use crate::report::subject::Subject;
+use abbe_study::number::trimmed;
 
 /// Meridians and parallels of a sphere.
 const MESH: usize = 36;

@@ -5,11 +5,11 @@ use plotly::{Bar, Layout};
 
 use super::Plots;
 use super::style::{axis, margin, plot};
-use crate::number::trimmed;
 use crate::report::axis::{Axis, INK, XYZ, css};
 use crate::report::data::gather::Histogram;
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
+use abbe_study::number::trimmed;
 
 pub(super) fn plots(histogram: &Histogram, figure: &Figure, subject: &Subject) -> Plots {
     let errors = Axis::errors("", subject.description.length);

@@ -6,10 +6,10 @@ use plotly::layout::{AspectMode, Layout};
 
 use super::Plots;
 use super::style::{margin, plot, scene};
-use crate::number::length;
 use crate::report::axis::{INK, XYZ, css};
 use crate::report::stick::Stick;
 use crate::report::subject::Subject;
+use abbe_study::number::length;
 
 pub(super) fn plots(up: usize, subject: &Subject) -> Plots {
     let unit = subject.description.length;

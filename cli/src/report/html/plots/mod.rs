@@ -13,7 +13,7 @@ use plotly::Plot;
 use crate::report::data::gather::Gathered;
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
-use crate::study::Content;
+use abbe_study::study_file::Content;
 
 /// Plots that stand side by side.
 pub(super) struct Plots {

@@ -5,10 +5,10 @@ use plotly::{Bar, Layout, Scatter};
 
 use super::Plots;
 use super::style::{axis, margin, plot};
-use crate::number::trimmed;
 use crate::report::axis::{BAR, XYZ, css};
 use crate::report::shares::shares;
 use crate::report::subject::Subject;
+use abbe_study::number::trimmed;
 
 pub(super) fn plots(subject: &Subject) -> Plots {
     let shares = shares(subject);

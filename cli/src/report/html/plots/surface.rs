@@ -6,12 +6,12 @@ use plotly::{Scatter3D, Surface};
 
 use super::Plots;
 use super::style::{font, margin, plot, scene};
-use crate::number::trimmed;
 use crate::report::axis::{Axis, INK, css};
 use crate::report::data::extremes::{Extremes, Mesh};
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
-use crate::study::Over;
+use abbe_study::number::trimmed;
+use abbe_study::study_file::Over;
 
 pub(super) fn plots(mesh: &Mesh, over: [Over; 2], figure: &Figure, subject: &Subject) -> Plots {
     let [first, second] = over.map(|over| Axis::over(over, &subject.description));

@@ -5,12 +5,12 @@ use plotly::{Layout, Scatter};
 
 use super::Plots;
 use super::style::{axis, margin, plot};
-use crate::number::trimmed;
 use crate::report::axis::{Axis, PUBLISHED, XYZ, css};
 use crate::report::data::extremes::{Envelope, Extremes, Range};
 use crate::report::figure::Figure;
 use crate::report::subject::Subject;
-use crate::study::Over;
+use abbe_study::number::trimmed;
+use abbe_study::study_file::Over;
 
 /// Where the panels of x, y and z are, as shares of the height.
 const DOMAINS: [[f64; 2]; 3] = [[0.7, 1.0], [0.35, 0.65], [0.0, 0.3]];

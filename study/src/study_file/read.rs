@@ -3,17 +3,18 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
+use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_codegen::spec::Spec;
 use sha2::{Digest, Sha256};
 
+use super::compensation;
 use super::figure::read_figures;
 use super::published::{read_compensated, read_published};
-use super::region::Region;
-use super::{Study, compensation};
+use super::study::Study;
 use crate::changes::{Changes, find_symbol};
+use crate::machine::Machine;
+use crate::workspace::{constant, positive_length, read_region};
 
 const HEAD: [&str; 9] = [
     "title",
@@ -28,8 +29,19 @@ const HEAD: [&str; 9] = [
 ];
 
 impl Study {
+    /// The study of that file, or else the one shipped with the manipulator, or else joint samples.
+    pub fn find(file: Option<&Path>, machine: &Machine) -> Result<Self, Diagnostics> {
+        match (file, machine.shipped.and_then(|shipped| shipped.study)) {
+            (Some(path), _) => Self::read(Document::read(path)?, &machine.spec),
+            (None, Some(text)) => {
+                Self::read(Document::new(format!("studies/{}.toml", machine.origin), text), &machine.spec)
+            }
+            (None, None) => Ok(Self::joint_samples(&machine.spec)),
+        }
+    }
+
     /// Reads and checks a study of the manipulator of that spec.
-    pub(super) fn read(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
+    pub fn read(mut document: Document, spec: &Spec) -> Result<Self, Diagnostics> {
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
         let study = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
@@ -41,7 +53,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     let known = ["study", "workspace", "published", "compensated", "compensation", "figure"];
     root.check_keys(&known, document);
     let head = root.required("study", document).and_then(|item| document.section(&item));
-    let region = root.required("workspace", document).and_then(|item| Region::read(&item, document, spec));
+    let region = root.required("workspace", document).and_then(|item| read_region(&item, document, spec));
     let published = read_published(root, document, spec);
     let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document, spec));
     let compensation = root.get("compensation").and_then(|item| compensation::read(&item, document, spec));
@@ -100,31 +112,4 @@ fn texts(item: &Item<'_>, document: &mut Document) -> Vec<String> {
     let items = document.array(item, "a list of texts").unwrap_or_default();
     let texts = items.iter().filter_map(|item| document.string(item));
     texts.map(|text| text.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
-}
-
-/// A constant in the coherent system of the spec.
-pub(super) fn constant(
-    item: &Item<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    dimension: Dimension,
-    what: &str,
-) -> Option<f64> {
-    let scope = Scope { length: spec.length, names: Default::default() };
-    let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
-    document.constant(item, &scope, entry).map(|(value, _)| value)
-}
-
-/// A length that is more than zero.
-pub(super) fn positive_length(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<f64> {
-    let value = constant(item, document, spec, Dimension::LENGTH, &format!("`{}`", item.key))?;
-    if value > 0.0 {
-        return Some(value);
-    }
-    document.mistake(
-        Diagnostic::new(item.span(), format!("`{}` must be more than zero", item.key))
-            .label("this is not")
-            .help("leave it out if there is none"),
-    );
-    None
 }

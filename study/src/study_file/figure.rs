@@ -22,37 +22,46 @@ use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::find_name;
 use abbe_codegen::spec::Spec;
 
-use super::Region;
+use crate::workspace::{Region, read_region};
 
 /// A figure to draw.
 #[derive(Clone, Debug)]
-pub(crate) struct Figure {
-    pub(crate) content: Content,
+pub struct Figure {
+    /// What it shows.
+    pub content: Content,
     /// The source that it is about; all together if there is none.
-    pub(crate) source: Option<String>,
-    pub(crate) caption: String,
+    pub source: Option<String>,
+    /// What the study says of it.
+    pub caption: String,
     /// Which figure of the paper it stands for, if any.
-    pub(crate) paper: String,
+    pub paper: String,
     /// Its own workspace, if it is not that of the study.
-    pub(crate) region: Option<Region>,
+    pub region: Option<Region>,
 }
 
 /// What a figure shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Content {
+pub enum Content {
+    /// The error against the travel of something.
     Travel(Over),
+    /// The worst error over two travels.
     Surface([Over; 2]),
+    /// The errors in space.
     Cloud,
+    /// How often which error occurs.
     Histogram,
+    /// The share of each source.
     Pareto,
-    /// With the index of the axis of `F_0` that points up.
+    /// The frames at home, with the index of the axis of `F_0` that points up.
     Manipulator(usize),
 }
 
 /// What errors are drawn over.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Over {
+pub enum Over {
+    /// A variable, by its index.
     Variable(usize),
+    /// A parameter, by its index.
     Parameter(usize),
 }
 
@@ -162,7 +171,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         figure.source = Some(name);
     }
     if let Some(item) = section.get("workspace") {
-        figure.region = Some(Region::read(&item, document, spec)?);
+        figure.region = Some(read_region(&item, document, spec)?);
     }
     figure.caption = section.optional_text("caption", document);
     figure.paper = section.optional_text("paper", document);

@@ -5,27 +5,33 @@ use abbe::analysis::{
     presented_volume, random_joint_samples,
 };
 use abbe::{Error, Manipulator};
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item};
 use abbe_codegen::spec::Spec;
 
-use super::axis::LARGEST;
-use super::forms::{self, FORMS};
 use super::path::Path;
 use crate::number;
 
 /// How many joint samples are looked at if nobody says.
 const SAMPLES: usize = 1000;
 
+/// The most configurations that are analyzed: none is stored, but time is finite.
+pub(super) const LARGEST: usize = 1_000_000_000;
+
 /// Which configurations are looked at.
 #[derive(Clone, Debug)]
-pub(crate) enum Region {
+pub enum Region {
     /// A volume of tool points, each presented at a point of the room.
     Presented(Presentation),
     /// Every combination of values of some variables.
     Grid(Vec<Axis>),
     /// Samples of some variables within their limits: random ones if there is a seed.
-    Samples { moved: Vec<usize>, count: usize, seed: Option<u64> },
+    Samples {
+        /// Indices of the variables that move.
+        moved: Vec<usize>,
+        /// How many samples.
+        count: usize,
+        /// The seed of random ones.
+        seed: Option<u64>,
+    },
     /// A box of points in the base frame.
     Box(BaseBox),
     /// Configurations from a file.
@@ -34,39 +40,12 @@ pub(crate) enum Region {
 
 impl Region {
     /// All variables, sampled.
-    pub(super) fn samples(spec: &Spec) -> Self {
+    pub fn samples(spec: &Spec) -> Self {
         Self::Samples { moved: (0..spec.variables.len()).collect(), count: SAMPLES, seed: None }
     }
 
-    /// `[workspace]`: one of the forms.
-    pub(crate) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Self> {
-        let mut section = document.section(item)?;
-        section.name = "[workspace]".to_owned();
-        section.check_keys(&FORMS, document);
-        let mut forms = section.items().filter(|item| FORMS.contains(&item.key.as_str()));
-        let (Some(form), None) = (forms.next(), forms.next()) else {
-            let help = format!("give one of {}", FORMS.map(|form| format!("`{form}`")).join(", "));
-            document.mistake(
-                Diagnostic::new(section.span.clone(), "a workspace has one form")
-                    .label("which configurations?")
-                    .help(help),
-            );
-            return None;
-        };
-        let region = forms::read(&form, document, spec)?;
-        if region.count().is_none() {
-            let message = format!("this workspace has more than {LARGEST} configurations");
-            document.mistake(
-                Diagnostic::new(form.key_span.clone(), message)
-                    .help("take fewer values per axis, or random samples: `joints = { samples = 100000 }`"),
-            );
-            return None;
-        }
-        Some(region)
-    }
-
     /// How many configurations are asked for, if they are not too many.
-    fn count(&self) -> Option<usize> {
+    pub(super) fn count(&self) -> Option<usize> {
         let sizes: Vec<usize> = match self {
             Self::Presented(Presentation { tool_points, approaches, .. }) => {
                 tool_points.iter().chain(approaches).map(|axis| axis.values.len()).collect()
@@ -80,7 +59,7 @@ impl Region {
     }
 
     /// The configurations; a seed replaces that of the study.
-    pub(crate) fn workspace<'a>(
+    pub fn workspace<'a>(
         &self,
         manipulator: &'a dyn Manipulator,
         seed: Option<u64>,
@@ -100,7 +79,7 @@ impl Region {
     }
 
     /// The parameters that are not nominal everywhere.
-    pub(crate) fn varying(&self, spec: &Spec) -> Vec<usize> {
+    pub fn varying(&self, spec: &Spec) -> Vec<usize> {
         let mut varying = match self {
             Self::Presented(Presentation { tool_points, .. }) => {
                 let nominal = |axis: &Axis| spec.parameters[axis.index].value;
@@ -115,7 +94,7 @@ impl Region {
     }
 
     /// The workspace in a sentence.
-    pub(crate) fn describe(&self, spec: &Spec) -> String {
+    pub fn describe(&self, spec: &Spec) -> String {
         let variable = |i: &usize| spec.variables[*i].name.as_str();
         match self {
             Self::Presented(Presentation { point, tool_points, approaches, solved }) => {

@@ -5,19 +5,22 @@ use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::{Dimension, find_name};
 use abbe_codegen::spec::Spec;
 
-use super::read::{constant, positive_length};
+use crate::workspace::{constant, positive_length};
 
 /// What a figure of a single source is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Metric {
+pub enum Metric {
+    /// The largest error.
     PlainMaximum,
+    /// Half of what the error varies by.
     HalfPeakToPeak,
+    /// The largest difference from the error at home.
     RelativeToHome,
 }
 
 impl Metric {
     /// All of them, with their names.
-    pub(crate) const ALL: [(&'static str, Self); 3] = [
+    pub const ALL: [(&'static str, Self); 3] = [
         ("plain maximum", Self::PlainMaximum),
         ("half peak-to-peak", Self::HalfPeakToPeak),
         ("relative to home", Self::RelativeToHome),
@@ -26,21 +29,24 @@ impl Metric {
 
 /// What a figure of all sources together is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CombinedFigure {
+pub enum CombinedFigure {
+    /// The repeatable sources, summed with their signs.
     Repeatable,
+    /// The random sources, root sum of squares.
     Random,
+    /// Both norms, added.
     Both,
 }
 
 impl CombinedFigure {
     /// All of them, with their names.
-    pub(crate) const ALL: [(&'static str, Self); 3] =
+    pub const ALL: [(&'static str, Self); 3] =
         [("repeatable radius", Self::Repeatable), ("random radius", Self::Random), ("radius", Self::Both)];
 }
 
 /// What a figure is about.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Subject {
+pub enum Subject {
     /// One source alone, in one metric.
     Source(String, Metric),
     /// All sources together.
@@ -48,24 +54,29 @@ pub(crate) enum Subject {
 }
 
 /// Printed figures.
-#[derive(Debug)]
-pub(crate) struct Published {
-    pub(crate) subject: Subject,
+#[derive(Clone, Debug)]
+pub struct Published {
+    /// What they are about.
+    pub subject: Subject,
     /// Along x, y, z and of the norm, as far as they are printed.
-    pub(crate) figures: [Option<f64>; 4],
+    pub figures: [Option<f64>; 4],
     /// How near is equal: half a unit of the last printed digit.
-    pub(crate) within: f64,
-    pub(crate) reference: String,
+    pub within: f64,
+    /// Where they stand.
+    pub reference: String,
 }
 
 /// What is left after compensation, as printed.
-#[derive(Debug)]
-pub(crate) struct PublishedResidual {
+#[derive(Clone, Debug)]
+pub struct PublishedResidual {
     /// What compensation leaves of the repeatable errors.
-    pub(crate) residual: f64,
-    pub(crate) random: f64,
-    pub(crate) total: f64,
-    pub(crate) reference: String,
+    pub residual: f64,
+    /// The random errors.
+    pub random: f64,
+    /// Both, added.
+    pub total: f64,
+    /// Where they stand.
+    pub reference: String,
 }
 
 /// Every `[[published]]`.

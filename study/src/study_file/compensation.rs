@@ -8,8 +8,8 @@ use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, find_name};
 use abbe_codegen::spec::{self, Spec};
 
 /// What compensation leaves.
-#[derive(Debug)]
-pub(crate) struct Compensated {
+#[derive(Clone, Debug)]
+pub struct Compensated {
     default: Residual,
     /// Of some sources, by name.
     named: Vec<(String, Residual)>,
@@ -17,7 +17,7 @@ pub(crate) struct Compensated {
 
 impl Compensated {
     /// What is left of every source; none of random ones, which cannot be compensated.
-    pub(crate) fn of(&self, description: &Description) -> Vec<Option<Residual>> {
+    pub fn of(&self, description: &Description) -> Vec<Option<Residual>> {
         let residual = |name: &str| {
             let named = self.named.iter().find(|(known, _)| known == name);
             named.map_or(self.default, |(_, residual)| *residual)

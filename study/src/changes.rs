@@ -5,21 +5,25 @@ use abbe_codegen::document::Document;
 use abbe_codegen::expr::{Dimension, Symbol, find_name, parse_value};
 use abbe_codegen::spec::Spec;
 
-use crate::arguments;
 use crate::number;
 
 /// Changes to a spec, in the order in which they are made.
-#[derive(Debug, Default)]
-pub(crate) struct Changes {
+#[derive(Clone, Debug, Default)]
+pub struct Changes {
     values: Vec<(Symbol, f64)>,
     /// Indices of sources, and whether they are to take part.
     switches: Vec<(usize, bool)>,
 }
 
 impl Changes {
-    /// Reads `--set`, `--enable` and `--disable`.
-    pub(crate) fn from_arguments(arguments: &arguments::Changes, spec: &Spec) -> Result<Self, Diagnostics> {
-        let arguments::Changes { set, enable, disable } = arguments;
+    /// Reads lists of `NAME=VALUE`, of sources to switch on and of sources to switch off; mistakes are shown as those of
+    /// the options `--set`, `--enable` and `--disable`.
+    pub fn read(
+        set: &[String],
+        enable: &[String],
+        disable: &[String],
+        spec: &Spec,
+    ) -> Result<Self, Diagnostics> {
         let mut changes = Self::default();
         each_line("--set", set, |document, span| {
             let line = document.text[span.clone()].to_owned();
@@ -45,19 +49,12 @@ impl Changes {
     }
 
     /// Whether there are none.
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.values.is_empty() && self.switches.is_empty()
     }
 
     /// Sets a parameter or input, if the value is within its range.
-    pub(crate) fn set(
-        &mut self,
-        document: &mut Document,
-        span: Span,
-        spec: &Spec,
-        symbol: Symbol,
-        value: f64,
-    ) {
+    pub fn set(&mut self, document: &mut Document, span: Span, spec: &Spec, symbol: Symbol, value: f64) {
         if let Symbol::Input(input) = symbol {
             let input = &spec.inputs[input];
             let [lower, upper] = input.range;
@@ -74,14 +71,14 @@ impl Changes {
     }
 
     /// Switches a source on or off.
-    pub(crate) fn switch(&mut self, document: &mut Document, span: Span, name: &str, spec: &Spec, on: bool) {
+    pub fn switch(&mut self, document: &mut Document, span: Span, name: &str, spec: &Spec, on: bool) {
         let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
         let found = find_name(document, span, name, &names, "source");
         self.switches.extend(found.map(|source| (source, on)));
     }
 
     /// Makes the changes: what is set becomes nominal.
-    pub(crate) fn apply(&self, spec: &mut Spec) {
+    pub fn apply(&self, spec: &mut Spec) {
         for &(symbol, value) in &self.values {
             match symbol {
                 Symbol::Parameter(i) => spec.parameters[i].value = value,
@@ -96,7 +93,7 @@ impl Changes {
 }
 
 /// The parameter or input of that name.
-pub(crate) fn find_symbol(
+pub fn find_symbol(
     document: &mut Document,
     span: Span,
     name: &str,

@@ -20,7 +20,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 /// Configurations from a file.
 #[derive(Clone, Debug)]
-pub(crate) struct Path {
+pub struct Path {
     /// The file, as the study names it.
     pub(super) file: String,
     columns: Vec<Column>,
@@ -43,7 +43,7 @@ enum Place {
 
 impl Path {
     /// The parameters that have a column.
-    pub(super) fn parameters(&self) -> impl Iterator<Item = usize> {
+    pub fn parameters(&self) -> impl Iterator<Item = usize> {
         self.columns.iter().filter_map(|column| match column.place {
             Place::Parameter(i) => Some(i),
             Place::Variable(_) => None,
@@ -51,7 +51,7 @@ impl Path {
     }
 
     /// The variables that have a column.
-    pub(super) fn variables(&self) -> impl Iterator<Item = usize> {
+    pub fn variables(&self) -> impl Iterator<Item = usize> {
         self.columns.iter().filter_map(|column| match column.place {
             Place::Variable(i) => Some(i),
             Place::Parameter(_) => None,

@@ -6,16 +6,43 @@ use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::Dimension;
 use abbe_codegen::spec::Spec;
 
-use super::axis::{Candidates, LARGEST, count, values, whole};
+use super::axis::{Candidates, values};
+use super::constant::{constant, count, whole};
 use super::path;
-use super::read::constant;
-use super::region::Region;
+use super::region::{LARGEST, Region};
 
 /// Every form, by the key that gives it.
-pub(super) const FORMS: [&str; 6] = ["presented", "grid", "joints", "random", "box", "path"];
+const FORMS: [&str; 6] = ["presented", "grid", "joints", "random", "box", "path"];
+
+/// `[workspace]`: one of the forms.
+pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
+    let mut section = document.section(item)?;
+    section.name = "[workspace]".to_owned();
+    section.check_keys(&FORMS, document);
+    let mut forms = section.items().filter(|item| FORMS.contains(&item.key.as_str()));
+    let (Some(form), None) = (forms.next(), forms.next()) else {
+        let help = format!("give one of {}", FORMS.map(|form| format!("`{form}`")).join(", "));
+        document.mistake(
+            Diagnostic::new(section.span.clone(), "a workspace has one form")
+                .label("which configurations?")
+                .help(help),
+        );
+        return None;
+    };
+    let region = read_form(&form, document, spec)?;
+    if region.count().is_none() {
+        let message = format!("this workspace has more than {LARGEST} configurations");
+        document.mistake(
+            Diagnostic::new(form.key_span.clone(), message)
+                .help("take fewer values per axis, or random samples: `joints = { samples = 100000 }`"),
+        );
+        return None;
+    }
+    Some(region)
+}
 
 /// Reads the form of that key.
-pub(super) fn read(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
+fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
     if form.key == "grid" {
         return Some(Region::Grid(Candidates::variables(spec).axes(form, document, spec)));
     }

@@ -6,15 +6,13 @@ use abbe_codegen::document::{Document, Item};
 use abbe_codegen::expr::{Dimension, find_name};
 use abbe_codegen::spec::{Spec, VariableKind};
 
-use super::read::constant;
+use super::constant::{constant, count};
 
 /// The most values of an axis: they are stored.
 const VALUES: usize = 10_000_000;
-/// The most configurations that are analyzed: none is stored, but time is finite.
-pub(super) const LARGEST: usize = 1_000_000_000;
 
 /// What can be an axis, with its dimensions.
-pub(crate) struct Candidates<'a> {
+pub struct Candidates<'a> {
     /// `variable` or `parameter`.
     pub(super) what: &'static str,
     names: Vec<&'a str>,
@@ -22,7 +20,8 @@ pub(crate) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    pub(crate) fn variables(spec: &'a Spec) -> Self {
+    /// The variables of a spec.
+    pub fn variables(spec: &'a Spec) -> Self {
         let dimension = |kind| match kind {
             VariableKind::Revolute => Dimension::NONE,
             VariableKind::Prismatic => Dimension::LENGTH,
@@ -42,7 +41,8 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    pub(crate) fn inputs(spec: &'a Spec) -> Self {
+    /// The inputs of a spec.
+    pub fn inputs(spec: &'a Spec) -> Self {
         Self {
             what: "input",
             names: spec.inputs.iter().map(|input| input.name.as_str()).collect(),
@@ -51,7 +51,7 @@ impl<'a> Candidates<'a> {
     }
 
     /// A table of axes, `NAME = VALUES` each.
-    pub(crate) fn axes(&self, item: &Item<'_>, document: &mut Document, spec: &Spec) -> Vec<Axis> {
+    pub fn axes(&self, item: &Item<'_>, document: &mut Document, spec: &Spec) -> Vec<Axis> {
         let Some(section) = document.section(item) else { return Vec::new() };
         let mut axes = Vec::new();
         for item in section.items() {
@@ -125,29 +125,6 @@ pub(super) fn values(
             None
         }
     }
-}
-
-/// A whole number of things, at least one.
-pub(crate) fn count(item: &Item<'_>, largest: usize, document: &mut Document, spec: &Spec) -> Option<usize> {
-    whole(item, [1, largest], document, spec)
-}
-
-/// A whole number.
-pub(super) fn whole(
-    item: &Item<'_>,
-    [least, largest]: [usize; 2],
-    document: &mut Document,
-    spec: &Spec,
-) -> Option<usize> {
-    let value = constant(item, document, spec, Dimension::NONE, &format!("`{}`", item.key))?;
-    if value.fract() == 0.0 && (least as f64..=largest as f64).contains(&value) {
-        return Some(value as usize);
-    }
-    let message = format!("`{}` must be a whole number from {least} to {largest}", item.key);
-    document.mistake(
-        Diagnostic::new(item.span(), message).label("this is not").help("write a number such as 100"),
-    );
-    None
 }
 
 /// From one end to the other in equal steps, both ends included.

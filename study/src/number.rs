@@ -5,7 +5,7 @@ use abbe::{Description, LengthUnit, VariableKind};
 use serde::{Serialize, Serializer};
 
 /// A number with this many decimals, nothing plain 0; a large one in powers of ten.
-pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+pub fn fixed(value: f64, decimals: usize) -> String {
     match value {
         0.0 => "0".to_owned(),
         f64::INFINITY => "∞".to_owned(),
@@ -20,7 +20,7 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
 }
 
 /// A number to seven digits, without those that say nothing.
-pub(crate) fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     if value.is_infinite() {
         return fixed(value, 0);
     }
@@ -33,12 +33,12 @@ pub(crate) fn short(value: f64) -> String {
 }
 
 /// A number with its unit, if it has one.
-pub(crate) fn quantity(value: f64, unit: &str) -> String {
+pub fn quantity(value: f64, unit: &str) -> String {
     format!("{} {unit}", short(value)).trim_end().to_owned()
 }
 
 /// How many decimals an error has in a table: tenths of a micrometre.
-pub(crate) fn error_decimals(length: LengthUnit) -> usize {
+pub fn error_decimals(length: LengthUnit) -> usize {
     match length {
         LengthUnit::Metre => 7,
         LengthUnit::Millimetre => 4,
@@ -46,13 +46,13 @@ pub(crate) fn error_decimals(length: LengthUnit) -> usize {
 }
 
 /// A length in a sentence: tenths of a micrometre, without zeros at the end.
-pub(crate) fn length(value: f64, unit: LengthUnit) -> String {
+pub fn length(value: f64, unit: LengthUnit) -> String {
     let text = trimmed(value, error_decimals(unit));
     format!("{text} {}", unit.symbol())
 }
 
 /// The value of a variable: degrees, or a length.
-pub(crate) fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> String {
+pub fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> String {
     match kind {
         VariableKind::Revolute => format!("{}°", trimmed(value.to_degrees(), 4)),
         VariableKind::Prismatic => length(value, unit),
@@ -60,7 +60,7 @@ pub(crate) fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> S
 }
 
 /// The value of every variable: `d1 = 1128 mm, q4 = 0°`.
-pub(crate) fn variables(q: &[f64], description: &Description) -> String {
+pub fn variables(q: &[f64], description: &Description) -> String {
     let values = description.variables.iter().zip(q);
     let values = values.map(|(variable, value)| {
         format!("{} = {}", variable.name, of_variable(*value, variable.kind, description.length))
@@ -70,7 +70,7 @@ pub(crate) fn variables(q: &[f64], description: &Description) -> String {
 }
 
 /// What is not at home and not nominal: `d1 = 38 mm, q4 = -90°, z = 1100 mm`.
-pub(crate) fn configuration(
+pub fn configuration(
     configuration: &Configuration,
     home: &Configuration,
     description: &Description,
@@ -88,18 +88,18 @@ pub(crate) fn configuration(
 }
 
 /// A number to so many digits.
-pub(crate) fn digits(value: f64, digits: usize) -> String {
+pub fn digits(value: f64, digits: usize) -> String {
     let decimals = digits.saturating_sub(1);
     short(format!("{value:.decimals$e}").parse().unwrap_or(value))
 }
 
 /// A share in whole percent.
-pub(crate) fn percent(value: f64, of: f64) -> String {
+pub fn percent(value: f64, of: f64) -> String {
     format!("{:.0} %", 100.0 * value / of)
 }
 
 /// A number with at most this many decimals.
-pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
+pub fn trimmed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     if !text.contains('.') || text.contains('e') {
         return text;
@@ -109,7 +109,7 @@ pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
 
 /// Named numbers, in JSON an object in this order.
 #[derive(Debug)]
-pub(crate) struct Named(pub(crate) Vec<(String, f64)>);
+pub struct Named(pub Vec<(String, f64)>);
 
 impl Serialize for Named {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,0 +1,39 @@
+//! What can be asked of a manipulator, and what comes out: every command of `abbe` without its arguments and its text.
+//!
+//! A **job** is one question. It is a struct that holds what is asked, owned and plain, and has one function,
+//!
+//! ```text
+//! pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics>
+//! ```
+//!
+//! The rules that all jobs keep, so that a command, a Python module and a test can call them alike:
+//!
+//! - **One folder per job**, named as the command: `check/`, `jacobian/`, `analyze/`, `measure/` … The struct of the
+//!   question has the command's name ([`Machine`] first, then what else is asked); its report is one struct that
+//!   derives `Serialize`, owns everything in it and borrows nothing. Serialized it is what `--json` prints. What only a
+//!   text or a page needs stands in the same report, marked `#[serde(skip)]`.
+//! - **A mistake in what is asked is `Diagnostics`**, with the file or option and the place: [`mistake::whole`] makes one
+//!   without a place, [`mistake::not_evaluated`] that of a configuration without a finite result.
+//! - **What is said on the way goes to [`Notes`]**: a note, a warning, how far the work is; and a job that takes long
+//!   asks it whether to stop. Nothing here prints, exits, or knows arguments. `&mut ()` hears nothing.
+//! - **Files are named by the caller.** A job reads the ones it is given and writes none: what is to be written comes
+//!   back as text or rows.
+//! - Numbers are in the spec's coherent system, as in the spec and in `abbe`. [`number`] is how people read them: views
+//!   use it, reports hold numbers.
+//! - The spec of a [`Machine`] is changed once, by [`Machine::change`], before the job starts.
+//!
+//! [`Machine`] is a spec with its name, and its generated code if it is shipped; [`Changes`] what differs from it in one
+//! run; [`study_file`] the study files, [`workspace`] the configurations that they ask for.
+
+mod changes;
+mod machine;
+pub mod mistake;
+mod notes;
+pub mod number;
+pub mod study_file;
+pub mod workspace;
+
+pub use changes::{Changes, find_symbol};
+pub use machine::{Evaluator, Machine};
+pub use notes::Notes;
+pub use study_file::Study;

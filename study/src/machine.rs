@@ -1,0 +1,111 @@
+//! The manipulator that a job is about: a spec file, or a shipped one.
+
+use std::ops::Deref;
+use std::path::Path;
+use std::sync::Arc;
+
+use abbe::Manipulator;
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::document::Document;
+use abbe_codegen::expr::find_name;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::{SHIPPED, Shipped};
+
+use crate::changes::Changes;
+
+/// A spec, and what was shipped with it.
+#[derive(Clone)]
+pub struct Machine {
+    /// What its file says, with the changes that were made.
+    pub spec: Arc<Spec>,
+    /// What it is called in messages: the path of its file, or the shipped name.
+    pub origin: String,
+    /// What is shipped with it, if it is a shipped one.
+    pub shipped: Option<&'static Shipped>,
+    /// Whether the spec is no longer that of the generated code.
+    changed: bool,
+}
+
+impl Machine {
+    /// Reads the spec that an argument names.
+    ///
+    /// A file that exists, and whatever looks like a path, is a file; all else must be a shipped name.
+    pub fn find(argument: &str) -> Result<Self, Diagnostics> {
+        let path = Path::new(argument);
+        let is_path =
+            argument.contains(std::path::is_separator) || argument.ends_with(".toml") || path.is_file();
+        let shipped = SHIPPED.iter().find(|shipped| shipped.name == argument);
+        match shipped {
+            Some(shipped) if !is_path => Self::shipped(shipped),
+            None if !is_path && !path.exists() => Err(unknown(argument)),
+            _ => Ok(Self::new(Spec::read(path)?, argument, None)),
+        }
+    }
+
+    /// A shipped manipulator, with the file name that its generated code carries.
+    pub fn shipped(shipped: &'static Shipped) -> Result<Self, Diagnostics> {
+        let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec)?;
+        Ok(Self::new(spec, shipped.name, Some(shipped)))
+    }
+
+    /// A spec of one's own; `origin` is what messages call it.
+    pub fn of_spec(spec: Spec, origin: &str) -> Self {
+        Self::new(spec, origin, None)
+    }
+
+    fn new(spec: Spec, origin: &str, shipped: Option<&'static Shipped>) -> Self {
+        Self { spec: Arc::new(spec), origin: origin.to_owned(), shipped, changed: false }
+    }
+
+    /// Makes changes: what is set becomes nominal. Generated code, which knows nothing of them, is not run any more.
+    pub fn change(&mut self, changes: &Changes) {
+        changes.apply(Arc::make_mut(&mut self.spec));
+        self.changed |= !changes.is_empty();
+    }
+
+    /// The functions of the manipulator: its generated code if it is shipped, not changed, and `compiled` may be used; else
+    /// its spec, interpreted.
+    pub fn evaluator(&self, compiled: bool) -> Evaluator<'_> {
+        match self.shipped {
+            Some(shipped) if compiled && !self.changed => Evaluator::Compiled(shipped.compiled),
+            _ => Evaluator::Interpreted(Box::new(Interpreter::new(&self.spec))),
+        }
+    }
+
+    /// The text of the spec, as it was before changes.
+    pub fn text(&self) -> Result<String, Diagnostics> {
+        match self.shipped {
+            Some(shipped) => Ok(shipped.spec.to_owned()),
+            None => Ok(Document::read(Path::new(&self.origin))?.text.to_string()),
+        }
+    }
+}
+
+/// A manipulator that can be evaluated, one way or the other.
+pub enum Evaluator<'s> {
+    /// By its generated code.
+    Compiled(&'static dyn Manipulator),
+    /// By its spec.
+    Interpreted(Box<Interpreter<'s>>),
+}
+
+impl<'s> Deref for Evaluator<'s> {
+    type Target = dyn Manipulator + 's;
+
+    fn deref(&self) -> &Self::Target {
+        match self {
+            Self::Compiled(manipulator) => *manipulator,
+            Self::Interpreted(interpreter) => &**interpreter,
+        }
+    }
+}
+
+fn unknown(argument: &str) -> Diagnostics {
+    let mut document = Document::new("SPEC", argument);
+    let names = SHIPPED.iter().map(|shipped| shipped.name).collect::<Vec<_>>();
+    find_name(&mut document, 0..argument.len(), argument, &names, "shipped manipulator");
+    let Document { path, text, found } = document;
+    let list = found.into_iter().map(|mistake| mistake.label("and no such file")).collect();
+    Diagnostics { path, text, list }
+}

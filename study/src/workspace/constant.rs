@@ -1,0 +1,56 @@
+//! Constants in a file: with units, converted into the coherent system of the spec.
+
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item};
+use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope};
+use abbe_codegen::spec::Spec;
+
+/// A constant in the coherent system of the spec.
+pub fn constant(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+    what: &str,
+) -> Option<f64> {
+    let scope = Scope { length: spec.length, names: Default::default() };
+    let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
+    document.constant(item, &scope, entry).map(|(value, _)| value)
+}
+
+/// A length that is more than zero.
+pub fn positive_length(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<f64> {
+    let value = constant(item, document, spec, Dimension::LENGTH, &format!("`{}`", item.key))?;
+    if value > 0.0 {
+        return Some(value);
+    }
+    document.mistake(
+        Diagnostic::new(item.span(), format!("`{}` must be more than zero", item.key))
+            .label("this is not")
+            .help("leave it out if there is none"),
+    );
+    None
+}
+
+/// A whole number of things, at least one.
+pub fn count(item: &Item<'_>, largest: usize, document: &mut Document, spec: &Spec) -> Option<usize> {
+    whole(item, [1, largest], document, spec)
+}
+
+/// A whole number.
+pub fn whole(
+    item: &Item<'_>,
+    [least, largest]: [usize; 2],
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<usize> {
+    let value = constant(item, document, spec, Dimension::NONE, &format!("`{}`", item.key))?;
+    if value.fract() == 0.0 && (least as f64..=largest as f64).contains(&value) {
+        return Some(value as usize);
+    }
+    let message = format!("`{}` must be a whole number from {least} to {largest}", item.key);
+    document.mistake(
+        Diagnostic::new(item.span(), message).label("this is not").help("write a number such as 100"),
+    );
+    None
+}

@@ -1,0 +1,16 @@
+//! The configurations that a study or a plan asks for: `[workspace]`.
+//!
+//! `region` is what is asked for; `forms` reads its forms, `axis` the values of a variable or parameter, `path` a file of
+//! configurations, `constant` single values.
+
+mod axis;
+mod constant;
+mod forms;
+mod path;
+mod region;
+
+pub use axis::Candidates;
+pub use constant::{constant, count, positive_length, whole};
+pub use forms::read_region;
+pub use path::Path;
+pub use region::Region;
