@@ -4,6 +4,7 @@
 
 pub mod chains;
 pub mod frame_loop;
+pub mod needs;
 
 /// Generated code.
 pub mod golden {

@@ -1,20 +1,19 @@
 //! Instruction counts by valgrind: within 2 % of those that are checked in.
 //!
-//! Needs valgrind and gungraun-runner, and says so where they are not: `.ci/run` installs both. A change is written by
-//! `UPDATE_EXPECT=1 cargo test -p abbe-tests --test instructions`.
+//! Needs valgrind, gungraun-runner and the compiler they were counted with, and is ignored without: `.ci/run` installs the
+//! first two. A change is written by `UPDATE_EXPECT=1 cargo test -p abbe-tests --test instructions`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, ExitCode};
 
+use abbe_tests::needs::{Missing, Test, run, tool};
 use serde_json::Value;
 
-/// What a program prints, if it is there and succeeds.
-fn said(program: &str, arguments: &[&str]) -> Option<String> {
-    let output = Command::new(program).args(arguments).output().ok()?;
-    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+fn main() -> ExitCode {
+    run([("as_many_as_are_checked_in", as_many_as_are_checked_in as Test)])
 }
 
 /// The version that the runner must have: that of the crate.
@@ -57,16 +56,10 @@ fn counted() -> BTreeMap<String, u64> {
         .collect()
 }
 
-#[test]
-fn as_many_as_are_checked_in() {
-    let Some(valgrind) = said("valgrind", &["--version"]) else {
-        return println!("skipped: no valgrind");
-    };
-    let runner = said("gungraun-runner", &["--version"]);
-    if !runner.is_some_and(|runner| runner.ends_with(version())) {
-        return println!("skipped: no gungraun-runner {}", version());
-    }
-    let rustc = said("rustc", &["--version"]).expect("rustc");
+fn as_many_as_are_checked_in() -> Result<(), Missing> {
+    let valgrind = tool("valgrind", "")?;
+    tool("gungraun-runner", version())?;
+    let rustc = tool("rustc", "")?;
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/instructions.txt");
     let counts = counted();
     if std::env::var_os("UPDATE_EXPECT").is_some() {
@@ -77,7 +70,7 @@ fn as_many_as_are_checked_in() {
     let table = fs::read_to_string(&path).expect("the table");
     let (compiler, rows) = table.split_once('\n').expect("the compiler first");
     if compiler != rustc {
-        return println!("skipped: counted with {compiler}, and this is {rustc}");
+        return Err(Missing(format!("counted with {compiler}, and this is {rustc}")));
     }
     let expected: BTreeMap<String, u64> = rows
         .lines()
@@ -92,4 +85,5 @@ fn as_many_as_are_checked_in() {
         .map(|(name, expected, count)| format!("{name}: {count} instead of {expected}"))
         .collect();
     assert!(off.is_empty(), "off by more than 2 % with {valgrind}:\n{}", off.join("\n"));
+    Ok(())
 }

@@ -1,4 +1,4 @@
-//! `abbe identify`: real measurements of others where they are, simulated ones everywhere.
+//! `abbe identify` on simulated measurements.
 
 use std::path::{Path, PathBuf};
 
@@ -11,16 +11,6 @@ fn path(path: &Path) -> &str {
     path.to_str().expect("a path is text")
 }
 
-/// A file of the public data set, if it stands beside the repository.
-fn real(file: &str) -> Option<PathBuf> {
-    let found = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/ur5_wam_jacobi").join(file);
-    if !found.exists() {
-        println!("skipped: {file} is not here");
-        return None;
-    }
-    Some(found)
-}
-
 /// The shipped map, as a file.
 fn map(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../manipulators/maps").join(format!("{name}.toml"))
@@ -28,71 +18,6 @@ fn map(name: &str) -> PathBuf {
 
 fn number(report: &Value, keys: &[&str]) -> f64 {
     keys.iter().fold(report, |value, key| &value[key]).as_f64().unwrap_or_else(|| panic!("{keys:?}"))
-}
-
-fn real_report(robot: &str, more: &[&str]) -> Option<Value> {
-    let name = robot.to_uppercase();
-    let grid = real(&format!("3D_{name}_uncalibrated_grid_cleaned.csv"))?;
-    let random = real(&format!("3D_{name}_uncalibrated_random_cleaned.csv"))?;
-    let map = map(robot);
-    let arguments = ["identify", robot, path(&grid), "--map", path(&map), "--test", path(&random), "--json"];
-    Some(json(&[&arguments[..], more].concat()))
-}
-
-#[test]
-fn ur5_is_as_good_as_measured() {
-    let Some(report) = real_report("ur5", &[]) else { return };
-    assert_eq!((&report["rank"], &report["unknowns"]), (&27.into(), &45.into()));
-    for key in ["condition", "groups", "parameters", "fit", "test"] {
-        assert!(!report[key].is_null(), "{key}");
-    }
-    assert_eq!(report["parameters"].as_array().map(Vec::len), Some(27));
-    assert!((number(&report, &["test", "before", "mean"]) - 2.565).abs() < 5e-4);
-    assert!((number(&report, &["test", "base_and_tool", "mean"]) - 0.488).abs() < 1e-3);
-    assert!(number(&report, &["test", "after", "mean"]) <= 0.102);
-    assert!(number(&report, &["test", "after", "max"]) <= 0.160);
-    // As the README has it.
-    assert!((number(&report, &["test", "after", "mean"]) - 0.1005).abs() < 5e-5);
-    let richer = real_report("ur5", &["--terms", "auto"]).expect("the data are here");
-    assert!((number(&richer, &["test", "after", "mean"]) - 0.0905).abs() < 5e-5);
-    // Two directions are known only because the target is a little off the last axis: that is said.
-    let hardly = report["parameters"].as_array().unwrap().iter().filter(|p| p["hardly_known"] == true);
-    assert_eq!(hardly.map(|p| p["name"].as_str().unwrap()).collect::<Vec<_>>(), ["e_s5", "e_p5"]);
-}
-
-#[test]
-fn wam_gains_by_terms_that_the_grid_alone_chooses() {
-    let Some(report) = real_report("wam", &[]) else { return };
-    assert_eq!(report["rank"], 31);
-    assert!(number(&report, &["test", "after", "mean"]) <= 3.10);
-    let Some(richer) = real_report("wam", &["--terms", "auto"]) else { return };
-    let crossed = ["cross_validation", "after", "mean"];
-    assert!(number(&richer, &crossed) < number(&report, &crossed));
-    // The data's author published 2.9178.
-    assert!((number(&richer, &["test", "after", "mean"]) - 2.845).abs() < 5e-4);
-}
-
-#[test]
-fn elastic_terms_are_written_with_their_weight() {
-    let Some(grid) = real("3D_WAM_uncalibrated_grid_cleaned.csv") else { return };
-    let folder = tempdir().unwrap();
-    let out = folder.path().join("found.toml");
-    let map = map("wam");
-    let identify = ["identify", "wam", path(&grid), "--map", path(&map), "--terms", "elastic", "--json"];
-    let report = json(&[&identify[..], &["--out", path(&out)]].concat());
-    assert!(!report["terms"].as_array().unwrap().is_empty());
-    let text = std::fs::read_to_string(&out).unwrap();
-    assert!(text.contains("[[load]]") && text.contains("compliance = ") && text.starts_with("gravity = "));
-    // The spec computes what was fitted: the model with all of it, base and tool included.
-    let joints: String =
-        (1..=7).map(|i| format!("q{i} = {{ column = \"joint_{i}\", unit = \"deg\" }}\n")).collect();
-    let exact = format!(
-        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\n\n[joints]\n{joints}\n[difference]\ntarget = [\"x_t\", \"y_t\", \"z_t\"]\ndifference = [\"x_dif\", \"y_dif\", \"z_dif\"]\nunit = \"mm\"\n"
-    );
-    let exact = write(folder.path(), "exact.toml", &exact);
-    let measured = json(&["measure", path(&out), path(&grid), "--map", path(&exact), "--json"]);
-    let left = number(&measured, &["explained", "left_rms"]);
-    assert!((left - number(&report, &["fit", "after", "rms"])).abs() < 1e-4, "{left}");
 }
 
 /// A machine with errors of its own.

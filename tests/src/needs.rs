@@ -1,0 +1,48 @@
+//! Tests that need what is not everywhere: measurements of others, tools. Where it is missing they are reported as
+//! ignored, with the reason, never as passed. Their targets have `harness = false` and [`run`] in `main`.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use libtest_mimic::{Arguments, Completion, Trial};
+
+/// What is missing: the reason why a test is ignored.
+pub struct Missing(pub String);
+
+/// A test that may find what it needs missing. It panics where it fails.
+pub type Test = fn() -> Result<(), Missing>;
+
+/// Runs tests by name.
+#[must_use]
+pub fn run(tests: impl IntoIterator<Item = (&'static str, Test)>) -> ExitCode {
+    let trial = |(name, test): (_, Test)| {
+        Trial::ignorable_test(name, move || {
+            Ok(test().map_or_else(|Missing(what)| Completion::ignored_with(what), |()| Completion::Completed))
+        })
+    };
+    libtest_mimic::run(&Arguments::from_args(), tests.into_iter().map(trial).collect()).exit_code()
+}
+
+/// A file of the public measurements of UR5 and WAM, which stand beside the repository, if at all.
+///
+/// # Errors
+///
+/// The file is not there.
+pub fn measured_data(file: &str) -> Result<PathBuf, Missing> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/ur5_wam_jacobi").join(file);
+    if path.exists() { Ok(path) } else { Err(Missing(format!("the measured data are not here: {file}"))) }
+}
+
+/// What `program --version` prints, which must end with that version (an empty one: any).
+///
+/// # Errors
+///
+/// The program is not there, fails, or is of another version.
+pub fn tool(program: &str, version: &str) -> Result<String, Missing> {
+    let output = Command::new(program).arg("--version").output();
+    let printed = output.ok().filter(|output| output.status.success());
+    let printed = printed.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned());
+    printed
+        .filter(|printed| printed.ends_with(version))
+        .ok_or_else(|| Missing(format!("{program} {version}").trim().to_owned() + " is not installed"))
+}
