@@ -35,7 +35,7 @@ struct Report<'a> {
 pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome, Failure> {
     let mut found = Machine::find(&arguments.spec)?;
     found.change(&arguments.changes.read(&found.spec)?);
-    let interpreter = Interpreter::new(&found.spec);
+    let interpreter = Interpreter::new(found.spec.clone());
     let description = interpreter.description();
     let q = match &arguments.q {
         Some(text) => joint_variables(text, &found.spec)?,
@@ -122,7 +122,7 @@ fn beyond_limits(variable: &Variable, value: f64, description: &Description) {
 
 impl<'a> Report<'a> {
     fn new(
-        description: &Description<'a>,
+        description: &'a Description,
         q: Vec<f64>,
         pose: &Pose,
         columns: &[[f64; 6]],
@@ -133,7 +133,7 @@ impl<'a> Report<'a> {
         let names = (1..=description.frames.len())
             .flat_map(|frame| Component::ALL.map(|component| format!("{}{frame}", component.name())));
         Self {
-            name: description.name,
+            name: &description.name,
             length: description.length.symbol(),
             orientation: description.orientation.name(),
             q,

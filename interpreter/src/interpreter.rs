@@ -1,12 +1,13 @@
 //! A spec as a [`Manipulator`].
 
+use std::sync::Arc;
+
 use abbe::lanes::{Path, Tiles};
 use abbe::{Description, Error, Manipulator, Pose, Quantity, checks};
-use abbe_codegen::chain::Model;
+use abbe_codegen::chain::{EffectNode, Model};
 use abbe_codegen::program::FunctionKind;
 use abbe_codegen::spec::{Orientation, Spec};
 
-use crate::describe::Described;
 use crate::lanes::{Batch, Block};
 use crate::tape::Tape;
 
@@ -15,8 +16,9 @@ const POSE: usize = 12;
 
 /// A manipulator that is run from its spec, without a compiler.
 #[derive(Clone, Debug)]
-pub struct Interpreter<'s> {
-    described: Described<'s>,
+pub struct Interpreter {
+    spec: Arc<Spec>,
+    description: Description,
     euler: bool,
     transforms: Tape,
     pose: Tape,
@@ -29,10 +31,11 @@ pub struct Interpreter<'s> {
     batches: [Tape; Path::ALL.len()],
 }
 
-impl<'s> Interpreter<'s> {
-    /// Prepares the programs of a spec.
-    pub fn new(spec: &'s Spec) -> Self {
-        let model = Model::new(spec);
+impl Interpreter {
+    /// Prepares the programs of a spec, which it keeps.
+    pub fn new(spec: impl Into<Arc<Spec>>) -> Self {
+        let spec = spec.into();
+        let model = Model::new(&spec);
         let counts = [spec.variables.len(), spec.parameters.len(), spec.inputs.len()];
         let tape = |kind: FunctionKind| {
             let errors = match kind {
@@ -43,7 +46,7 @@ impl<'s> Interpreter<'s> {
             Tape::new(&kind.program(&model), [variables, parameters, inputs, errors])
         };
         Self {
-            described: Described::new(spec, &model),
+            description: spec.describe(model.effects.iter().map(EffectNode::effect)),
             euler: spec.orientation == Orientation::EulerYzx,
             transforms: tape(FunctionKind::Transforms),
             pose: tape(FunctionKind::Pose),
@@ -53,12 +56,18 @@ impl<'s> Interpreter<'s> {
             effects: tape(FunctionKind::Effects),
             generalized_errors: tape(FunctionKind::GeneralizedErrors),
             batches: Path::ALL.map(|path| tape(kind(path))),
+            spec,
         }
+    }
+
+    /// The spec that it runs.
+    pub fn spec(&self) -> &Arc<Spec> {
+        &self.spec
     }
 
     /// Checks the arguments of one configuration.
     fn check(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
-        let description = self.described.description();
+        let description = &self.description;
         for (quantity, values, expected) in [
             (Quantity::Variables, q, description.variables.len()),
             (Quantity::Parameters, s, description.parameters.len()),
@@ -67,12 +76,12 @@ impl<'s> Interpreter<'s> {
             count(quantity, expected, values.len())?;
             checks::finite(quantity, values)?;
         }
-        checks::inputs(description.inputs, u)
+        checks::inputs(&description.inputs, u)
     }
 
     /// The inputs at their default values, for what does not depend on them.
     fn nominal_inputs(&self) -> Vec<f64> {
-        self.described.description().inputs.iter().map(|input| input.nominal).collect()
+        self.description.inputs.iter().map(|input| input.nominal).collect()
     }
 
     /// Runs a tape at one configuration.
@@ -114,9 +123,9 @@ impl<'s> Interpreter<'s> {
     }
 }
 
-impl Manipulator for Interpreter<'_> {
-    fn description(&self) -> Description<'_> {
-        self.described.description()
+impl Manipulator for Interpreter {
+    fn description(&self) -> &Description {
+        &self.description
     }
 
     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
@@ -170,7 +179,7 @@ impl Manipulator for Interpreter<'_> {
     }
 
     fn batch(&self, path: Path, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
-        path.check(&self.description(), arguments, results)?;
+        path.check(self.description(), arguments, results)?;
         let tape = &self.batches[path as usize];
         arguments.instruction_set().run(Batch { tape, arguments, results });
         Ok(())

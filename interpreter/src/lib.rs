@@ -14,15 +14,13 @@
 //!     variable = { name = "d1", kind = "prismatic" }
 //!     transform = "Tx(d1)"
 //! "#)?;
-//! let slide = Interpreter::new(&spec);
+//! let slide = Interpreter::new(spec);
 //! assert_eq!(slide.pose(&[12.0], &[])?.position(), [12.0, 0.0, 0.0]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `tape` is a program with its registers packed; `lanes` evaluates it; `describe` turns a spec into the
-//! description that generated code has as a constant.
+//! `tape` is a program with its registers packed; `lanes` evaluates it.
 
-mod describe;
 mod interpreter;
 mod lanes;
 mod tape;

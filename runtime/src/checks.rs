@@ -50,7 +50,7 @@ impl Margin for () {
 }
 
 /// Whether every input is within its range.
-pub fn inputs(description: &[Input<'_>], u: &[f64]) -> Result<(), Error> {
+pub fn inputs(description: &[Input], u: &[f64]) -> Result<(), Error> {
     for (input, (declared, &value)) in description.iter().zip(u).enumerate() {
         let [lower, upper] = declared.range;
         if !(lower..=upper).contains(&value) {
@@ -67,7 +67,7 @@ pub fn configuration(q: &[f64], s: &[f64]) -> Result<(), Error> {
 }
 
 /// The same, and whether every input is finite and within its range.
-pub fn use_case(description: &[Input<'_>], q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
+pub fn use_case(description: &[Input], q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
     configuration(q, s)?;
     finite(Quantity::Inputs, u)?;
     inputs(description, u)

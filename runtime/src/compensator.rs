@@ -50,7 +50,7 @@ pub fn norms(rows: &[f64; 6]) -> (f64, f64) {
 /// target is reached is what [`Compensated::after`] says: it is not where a limit, too few joints, or a singularity
 /// forbid it. An error is what `step` returns as such.
 pub fn compensate<Q, C>(
-    description: &Description<'_>,
+    description: &Description,
     target: &Pose,
     start: &Q,
     mut columns: C,
@@ -60,7 +60,7 @@ where
     Q: Clone + AsRef<[f64]> + AsMut<[f64]>,
     C: AsMut<[[f64; 6]]>,
 {
-    let Description { variables, length, .. } = *description;
+    let Description { variables, length, .. } = description;
     let problem = Problem { variables, metre: 1.0 / length.in_metres() };
     let error = |real: &Pose| deviation(Orientation::RotationVector, target, real);
 
@@ -83,7 +83,7 @@ where
 
 /// What lengths and angles count: all in metres and rad.
 struct Problem<'a> {
-    variables: &'a [Variable<'a>],
+    variables: &'a [Variable],
     /// A metre in the manipulator's unit.
     metre: f64,
 }
@@ -197,7 +197,7 @@ fn solve(mut m: [[f64; 6]; 6], mut b: [f64; 6]) -> [f64; 6] {
     b
 }
 
-fn clamped(variable: &Variable<'_>, value: f64) -> f64 {
+fn clamped(variable: &Variable, value: f64) -> f64 {
     value.max(variable.limits[0]).min(variable.limits[1])
 }
 

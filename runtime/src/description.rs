@@ -1,6 +1,6 @@
 //! What a manipulator says about itself: names, units, limits, sources.
 
-use crate::Component;
+use crate::{Component, List, Text};
 
 /// The length unit of a manipulator's poses, Jacobians, variables and errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,10 +66,10 @@ pub enum VariableKind {
 }
 
 /// A joint variable. Lengths in the manipulator's unit, angles in rad.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Variable<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
     /// Its name in the spec.
-    pub name: &'a str,
+    pub name: Text,
     /// Revolute or prismatic.
     pub kind: VariableKind,
     /// Lower and upper limit, infinite where the spec has none.
@@ -78,64 +78,64 @@ pub struct Variable<'a> {
     pub home: f64,
 }
 
-impl<'a> Variable<'a> {
+impl Variable {
     /// All its fields, in their order.
-    pub const fn new(name: &'a str, kind: VariableKind, limits: [f64; 2], home: f64) -> Self {
-        Self { name, kind, limits, home }
+    pub const fn new(name: &'static str, kind: VariableKind, limits: [f64; 2], home: f64) -> Self {
+        Self { name: Text::Constant(name), kind, limits, home }
     }
 }
 
 /// A frame `F_i` of the chain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
     /// Its name in the spec.
-    pub name: &'a str,
+    pub name: Text,
     /// Index of the variable that it declares; none if it is fixed.
     pub variable: Option<usize>,
 }
 
-impl<'a> Frame<'a> {
+impl Frame {
     /// All its fields, in their order.
-    pub const fn new(name: &'a str, variable: Option<usize>) -> Self {
-        Self { name, variable }
+    pub const fn new(name: &'static str, variable: Option<usize>) -> Self {
+        Self { name: Text::Constant(name), variable }
     }
 }
 
 /// A structural parameter, in coherent units (the length unit, kg, s, rad, K).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
     /// Its name in the spec.
-    pub name: &'a str,
+    pub name: Text,
     /// Its nominal value.
     pub nominal: f64,
     /// Its coherent unit, empty for a pure number or an angle.
-    pub unit: &'a str,
+    pub unit: Text,
 }
 
-impl<'a> Parameter<'a> {
+impl Parameter {
     /// All its fields, in their order.
-    pub const fn new(name: &'a str, nominal: f64, unit: &'a str) -> Self {
-        Self { name, nominal, unit }
+    pub const fn new(name: &'static str, nominal: f64, unit: &'static str) -> Self {
+        Self { name: Text::Constant(name), nominal, unit: Text::Constant(unit) }
     }
 }
 
 /// An input: what changes from use to use. Coherent units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Input<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
     /// Its name in the spec.
-    pub name: &'a str,
+    pub name: Text,
     /// Its default value.
     pub nominal: f64,
     /// The range within which it is accepted, infinite where the spec has none.
     pub range: [f64; 2],
     /// Its coherent unit, empty for a pure number or an angle.
-    pub unit: &'a str,
+    pub unit: Text,
 }
 
-impl<'a> Input<'a> {
+impl Input {
     /// All its fields, in their order.
-    pub const fn new(name: &'a str, nominal: f64, range: [f64; 2], unit: &'a str) -> Self {
-        Self { name, nominal, range, unit }
+    pub const fn new(name: &'static str, nominal: f64, range: [f64; 2], unit: &'static str) -> Self {
+        Self { name: Text::Constant(name), nominal, range, unit: Text::Constant(unit) }
     }
 }
 
@@ -168,20 +168,20 @@ impl Distribution {
 }
 
 /// A physical error source.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Source<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
     /// Its name in the spec.
-    pub name: &'a str,
+    pub name: Text,
     /// Repeatable, or random with a distribution.
     pub class: Class,
     /// Where its numbers come from.
-    pub reference: &'a str,
+    pub reference: Text,
 }
 
-impl<'a> Source<'a> {
+impl Source {
     /// All its fields, in their order.
-    pub const fn new(name: &'a str, class: Class, reference: &'a str) -> Self {
-        Self { name, class, reference }
+    pub const fn new(name: &'static str, class: Class, reference: &'static str) -> Self {
+        Self { name: Text::Constant(name), class, reference: Text::Constant(reference) }
     }
 }
 
@@ -204,31 +204,31 @@ impl Effect {
 }
 
 /// What a manipulator says about itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Description<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
     /// Its name: a module and file name.
-    pub name: &'a str,
+    pub name: Text,
     /// Its name for people.
-    pub title: &'a str,
+    pub title: Text,
     /// The unit of every length.
     pub length: LengthUnit,
     /// What rows 4–6 of its Jacobians are.
     pub orientation: Orientation,
     /// `F_1 … F_n`.
-    pub frames: &'a [Frame<'a>],
+    pub frames: List<Frame>,
     /// `q`, in the order of the frames that declare them.
-    pub variables: &'a [Variable<'a>],
+    pub variables: List<Variable>,
     /// The structural parameters `s`.
-    pub parameters: &'a [Parameter<'a>],
+    pub parameters: List<Parameter>,
     /// The inputs `u`.
-    pub inputs: &'a [Input<'a>],
+    pub inputs: List<Input>,
     /// The enabled error sources.
-    pub sources: &'a [Source<'a>],
+    pub sources: List<Source>,
     /// What the sources cause, source by source.
-    pub effects: &'a [Effect],
+    pub effects: List<Effect>,
 }
 
-impl Description<'_> {
+impl Description {
     /// ε from the values of the effects: of the repeatable sources, six errors per frame.
     ///
     /// Effects and frames that one of the slices does not reach are left out.

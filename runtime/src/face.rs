@@ -121,7 +121,7 @@ macro_rules! checked_face {
             u: &Inputs,
         ) -> Result<$crate::Pose, $crate::Error> {
             let (s, u) = (&s.to_array(), &u.to_array());
-            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            $crate::checks::use_case(&DESCRIPTION.inputs, q, s, u)?;
             let mut pose = [[0.0; 3]; 4];
             raw::real_pose(q, s, u, &mut pose);
             $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
@@ -139,7 +139,7 @@ macro_rules! checked_face {
             u: &Inputs,
         ) -> Result<($crate::Pose, [[f64; 6]; VARIABLES]), $crate::Error> {
             let (s, u) = (&s.to_array(), &u.to_array());
-            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            $crate::checks::use_case(&DESCRIPTION.inputs, q, s, u)?;
             let (mut pose, mut columns) = ([[0.0; 3]; 4], [[0.0; 6]; VARIABLES]);
             raw::compensator_step(q, s, u, &mut pose, &mut columns);
             $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
@@ -170,7 +170,7 @@ macro_rules! checked_face {
             u: &Inputs,
         ) -> Result<$crate::compensator::Compensated<[f64; VARIABLES]>, $crate::Error> {
             let (s, u) = (&s.to_array(), &u.to_array());
-            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            $crate::checks::use_case(&DESCRIPTION.inputs, q, s, u)?;
             $crate::checks::finite($crate::Quantity::Pose, target.0.as_flattened())?;
             let columns = [[0.0; 6]; VARIABLES];
             $crate::compensator::compensate(&DESCRIPTION, target, q, columns, |q, columns| {
@@ -183,8 +183,8 @@ macro_rules! checked_face {
         }
 
         impl $crate::Manipulator for $name {
-            fn description(&self) -> $crate::Description<'_> {
-                DESCRIPTION
+            fn description(&self) -> &$crate::Description {
+                &DESCRIPTION
             }
 
             fn transforms(
@@ -229,7 +229,7 @@ macro_rules! checked_face {
                 let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
                 let u = $crate::checks::argument($crate::Quantity::Inputs, u)?;
                 let effects = $crate::checks::result($crate::Quantity::Errors, effects)?;
-                $crate::checks::inputs(DESCRIPTION.inputs, u)?;
+                $crate::checks::inputs(&DESCRIPTION.inputs, u)?;
                 raw::effects(q, s, u, effects);
                 $crate::checks::finite($crate::Quantity::Errors, effects)
             }
@@ -245,7 +245,7 @@ macro_rules! checked_face {
                 let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
                 let u = $crate::checks::argument($crate::Quantity::Inputs, u)?;
                 let errors = $crate::checks::result($crate::Quantity::Errors, errors)?;
-                $crate::checks::inputs(DESCRIPTION.inputs, u)?;
+                $crate::checks::inputs(&DESCRIPTION.inputs, u)?;
                 raw::generalized_errors(q, s, u, errors);
                 $crate::checks::finite($crate::Quantity::Errors, errors.as_flattened())
             }
@@ -292,7 +292,7 @@ macro_rules! checked_face {
             u: &Inputs,
         ) -> Result<[$($result)*], $crate::Error> {
             let (s, u) = (&s.to_array(), &u.to_array());
-            $crate::checks::use_case(DESCRIPTION.inputs, q, s, u)?;
+            $crate::checks::use_case(&DESCRIPTION.inputs, q, s, u)?;
             let mut result = $crate::checked_face!(@zero $($result)*);
             let margin = raw::$function(q, s, u, &mut result);
             $crate::checks::displacement(margin, $crate::checked_face!(@flat result: $($result)*))?;

@@ -4,11 +4,15 @@
 //! struct Slide;
 //! # use abbe::*;
 //! # impl Manipulator for Slide {
-//! #     fn description(&self) -> Description<'_> {
-//! #         const VARIABLE: Variable = Variable { name: "d", kind: VariableKind::Prismatic, limits: [0.0, 1.0], home: 0.5 };
-//! #         Description { name: "slide", title: "", length: LengthUnit::Metre, orientation: Orientation::RotationVector,
-//! #             frames: &[Frame { name: "slide", variable: Some(0) }], variables: &[VARIABLE], parameters: &[], inputs: &[],
-//! #             sources: &[], effects: &[] }
+//! #     fn description(&self) -> &Description {
+//! #         static DESCRIPTION: Description = Description {
+//! #             name: Text::Constant("slide"), title: Text::Constant(""), length: LengthUnit::Metre,
+//! #             orientation: Orientation::RotationVector, frames: List::Constant(&[Frame::new("slide", Some(0))]),
+//! #             variables: List::Constant(&[Variable::new("d", VariableKind::Prismatic, [0.0, 1.0], 0.5)]),
+//! #             parameters: List::Constant(&[]), inputs: List::Constant(&[]), sources: List::Constant(&[]),
+//! #             effects: List::Constant(&[]),
+//! #         };
+//! #         &DESCRIPTION
 //! #     }
 //! #     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
 //! #         transforms.copy_from_slice(&[self.pose(q, s)?, Pose::IDENTITY]);

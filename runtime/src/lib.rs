@@ -30,10 +30,12 @@ mod error;
 mod face;
 #[cfg(feature = "nalgebra")]
 mod faces;
+pub mod function;
 pub mod long;
 mod manipulator;
 mod pose;
 mod scalar;
+mod shared;
 mod sin_cos;
 
 #[cfg(feature = "analysis")]
@@ -60,9 +62,11 @@ pub use description::{
 pub use error::{Error, MINIMUM_MARGIN, Quantity};
 #[cfg(feature = "nalgebra")]
 pub use faces::{jacobian_view, jacobian_view_dynamic};
+pub use function::Function;
 pub use manipulator::Manipulator;
 pub use pose::Pose;
 pub use scalar::Scalar;
+pub use shared::{List, Text};
 
 /// Includes every module that `abbe_codegen::compile` generated in this crate's build script.
 ///

@@ -10,7 +10,7 @@ use crate::{Description, Error, Pose};
 /// [`Error::NotFinite`], whether they come in or would go out. Being pure, it may be asked from several threads.
 pub trait Manipulator: Sync {
     /// Names, units, limits, sources.
-    fn description(&self) -> Description<'_>;
+    fn description(&self) -> &Description;
 
     /// `A_1 … A_n` and the tool `T`, one after the other: `frames + 1` of them.
     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error>;

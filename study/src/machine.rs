@@ -66,10 +66,10 @@ impl Machine {
 
     /// The functions of the manipulator: its generated code if it is shipped, not changed, and `compiled` may be used; else
     /// its spec, interpreted.
-    pub fn evaluator(&self, compiled: bool) -> Evaluator<'_> {
+    pub fn evaluator(&self, compiled: bool) -> Evaluator {
         match self.shipped {
             Some(shipped) if compiled && !self.changed => Evaluator::Compiled(shipped.compiled),
-            _ => Evaluator::Interpreted(Box::new(Interpreter::new(&self.spec))),
+            _ => Evaluator::Interpreted(Box::new(Interpreter::new(self.spec.clone()))),
         }
     }
 
@@ -83,15 +83,15 @@ impl Machine {
 }
 
 /// A manipulator that can be evaluated, one way or the other.
-pub enum Evaluator<'s> {
+pub enum Evaluator {
     /// By its generated code.
     Compiled(&'static dyn Manipulator),
     /// By its spec.
-    Interpreted(Box<Interpreter<'s>>),
+    Interpreted(Box<Interpreter>),
 }
 
-impl<'s> Deref for Evaluator<'s> {
-    type Target = dyn Manipulator + 's;
+impl Deref for Evaluator {
+    type Target = dyn Manipulator;
 
     fn deref(&self) -> &Self::Target {
         match self {

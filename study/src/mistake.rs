@@ -29,7 +29,7 @@ pub fn not_evaluated(
         Error::NotFinite { quantity: Quantity::Errors, index } => description.effects.get(*index),
         _ => None,
     };
-    let message = match source.map(|effect| description.sources[effect.source].name) {
+    let message = match source.map(|effect| &description.sources[effect.source].name) {
         Some(source) => format!("at {at}: the source \"{source}\" has no finite value"),
         None => format!("at {at}: {error}"),
     };

@@ -82,7 +82,7 @@ pub fn configuration(
     let parameters = description.parameters.iter().zip(configuration.s.iter().zip(&home.s));
     let parameters = parameters
         .filter(|(_, (value, home))| value != home)
-        .map(|(parameter, (value, _))| format!("{} = {}", parameter.name, quantity(*value, parameter.unit)));
+        .map(|(parameter, (value, _))| format!("{} = {}", parameter.name, quantity(*value, &parameter.unit)));
     let all = variables.chain(parameters).collect::<Vec<_>>();
     if all.is_empty() { "home".to_owned() } else { all.join(", ") }
 }

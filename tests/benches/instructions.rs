@@ -71,7 +71,7 @@ fn spec(name: &str) -> Spec {
 
 /// A batch by the interpreter, on what every machine has.
 fn interpreter(name: &str, path: Path) -> Work {
-    let robot = Interpreter::new(Box::leak(Box::new(spec(name))));
+    let robot = Interpreter::new(spec(name));
     let (description, set) = (robot.description(), InstructionSet::BASELINE);
     let mut arguments = Tiles::new(set, path.arguments(&description), COUNT);
     let mut results = Tiles::new(set, path.results(&description), COUNT);

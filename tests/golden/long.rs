@@ -70,8 +70,8 @@
 #[allow(clippy::approx_constant)]
 pub mod long {
     use ::abbe::{
-        Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation,
-        Parameter, Source, Variable, VariableKind,
+        Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit, List,
+        Orientation, Parameter, Source, Text, Variable, VariableKind,
     };
 
     /// How many frames there are: n.
@@ -92,12 +92,12 @@ pub mod long {
     pub const DISTINCT: usize = 9;
 
     /// Names, units, limits, sources.
-    pub const DESCRIPTION: Description<'static> = Description {
-        name: "long",
-        title: "long",
+    pub static DESCRIPTION: Description = Description {
+        name: Text::Constant("long"),
+        title: Text::Constant("long"),
         length: LengthUnit::Metre,
         orientation: Orientation::EulerYzx,
-        frames: &[
+        frames: List::Constant(&[
             Frame::new("0", Some(0)),
             Frame::new("1", Some(1)),
             Frame::new("2", Some(2)),
@@ -138,8 +138,8 @@ pub mod long {
             Frame::new("37", Some(37)),
             Frame::new("38", Some(38)),
             Frame::new("39", Some(39)),
-        ],
-        variables: &[
+        ]),
+        variables: List::Constant(&[
             Variable::new(
                 "q0",
                 VariableKind::Revolute,
@@ -380,22 +380,22 @@ pub mod long {
                 [f64::NEG_INFINITY, f64::INFINITY],
                 0.0,
             ),
-        ],
-        parameters: &[Parameter::new("reach", 0.4, "m")],
-        inputs: &[Input::new("load", 2.0, [0.0, 5.0], "kg")],
-        sources: &[
+        ]),
+        parameters: List::Constant(&[Parameter::new("reach", 0.4, "m")]),
+        inputs: List::Constant(&[Input::new("load", 2.0, [0.0, 5.0], "kg")]),
+        sources: List::Constant(&[
             Source::new("sag", Class::Repeatable, ""),
             Source::new("bow", Class::Repeatable, ""),
             Source::new("encoder", Class::Random(Distribution::Uniform), ""),
-        ],
-        effects: &[
+        ]),
+        effects: List::Constant(&[
             Effect::new(0, 3, Component::X),
             Effect::new(0, 3, Component::Spin),
             Effect::new(0, 3, Component::Pitch),
             Effect::new(1, 30, Component::Z),
             Effect::new(1, 30, Component::Roll),
             Effect::new(2, 20, Component::Roll),
-        ],
+        ]),
     };
 
     /// The structural parameters `s`, which may be set at run time.
@@ -806,7 +806,7 @@ pub mod long {
             let margin = error_jacobian(q, s, &mut pose, &mut columns);
             let mut values = [zero; EFFECTS];
             effects(q, s, u, &mut values);
-            ::abbe::long::by_source(super::DESCRIPTION.effects, &values, &columns, displacements);
+            ::abbe::long::by_source(&super::DESCRIPTION.effects, &values, &columns, displacements);
             margin
         }
 

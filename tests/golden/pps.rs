@@ -46,8 +46,8 @@
 #[allow(non_snake_case)]
 pub mod pps {
     use ::abbe::{
-        Class, Component, Description, Distribution, Effect, Frame, LengthUnit, Orientation,
-        Parameter, Source, Variable, VariableKind,
+        Class, Component, Description, Distribution, Effect, Frame, LengthUnit, List, Orientation,
+        Parameter, Source, Text, Variable, VariableKind,
     };
 
     /// How many frames there are: n.
@@ -68,20 +68,20 @@ pub mod pps {
     pub const DISTINCT: usize = 9;
 
     /// Names, units, limits, sources.
-    pub const DESCRIPTION: Description<'static> = Description {
-        name: "pps",
-        title: "NPTC patient positioning system",
+    pub static DESCRIPTION: Description = Description {
+        name: Text::Constant("pps"),
+        title: Text::Constant("NPTC patient positioning system"),
         length: LengthUnit::Millimetre,
         orientation: Orientation::EulerYzx,
-        frames: &[
+        frames: List::Constant(&[
             Frame::new("lateral", Some(0)),
             Frame::new("vertical", Some(1)),
             Frame::new("longitudinal", Some(2)),
             Frame::new("spin", Some(3)),
             Frame::new("roll", Some(4)),
             Frame::new("pitch", Some(5)),
-        ],
-        variables: &[
+        ]),
+        variables: List::Constant(&[
             Variable::new("d1", VariableKind::Prismatic, [0.0, 2256.0], 1128.0),
             Variable::new("d2", VariableKind::Prismatic, [0.0, 560.0], 280.0),
             Variable::new("d3", VariableKind::Prismatic, [0.0, 1473.0], 0.0),
@@ -106,8 +106,8 @@ pub mod pps {
                 [-0.05235987755982988, 0.05235987755982988],
                 0.0,
             ),
-        ],
-        parameters: &[
+        ]),
+        parameters: List::Constant(&[
             Parameter::new("y_offset", 600.0, "mm"),
             Parameter::new("z_offset", 718.0, "mm"),
             Parameter::new("roll_offset", 300.0, "mm"),
@@ -121,9 +121,9 @@ pub mod pps {
             Parameter::new("arm_GJ", 3.245e16, "mm^3*kg/s^2"),
             Parameter::new("assembly_shift", 0.6586, "mm"),
             Parameter::new("assembly_turn", 0.0006586, ""),
-        ],
-        inputs: &[],
-        sources: &[
+        ]),
+        inputs: List::Constant(&[]),
+        sources: List::Constant(&[
             Source::new(
                 "base rail curvature",
                 Class::Repeatable,
@@ -159,8 +159,8 @@ pub mod pps {
                 Class::Repeatable,
                 "A: magnitude scaled to the printed radius, one choice of signs that reaches it; P: 5.48 mm, section 5.2",
             ),
-        ],
-        effects: &[
+        ]),
+        effects: List::Constant(&[
             Effect::new(0, 0, Component::Z),
             Effect::new(0, 0, Component::Spin),
             Effect::new(1, 3, Component::Spin),
@@ -206,7 +206,7 @@ pub mod pps {
             Effect::new(6, 5, Component::Spin),
             Effect::new(6, 5, Component::Roll),
             Effect::new(6, 5, Component::Pitch),
-        ],
+        ]),
     };
 
     /// The structural parameters `s`, which may be set at run time.

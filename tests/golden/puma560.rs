@@ -42,8 +42,8 @@
 #[allow(dead_code)]
 pub mod puma560 {
     use ::abbe::{
-        Class, Component, Description, Distribution, Effect, Frame, LengthUnit, Orientation,
-        Source, Variable, VariableKind,
+        Class, Component, Description, Distribution, Effect, Frame, LengthUnit, List, Orientation,
+        Source, Text, Variable, VariableKind,
     };
 
     /// How many frames there are: n.
@@ -64,20 +64,20 @@ pub mod puma560 {
     pub const DISTINCT: usize = 6;
 
     /// Names, units, limits, sources.
-    pub const DESCRIPTION: Description<'static> = Description {
-        name: "puma560",
-        title: "Unimation PUMA 560",
+    pub static DESCRIPTION: Description = Description {
+        name: Text::Constant("puma560"),
+        title: Text::Constant("Unimation PUMA 560"),
         length: LengthUnit::Metre,
         orientation: Orientation::RotationVector,
-        frames: &[
+        frames: List::Constant(&[
             Frame::new("waist", Some(0)),
             Frame::new("shoulder", Some(1)),
             Frame::new("elbow", Some(2)),
             Frame::new("wrist roll", Some(3)),
             Frame::new("wrist bend", Some(4)),
             Frame::new("flange", Some(5)),
-        ],
-        variables: &[
+        ]),
+        variables: List::Constant(&[
             Variable::new(
                 "q1",
                 VariableKind::Revolute,
@@ -114,10 +114,10 @@ pub mod puma560 {
                 [-4.642575810304916, 4.642575810304916],
                 0.0,
             ),
-        ],
-        parameters: &[],
-        inputs: &[],
-        sources: &[
+        ]),
+        parameters: List::Constant(&[]),
+        inputs: List::Constant(&[]),
+        sources: List::Constant(&[
             Source::new(
                 "waist encoder",
                 Class::Random(Distribution::Uniform),
@@ -148,8 +148,8 @@ pub mod puma560 {
                 Class::Random(Distribution::Uniform),
                 "Gear ratio 76.686; 1000 counts per motor turn are assumed",
             ),
-        ],
-        effects: &[
+        ]),
+        effects: List::Constant(&[
             Effect::new(0, 0, Component::Spin),
             Effect::new(1, 1, Component::Y),
             Effect::new(1, 1, Component::Roll),
@@ -158,7 +158,7 @@ pub mod puma560 {
             Effect::new(3, 3, Component::Spin),
             Effect::new(4, 4, Component::Spin),
             Effect::new(5, 5, Component::Roll),
-        ],
+        ]),
     };
 
     /// The structural parameters `s`, which may be set at run time.

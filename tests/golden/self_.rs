@@ -35,8 +35,8 @@
 #[allow(clippy::approx_constant)]
 pub mod self_ {
     use ::abbe::{
-        Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation,
-        Parameter, Source, Variable, VariableKind,
+        Class, Component, Description, Distribution, Effect, Frame, Input, LengthUnit, List,
+        Orientation, Parameter, Source, Text, Variable, VariableKind,
     };
 
     /// How many frames there are: n.
@@ -57,16 +57,16 @@ pub mod self_ {
     pub const DISTINCT: usize = 6;
 
     /// Names, units, limits, sources.
-    pub const DESCRIPTION: Description<'static> = Description {
-        name: "self_",
-        title: "A robot with <unlucky> [names]",
+    pub static DESCRIPTION: Description = Description {
+        name: Text::Constant("self_"),
+        title: Text::Constant("A robot with <unlucky> [names]"),
         length: LengthUnit::Metre,
         orientation: Orientation::RotationVector,
-        frames: &[
+        frames: List::Constant(&[
             Frame::new("first | `frame`", Some(0)),
             Frame::new("x", Some(1)),
-        ],
-        variables: &[
+        ]),
+        variables: List::Constant(&[
             Variable::new(
                 "Some",
                 VariableKind::Revolute,
@@ -79,8 +79,8 @@ pub mod self_ {
                 [f64::NEG_INFINITY, f64::INFINITY],
                 0.0,
             ),
-        ],
-        parameters: &[
+        ]),
+        parameters: List::Constant(&[
             Parameter::new("q", 3.14, "m"),
             Parameter::new("None", 0.5, ""),
             Parameter::new("ERRORS", 2.0, "m"),
@@ -91,20 +91,20 @@ pub mod self_ {
             Parameter::new("EI", 5.0, "m^3*kg/s^2"),
             Parameter::new("pose", 2.718281828, "s"),
             Parameter::new("_s", 1.0, ""),
-        ],
-        inputs: &[
+        ]),
+        inputs: List::Constant(&[
             Input::new("u", 20.0, [-1000.0, 1000.0], "m*kg/s^2"),
             Input::new("columns", 6.2832, [-7.0, 7.0], ""),
-        ],
-        sources: &[Source::new(
+        ]),
+        sources: List::Constant(&[Source::new(
             "\"quoted\" \\ name",
             Class::Random(Distribution::Normal),
             "",
-        )],
-        effects: &[
+        )]),
+        effects: List::Constant(&[
             Effect::new(0, 1, Component::X),
             Effect::new(0, 1, Component::Pitch),
-        ],
+        ]),
     };
 
     /// The structural parameters `s`, which may be set at run time.

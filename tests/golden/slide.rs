@@ -29,7 +29,7 @@
 /// | `compensator_step` | 0 mul, 0 add |
 #[allow(dead_code)]
 pub mod slide {
-    use ::abbe::{Description, Frame, LengthUnit, Orientation, Variable, VariableKind};
+    use ::abbe::{Description, Frame, LengthUnit, List, Orientation, Text, Variable, VariableKind};
 
     /// How many frames there are: n.
     pub const FRAMES: usize = 1;
@@ -49,22 +49,22 @@ pub mod slide {
     pub const DISTINCT: usize = 6;
 
     /// Names, units, limits, sources.
-    pub const DESCRIPTION: Description<'static> = Description {
-        name: "slide",
-        title: "slide",
+    pub static DESCRIPTION: Description = Description {
+        name: Text::Constant("slide"),
+        title: Text::Constant("slide"),
         length: LengthUnit::Millimetre,
         orientation: Orientation::RotationVector,
-        frames: &[Frame::new("carriage", Some(0))],
-        variables: &[Variable::new(
+        frames: List::Constant(&[Frame::new("carriage", Some(0))]),
+        variables: List::Constant(&[Variable::new(
             "d1",
             VariableKind::Prismatic,
             [f64::NEG_INFINITY, f64::INFINITY],
             0.0,
-        )],
-        parameters: &[],
-        inputs: &[],
-        sources: &[],
-        effects: &[],
+        )]),
+        parameters: List::Constant(&[]),
+        inputs: List::Constant(&[]),
+        sources: List::Constant(&[]),
+        effects: List::Constant(&[]),
     };
 
     /// The structural parameters `s`, which may be set at run time.

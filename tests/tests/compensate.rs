@@ -96,7 +96,7 @@ fn samples(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     let all: Vec<usize> = (0..description.variables.len()).collect();
     let sample = |i| sampling::joint_sample(&description, 1.0, &all, i);
     let inner = |q: Vec<f64>| {
-        let each = q.into_iter().zip(description.variables);
+        let each = q.into_iter().zip(&description.variables);
         each.map(|(q, v)| 0.5 * q + 0.25 * (v.limits[0] + v.limits[1])).collect()
     };
     (0..count).map(sample).map(inner).collect()
@@ -131,7 +131,7 @@ fn least_singular_value(robot: &dyn Manipulator, q: &[f64], s: &[f64]) -> f64 {
 /// What is left where the arm is far from singular, as the module documentation has it; nothing becomes worse anywhere.
 fn compensates(name: &str, whole: bool, regular_above: f64) {
     let spec = with_errors(name);
-    let robot = Interpreter::new(&spec);
+    let robot = Interpreter::new(spec.clone());
     let description = robot.description();
     let metre = description.length.in_metres();
     let (s, u) = (sampling::nominal_parameters(&description), sampling::nominal_inputs(&description));
@@ -174,7 +174,7 @@ fn fewer_joints_bring_the_tool_point_there() {
 fn a_redundant_arm_stays_near_the_nominal() {
     let (s, u) = (iiwa::Parameters::NOMINAL, iiwa::Inputs::NOMINAL);
     let spec = with_errors("iiwa");
-    let robot = Interpreter::new(&spec);
+    let robot = Interpreter::new(spec.clone());
     let mut judged = 0;
     for q in samples(&robot, 100) {
         if least_singular_value(&robot, &q, &s.to_array()) < 0.1 {

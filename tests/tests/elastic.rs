@@ -8,7 +8,7 @@ use abbe_manipulators::SHIPPED;
 /// ε of the repeatable sources of a spec.
 fn errors(spec: &Spec, q: &[f64], s: &[f64], u: &[f64]) -> Vec<[f64; 6]> {
     let mut errors = vec![[0.0; 6]; spec.frames.len()];
-    Interpreter::new(spec).generalized_errors(q, s, u, &mut errors).unwrap();
+    Interpreter::new(spec.clone()).generalized_errors(q, s, u, &mut errors).unwrap();
     errors
 }
 
@@ -209,7 +209,7 @@ fn work_is_twice_the_energy() {
         );
     }
     let spec = Spec::parse("puma560.toml", &text).unwrap();
-    let robot = Interpreter::new(&spec);
+    let robot = Interpreter::new(spec.clone());
     let q = [0.3, 0.9, -0.7, 0.4, 1.1, -0.2];
     let mut columns = vec![[0.0; 6]; 36];
     robot.error_jacobian(&q, &[], &mut columns).unwrap();

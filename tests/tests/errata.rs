@@ -85,7 +85,7 @@ fn the_printed_signs_cannot_give_the_printed_figure() {
     for source in &mut spec.sources {
         source.enabled = source.name == name;
     }
-    let robot = Interpreter::new(&spec);
+    let robot = Interpreter::new(spec.clone());
     let parameter = |name: &str| spec.parameters.iter().position(|parameter| parameter.name == name).unwrap();
     let axis = |name: &str, values: [f64; 3]| Axis { index: parameter(name), values: values.to_vec() };
     let spin = (0..37).map(|i| (5.0 * f64::from(i) - 90.0).to_radians()).collect();

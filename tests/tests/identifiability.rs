@@ -33,7 +33,7 @@ fn six_revolute_joints() {
     let puma = SHIPPED.iter().find(|shipped| shipped.name == "puma560").unwrap();
     let text = format!("{}\n[tool]\ntransform = \"Tx(0.1) Ty(0.05) Tz(0.2)\"\n", puma.spec);
     let spec = Spec::parse("puma560.toml", &text).unwrap();
-    assert_eq!(ranks(&Interpreter::new(&spec), &[0, 1, 2, 3, 4, 5]), [26, 23, 30, 27]);
+    assert_eq!(ranks(&Interpreter::new(spec.clone()), &[0, 1, 2, 3, 4, 5]), [26, 23, 30, 27]);
 }
 
 /// With poses and a base frame, 4R + 2P + 6 remain: for every shipped manipulator whose frames all move.

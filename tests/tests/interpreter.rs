@@ -51,7 +51,7 @@ fn ulps(a: &[f64], b: &[f64]) -> f64 {
 fn equal_to_compiled_code_on_a_thousand_configurations() {
     for shipped in SHIPPED {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
-        let interpreter = Interpreter::new(&spec);
+        let interpreter = Interpreter::new(spec.clone());
         let description = interpreter.description();
         assert_eq!(description, shipped.compiled.description(), "{}", shipped.name);
         let (s, u) = (nominal_parameters(&description), nominal_inputs(&description));
@@ -94,7 +94,7 @@ fn arguments(robot: &dyn Manipulator, path: Path, set: InstructionSet, count: us
 }
 
 fn results(robot: &dyn Manipulator, path: Path, arguments: &Tiles) -> Tiles {
-    let rows = path.results(&robot.description());
+    let rows = path.results(robot.description());
     let mut results = Tiles::new(arguments.instruction_set(), rows, arguments.count());
     robot.batch(path, arguments, &mut results).unwrap();
     results
@@ -107,7 +107,7 @@ fn batches_are_those_of_compiled_code_on_every_instruction_set() {
     let count = 150;
     for shipped in SHIPPED {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
-        let robot = Interpreter::new(&spec);
+        let robot = Interpreter::new(spec.clone());
         for set in InstructionSet::all() {
             for path in Path::ALL {
                 let arguments = arguments(&robot, path, set, count);

@@ -18,7 +18,7 @@ fn generated() {
 fn interpreted() {
     for shipped in SHIPPED {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
-        all(&Interpreter::new(&spec), SAMPLES)
+        all(&Interpreter::new(spec.clone()), SAMPLES)
             .unwrap_or_else(|failure| panic!("{}: {failure}", shipped.name));
     }
 }
@@ -28,7 +28,8 @@ fn euler_rows_of_every_manipulator() {
     for shipped in SHIPPED {
         let text = with_orientation(shipped.spec, "euler-yzx");
         let spec = Spec::parse(shipped.name, &text).unwrap();
-        all(&Interpreter::new(&spec), 60).unwrap_or_else(|failure| panic!("{}: {failure}", shipped.name));
+        all(&Interpreter::new(spec.clone()), 60)
+            .unwrap_or_else(|failure| panic!("{}: {failure}", shipped.name));
     }
 }
 

@@ -32,7 +32,7 @@ fn assert_close(what: &str, found: &[f64], expected: &[f64]) {
 #[test]
 fn batches_are_those_of_the_straight_line_program() {
     let spec = spec();
-    let straight = Interpreter::new(&spec);
+    let straight = Interpreter::new(spec.clone());
     let description = straight.description();
     assert_eq!(description, Long.description());
     for set in InstructionSet::all() {
@@ -67,7 +67,7 @@ fn batches_are_those_of_the_straight_line_program() {
 #[test]
 fn single_configurations_are_those_of_the_straight_line_program() {
     let spec = spec();
-    let straight = Interpreter::new(&spec);
+    let straight = Interpreter::new(spec.clone());
     for sample in 0..COUNT {
         let q: Vec<f64> = (0..VARIABLES).map(|i| number(i + 57 * sample)).collect();
         let s: Vec<f64> = (0..PARAMETERS).map(|i| 0.4 + 0.1 * number(i + sample)).collect();

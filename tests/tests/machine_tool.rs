@@ -39,7 +39,7 @@ fn volumetric_error_of_21_errors() {
         // Each of the 21 causes one effect: its value by its name.
         let effects = DESCRIPTION.effects.iter().zip(values);
         let named: HashMap<&str, f64> =
-            effects.map(|(effect, value)| (DESCRIPTION.sources[effect.source].name, value)).collect();
+            effects.map(|(effect, value)| (&*DESCRIPTION.sources[effect.source].name, value)).collect();
         // Squareness is a translation that grows with the axis; its angle is what the textbook has.
         let angles = HashMap::from([
             ("A0Z", -named["A0Z"] / q[2]),

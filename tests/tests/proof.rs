@@ -2,9 +2,9 @@
 //! `A_1 E_1 A_2 E_2 … A_n E_n T`, differentiated by every generalized error: equations (6) and (9).
 
 use abbe_codegen::chain::{Model, transform};
-use abbe_codegen::expr::{Motion, Symbol};
+use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Frame, Graph, Node};
-use abbe_codegen::spec::{Component, Orientation, Spec};
+use abbe_codegen::spec::{Orientation, Spec};
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::coupled_joints;
 
@@ -15,13 +15,15 @@ fn multiplied(graph: &mut Graph, spec: &Spec) -> Frame {
         let nominal = transform(graph, &frame.factors);
         product = graph.then(&product, &nominal);
         let mut error = graph.identity();
-        // Translations first; then R_y(e_s) R_z(e_r) R_x(e_p), the order of ε.
-        for component in Component::ALL {
-            let symbol = graph.symbol(Symbol::Error(6 * i + component as usize));
-            error = match component.motion() {
-                (Motion::Translation, axis) => graph.moved(&error, axis, symbol),
-                (Motion::Rotation, axis) => graph.turned(&error, axis, symbol),
-            };
+        // Translations first; then R_y(e_s) R_z(e_r) R_x(e_p), the order of ε: stated here anew, not taken from the
+        // vocabulary that is to be proved.
+        let symbols: [Node; 6] = std::array::from_fn(|k| graph.symbol(Symbol::Error(6 * i + k)));
+        let [x, y, z, spin, roll, pitch] = symbols;
+        for (axis, symbol) in [(0, x), (1, y), (2, z)] {
+            error = graph.moved(&error, axis, symbol);
+        }
+        for (axis, symbol) in [(1, spin), (2, roll), (0, pitch)] {
+            error = graph.turned(&error, axis, symbol);
         }
         product = graph.then(&product, &error);
     }

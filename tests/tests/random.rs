@@ -26,8 +26,8 @@ fn arm(sources: &str) -> Spec {
 }
 
 fn draws(spec: &Spec, count: usize) -> MonteCarlo {
-    let robot = Interpreter::new(spec);
-    let configuration = Configuration::home(&robot.description());
+    let robot = Interpreter::new(spec.clone());
+    let configuration = Configuration::home(robot.description());
     monte_carlo(&robot, &configuration, &[], count, 11).unwrap()
 }
 
@@ -131,7 +131,7 @@ fn zero_and_one_sided_sources_have_clear_results() {
         frame = "elbow"
         e_z = "0.1 mm*abs(sin(q1))"
     "#);
-    let robot = Interpreter::new(&spec);
+    let robot = Interpreter::new(spec.clone());
     let workspace = joint_samples(&robot, &[0, 1], 500).unwrap();
     let budget = error_budget(&robot, &workspace, &[], None, &mut ()).unwrap();
     let [nothing, one_sided] = &budget.sources[..] else { panic!("two sources") };

@@ -15,7 +15,7 @@ fn recipes() -> Spec {
 
 /// The six errors of a source at the table or the rail.
 fn errors(spec: &Spec, source: &str, frame: usize, q: [f64; 2], u: [f64; 3]) -> [f64; 6] {
-    let robot = Interpreter::new(spec);
+    let robot = Interpreter::new(spec.clone());
     let description = robot.description();
     let mut values = vec![0.0; description.effects.len()];
     robot.effects(&q, &[], &u, &mut values).unwrap();
@@ -93,7 +93,7 @@ fn every_recipe_gives_its_formula() {
 #[test]
 fn classes_are_as_recommended() {
     let spec = recipes();
-    let robot = Interpreter::new(&spec);
+    let robot = Interpreter::new(spec.clone());
     let class =
         |name: &str| robot.description().sources.iter().find(|source| source.name == name).unwrap().class;
     assert_eq!(class("turntable encoder"), Class::Random(Distribution::Uniform));
@@ -109,7 +109,7 @@ fn classes_are_as_recommended() {
 fn effects_of_one_source_go_together() {
     let mut spec = recipes();
     spec.sources.retain(|source| source.name == "scale slips");
-    let robot = Interpreter::new(&spec);
+    let robot = Interpreter::new(spec.clone());
     let workspace = abbe::analysis::joint_grid(
         &robot,
         &[

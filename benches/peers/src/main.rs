@@ -73,7 +73,7 @@ fn main() {
 /// The interpreter of a spec, as long as the process.
 fn interpreter(name: &str, spec: &str) -> &'static dyn Manipulator {
     let spec = Box::leak(Box::new(Spec::parse(name, spec).expect("it was compiled")));
-    Box::leak(Box::new(Interpreter::new(spec)))
+    Box::leak(Box::new(Interpreter::new(spec.clone())))
 }
 
 fn arguments() -> Option<(usize, Angles)> {

@@ -47,7 +47,7 @@ impl<'v> Files<'v> {
         let unit = description.length.symbol();
         let mut heading = vec!["configuration".to_owned()];
         heading.extend(names(description, varying));
-        let sources = description.sources.iter().map(|source| source.name);
+        let sources = description.sources.iter().map(|source| &*source.name);
         for what in ["ideal"].into_iter().chain(sources).chain(["repeatable", "random"]) {
             heading.extend(["x", "y", "z"].map(|axis| format!("{what} {axis} ({unit})")));
         }
@@ -100,7 +100,7 @@ fn write_sources(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::R
             let [x, y, z, norm] = of_source(errors, metric).map(|figure| number(&figure));
             let worst = index(errors.worst);
             writer.write_record([
-                source.name,
+                &*source.name,
                 json::class(source.class).0,
                 name,
                 &x,
@@ -150,8 +150,8 @@ fn names<'a>(description: &'a Description, parameters: &'a [usize]) -> impl Iter
         VariableKind::Revolute => format!("{} (rad)", variable.name),
         VariableKind::Prismatic => format!("{} ({length})", variable.name),
     });
-    let parameters = parameters.iter().map(|&i| match description.parameters[i] {
-        parameter if parameter.unit.is_empty() => parameter.name.to_owned(),
+    let parameters = parameters.iter().map(|&i| match &description.parameters[i] {
+        parameter if parameter.unit.is_empty() => parameter.name.to_string(),
         parameter => format!("{} ({})", parameter.name, parameter.unit),
     });
     variables.chain(parameters)

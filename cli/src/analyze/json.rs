@@ -117,7 +117,7 @@ pub(super) fn of<'a>(analysis: &'a Analysis<'a>) -> Report<'a> {
     let combined = &budget.combined;
     let worst = analysis.configuration(combined.radius.configuration);
     Report {
-        manipulator: description.name,
+        manipulator: &description.name,
         configurations: budget.configurations,
         unreachable: budget.unreachable.count,
         sources: budget.sources.iter().map(|errors| source(analysis, errors)).collect(),
@@ -163,7 +163,7 @@ fn source<'a>(analysis: &'a Analysis<'a>, errors: &SourceErrors) -> Source<'a> {
     let worst = analysis.configuration(errors.worst);
     let (class, distribution) = class(errors.class);
     Source {
-        name: analysis.description.sources[errors.source].name,
+        name: &analysis.description.sources[errors.source].name,
         class,
         plain_max: axes(errors.plain_max),
         half_peak_to_peak: axes(errors.half_peak_to_peak),
@@ -191,12 +191,12 @@ fn axes(figures: Figures) -> Axes {
 fn variables(analysis: &Analysis, configuration: &Option<Configuration>) -> Named {
     let values = configuration.iter().flat_map(|configuration| &configuration.q);
     let named = analysis.description.variables.iter().zip(values);
-    Named(named.map(|(variable, value)| (variable.name.to_owned(), value + 0.0)).collect())
+    Named(named.map(|(variable, value)| (variable.name.to_string(), value + 0.0)).collect())
 }
 
 fn parameters(analysis: &Analysis, configuration: &Option<Configuration>) -> Named {
     let named = analysis.varying.iter().filter_map(|&i| {
-        let name = analysis.description.parameters[i].name.to_owned();
+        let name = analysis.description.parameters[i].name.to_string();
         configuration.as_ref().map(|configuration| (name, configuration.s[i] + 0.0))
     });
     Named(named.collect())
@@ -205,7 +205,7 @@ fn parameters(analysis: &Analysis, configuration: &Option<Configuration>) -> Nam
 fn comparisons(analysis: &Analysis) -> Vec<Comparison> {
     let mut comparisons = Vec::new();
     for errors in &analysis.budget.sources {
-        let name = analysis.description.sources[errors.source].name;
+        let name = &analysis.description.sources[errors.source].name;
         for (metric, kind) in Metric::ALL {
             let published = analysis.published_of(name, kind);
             comparisons.extend(published.map(|p| comparison(name, metric, of_source(errors, kind), p)));

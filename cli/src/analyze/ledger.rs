@@ -20,7 +20,7 @@ pub(super) struct Entry<'a> {
 pub(super) fn sources<'a>(analysis: &'a Analysis) -> impl Iterator<Item = Entry<'a>> {
     let ranks = analysis.budget.ranks();
     analysis.budget.sources.iter().zip(ranks).map(|(errors, rank)| Entry {
-        name: analysis.description.sources[errors.source].name,
+        name: &analysis.description.sources[errors.source].name,
         source: Some((json::class(errors.class).0, rank)),
         largest: Extreme { value: errors.plain_max.norm, configuration: errors.worst },
         rms: Some(errors.rms),

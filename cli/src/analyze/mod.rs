@@ -36,7 +36,7 @@ use first_order::FirstOrder;
 
 /// What was found over a workspace.
 struct Analysis<'a> {
-    description: Description<'a>,
+    description: &'a Description,
     study: &'a Study,
     /// The workspace in a sentence.
     region: String,

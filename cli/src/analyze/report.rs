@@ -15,7 +15,7 @@ pub(super) fn subject<'a>(analysis: &'a Analysis<'a>, spec: &'a Spec) -> Subject
     Subject {
         spec,
         manipulator: first_order.manipulator,
-        description: *description,
+        description,
         study,
         region: &analysis.region,
         home: workspace.home(),

@@ -29,13 +29,13 @@ pub(super) fn sources(analysis: &Analysis) -> String {
         for (name, metric) in Metric::ALL {
             let figures = of_source(errors, metric);
             lines.figures(analysis, name, figures.map(Some));
-            if let Some(published) = analysis.published_of(source.name, metric) {
+            if let Some(published) = analysis.published_of(&source.name, metric) {
                 lines.published(analysis, figures, published);
             }
         }
         let (class, distribution) = json::class(source.class);
         let class = distribution.map_or(class.to_owned(), |distribution| format!("{class}, {distribution}"));
-        lines.cells[0] = vec![source.name.to_owned(), class];
+        lines.cells[0] = vec![source.name.to_string(), class];
         table.row(lines.joined());
     }
     table.right(&[2, 3, 4, 5]).unwrapped(&[1, 6]).to_string()
@@ -48,7 +48,7 @@ pub(super) fn allowed(analysis: &Analysis, admissible: &Admissible) -> Listing {
     };
     let row = |source: usize| {
         vec![
-            analysis.description.sources[source].name.to_owned(),
+            analysis.description.sources[source].name.to_string(),
             times(admissible.alone[source]),
             times(admissible.equal[source]),
             fixed(analysis.budget.gains[source], analysis.decimals() + 1),

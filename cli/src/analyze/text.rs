@@ -46,7 +46,7 @@ fn heading(analysis: &Analysis) -> String {
     text += &format!("Home            {}\n", wrapped(&unbroken(&home), 16));
     let inputs = description.inputs.iter();
     let inputs =
-        inputs.map(|input| format!("{} = {}", input.name, number::quantity(input.nominal, input.unit)));
+        inputs.map(|input| format!("{} = {}", input.name, number::quantity(input.nominal, &input.unit)));
     let inputs = inputs.collect::<Vec<_>>().join(", ");
     if !inputs.is_empty() {
         text += &format!("Inputs          {}\n", wrapped(&unbroken(&inputs), 16));

@@ -62,7 +62,7 @@ pub(super) fn reason(unreachable: &Unreachable, description: &Description) -> St
         Unreached::OutsideLimits { variable, value, limits: [lower, upper] } => {
             let variable = &description.variables[variable];
             let show = |value| number::of_variable(value, variable.kind, description.length);
-            let name = variable.name;
+            let name = &variable.name;
             format!(
                 "{name} would have to be {}, its limits are {} … {}",
                 show(value),

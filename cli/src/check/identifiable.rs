@@ -31,7 +31,7 @@ pub(super) struct Identified {
 /// everywhere, also where Euler rows do not.
 pub(super) fn count(spec: &Spec) -> Vec<Identified> {
     let spec = Spec { orientation: Orientation::RotationVector, ..spec.clone() };
-    let manipulator = &Interpreter::new(&spec);
+    let manipulator = &Interpreter::new(spec);
     let description = manipulator.description();
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
     let samples = joint_samples(manipulator, &moved, configurations(description.frames.len()))

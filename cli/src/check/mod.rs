@@ -32,7 +32,7 @@ struct Report<'a> {
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let found = Machine::find(&arguments.spec)?;
-    let interpreter = Interpreter::new(&found.spec);
+    let interpreter = Interpreter::new(found.spec.clone());
     let configurations = laws::configurations(&found.spec);
     let report = Report {
         facts: Facts::new(&found.spec, &found.origin),

@@ -35,7 +35,7 @@ pub(super) fn of(spec: &Spec, report: &Report) -> String {
     if !report.facts.sources.is_empty() {
         let rows = report.facts.sources.iter().map(|source| {
             let state = if source.enabled { "on" } else { "off" };
-            [source.name.to_owned(), source.class.to_owned(), source.effects.to_string(), state.to_owned()]
+            [source.name.to_string(), source.class.to_owned(), source.effects.to_string(), state.to_owned()]
         });
         parts.push(format!("Sources\n{}", table(&["name", "class", "effects", ""], rows)));
     }

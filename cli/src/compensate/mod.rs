@@ -77,7 +77,7 @@ pub(crate) fn run(arguments: &Compensate) -> Result<Outcome, Failure> {
     }
     let text = match arguments.json {
         true => json(&report)?,
-        false => text::of(&manipulator.description(), &data, &report, arguments.out.as_deref()),
+        false => text::of(manipulator.description(), &data, &report, arguments.out.as_deref()),
     };
     Ok(Outcome::checked(text, report.compensated == report.rows.len() + report.unusable.len()))
 }

@@ -52,7 +52,7 @@ pub(super) fn of(
             Ok(found) => {
                 let reason = reason(&description, &found, tolerance);
                 let Compensated { q, before, after } = found;
-                let names = description.variables.iter().map(|variable| variable.name.to_owned());
+                let names = description.variables.iter().map(|variable| variable.name.to_string());
                 let (before, after) = (Norms::of(&before), Norms::of(&after));
                 rows.push(Row {
                     line: *line,
@@ -118,7 +118,7 @@ fn evaluation(description: &Description, error: &Error) -> String {
     match error {
         Error::OutOfRange { input, value, range: [lower, upper] } => {
             let input = &description.inputs[*input];
-            let shown = abbe_study::number::quantity(*value, input.unit);
+            let shown = abbe_study::number::quantity(*value, &input.unit);
             format!("`{}` is {shown}, outside its range {lower} … {upper}", input.name)
         }
         error => error.to_string(),

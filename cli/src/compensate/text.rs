@@ -52,7 +52,7 @@ fn sizes(report: &Report, decimals: usize) -> String {
 
 /// The first rows.
 fn commands(description: &Description, report: &Report) -> String {
-    let names: Vec<&str> = description.variables.iter().map(|variable| variable.name).collect();
+    let names: Vec<&str> = description.variables.iter().map(|variable| &*variable.name).collect();
     let mut table = Table::new(&[&["line"][..], &names, &["before", "after"]].concat());
     for row in report.rows.iter().take(SHOWN) {
         let values = description.variables.iter().zip(&row.q.0);

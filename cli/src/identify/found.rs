@@ -168,7 +168,7 @@ pub(super) fn report(
             Unknown::Target(..) => (None, spec.length.symbol()),
             Unknown::Magnitude(_) => (None, ""),
         };
-        let of = |frame: usize| frame.checked_sub(1).map_or("base", |i| setup.description.frames[i].name);
+        let of = |frame: usize| frame.checked_sub(1).map_or("base", |i| &setup.description.frames[i].name);
         Parameter {
             name: name(unknown),
             frame,

@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
     let candidates = terms::candidates(&found.spec, &arguments.terms);
     let mut spec = terms::with(&found.spec, &text, &candidates)?;
     changes.apply(&mut spec);
-    let interpreter = Interpreter::new(&spec);
+    let interpreter = Interpreter::new(spec);
     let setup = Setup::new(&interpreter, &map, &data, candidates.len())?;
     check_readings(&setup, &map, &data)?;
     let solved = solved::solve(&setup, &map, &data, &candidates, arguments)?;

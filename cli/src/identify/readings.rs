@@ -77,7 +77,7 @@ fn alternatives(setup: &Setup, map: &Map) -> Vec<(String, Reading)> {
         .description
         .variables
         .iter()
-        .map(|variable| (variable.name.to_owned(), variable.kind))
+        .map(|variable| (variable.name.to_string(), variable.kind))
         .collect();
     for (factor, help) in [
         (1e3, "are the measured lengths in m, not mm? set `unit` accordingly"),

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 
 /// A manipulator, and where the instrument sees it.
 pub(crate) struct Setup<'a> {
-    pub(crate) description: Description<'a>,
+    pub(crate) description: &'a Description,
     pub(crate) pose: bool,
     /// Whether nothing of the base is unknown.
     exact: bool,
@@ -66,7 +66,7 @@ impl<'a> Setup<'a> {
             *role = if source.class == Class::Repeatable { Role::Known } else { Role::Off };
         }
         let arm = sampling::arm_length(manipulator, &ideal.s);
-        let arm = arm.map_err(|error| Failure::of(description.name, error))?;
+        let arm = arm.map_err(|error| Failure::of(&description.name, error))?;
         Ok(Self { description, pose: map.is_pose(), exact: map.base_exact, ideal, real, arm, candidates })
     }
 

@@ -140,7 +140,7 @@ fn elastic(spec: &Spec, all: &mut Vec<Source>) {
 }
 
 fn is_rotation(component: Component) -> bool {
-    component.motion().0 == abbe_codegen::expr::Motion::Rotation
+    component.is_rotation()
 }
 
 /// What elastic terms need beside their sources: a load and gravity, if the spec has none.

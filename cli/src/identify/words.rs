@@ -53,7 +53,7 @@ fn sentences(groups: &[Group], model: &Model, description: &Description) -> Vec<
 
 /// Why, with the names of the spec.
 pub(super) fn reason(reason: Reason, description: &Description) -> String {
-    let name = |variable: usize| description.variables[variable].name;
+    let name = |variable: usize| &description.variables[variable].name;
     match reason {
         Reason::Commutes(variable) => match description.variables[variable].kind {
             VariableKind::Revolute => {

@@ -98,7 +98,7 @@ fn sources(
         digits(solved.crossed.rms, 4),
     );
     let mut text = String::new();
-    let names = std::iter::once(base).chain(setup.description.frames.iter().map(|frame| frame.name));
+    let names = std::iter::once(base).chain(setup.description.frames.iter().map(|frame| &*frame.name));
     for (i, frame) in names.enumerate() {
         let of = |k: &&usize| match model.unknowns[**k] {
             Unknown::Base(_) => i == 0,

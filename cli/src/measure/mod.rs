@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Measure) -> Result<Outcome, Failure> {
     found.change(&arguments.changes.read(&found.spec)?);
     let map = Map::find(&arguments.map, &found.spec)?;
     let mut data = Data::read(&arguments.data, &map)?;
-    let interpreter = Interpreter::new(&found.spec);
+    let interpreter = Interpreter::new(found.spec.clone());
     let setup = Setup::new(&interpreter, &map, &data, 0)?;
     check_readings(&setup, &map, &data)?;
     let errors = Errors::of(&setup, &mut data)?;

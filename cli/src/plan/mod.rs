@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
     let mut found = Machine::find(&arguments.spec)?;
     found.change(&arguments.changes.read(&found.spec)?);
     let map = Map::find(&arguments.map, &found.spec)?;
-    let interpreter = Interpreter::new(&found.spec);
+    let interpreter = Interpreter::new(found.spec.clone());
     let description = interpreter.description();
     let setup = Setup::at_home(&interpreter, &map)?;
     let model = setup.ideal.with(setup.constants());

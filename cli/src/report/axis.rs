@@ -48,11 +48,13 @@ impl Axis {
         let (name, unit, factor) = match over {
             Over::Variable(i) => match description.variables[i].kind {
                 VariableKind::Revolute => {
-                    (description.variables[i].name, "deg", 180.0 / std::f64::consts::PI)
+                    (&*description.variables[i].name, "deg", 180.0 / std::f64::consts::PI)
                 }
-                VariableKind::Prismatic => (description.variables[i].name, description.length.symbol(), 1.0),
+                VariableKind::Prismatic => {
+                    (&*description.variables[i].name, description.length.symbol(), 1.0)
+                }
             },
-            Over::Parameter(i) => (description.parameters[i].name, description.parameters[i].unit, 1.0),
+            Over::Parameter(i) => (&*description.parameters[i].name, &*description.parameters[i].unit, 1.0),
         };
         Self { name: name.to_owned(), unit: unit.to_owned(), factor }
     }

@@ -22,7 +22,7 @@ pub(super) struct Share {
 pub(super) fn shares(subject: &Subject) -> Vec<Share> {
     let errors = Axis::errors("", subject.description.length);
     let sources = subject.budget.sources.iter();
-    let name = |source: usize| subject.description.sources[source].name.to_owned();
+    let name = |source: usize| subject.description.sources[source].name.to_string();
     let largest = sources.map(|alone| (name(alone.source), errors.show(alone.plain_max.norm)));
     let mut largest = largest.collect::<Vec<_>>();
     largest.sort_by(|a, b| b.1.total_cmp(&a.1));

@@ -23,7 +23,7 @@ pub(super) struct Place {
 impl Stick {
     /// At the home configuration.
     pub(super) fn at_home(subject: &Subject) -> Result<Self, Error> {
-        let frames = subject.description.frames;
+        let frames = &subject.description.frames;
         let mut transforms = vec![Pose::IDENTITY; frames.len() + 1];
         subject.manipulator.transforms(&subject.home.q, &subject.home.s, &mut transforms)?;
         let named = frames.iter().enumerate().map(|(i, frame)| format!("F{} {}", i + 1, frame.name));

@@ -12,7 +12,7 @@ use abbe_study::study_file::{self, Published, Study};
 pub(crate) struct Subject<'a> {
     pub(crate) spec: &'a Spec,
     pub(crate) manipulator: &'a dyn Manipulator,
-    pub(crate) description: Description<'a>,
+    pub(crate) description: &'a Description,
     pub(crate) study: &'a Study,
     /// The workspace in a sentence.
     pub(crate) region: &'a str,

@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &Simulate) -> Result<Outcome, Failure> {
         Some(text) => length("--noise", text, &found.spec)?,
         None => map.uncertainty.length,
     };
-    let interpreter = Interpreter::new(&found.spec);
+    let interpreter = Interpreter::new(found.spec.clone());
     let description = interpreter.description();
     let list = match &arguments.at {
         Some(file) => Data::read_commanded(file, &map)?,

@@ -2,7 +2,7 @@
 
 use super::moments::Moments;
 use super::rows::Rows;
-use crate::expr::Motion;
+use crate::expr::{Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::Component;
 
@@ -25,8 +25,7 @@ pub(super) fn columns(
     mut moments: Moments<'_>,
     rows: &Rows,
 ) -> Vec<Columns> {
-    let rotations =
-        [Component::Spin, Component::Roll, Component::Pitch].map(|component| component.motion().1);
+    let rotations = [Component::Spin, Component::Roll, Component::Pitch].map(|component| motion(component).1);
     let of_frame = |(i, frame): (usize, &Frame)| {
         let moments = moments.of(graph, i);
         Columns {
@@ -43,7 +42,7 @@ impl Columns {
     pub(super) fn dense(&self, graph: &mut Graph) -> [[Node; 6]; 6] {
         let zero = [graph.zero(); 3];
         Component::ALL.map(|component| {
-            let ([a, b, c], [d, e, f]) = match component.motion() {
+            let ([a, b, c], [d, e, f]) = match motion(component) {
                 (Motion::Translation, axis) => (self.axes[axis], zero),
                 (Motion::Rotation, _) => {
                     let index = component as usize - Component::Spin as usize;

@@ -1,7 +1,7 @@
 //! The exact chain with the errors of the spec's own sources: equation (6) with true rotations.
 
 use super::walk::{Step, walk};
-use crate::expr::Motion;
+use crate::expr::{Motion, motion};
 use crate::graph::{Frame, Graph, Node};
 use crate::spec::{Component, Spec};
 
@@ -16,7 +16,7 @@ pub(super) fn real_pose(graph: &mut Graph, spec: &Spec, errors: &[[Node; 6]]) ->
             if *error == graph.zero() {
                 continue;
             }
-            pose = match component.motion() {
+            pose = match motion(component) {
                 (Motion::Translation, axis) => graph.moved(&pose, axis, *error),
                 (Motion::Rotation, axis) => graph.turned(&pose, axis, *error),
             };

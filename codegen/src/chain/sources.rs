@@ -1,7 +1,7 @@
 //! ε of the sources: what is given, what a located error is at its frame, what gives way under loads.
 
 use super::walk::transform;
-use crate::expr::Motion;
+use crate::expr::{Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::{Beam, Cause, Class, Component, Effect, Source, Spec};
 
@@ -16,6 +16,13 @@ pub struct EffectNode {
     pub component: Component,
     /// Its value.
     pub value: Node,
+}
+
+impl EffectNode {
+    /// What it acts on.
+    pub fn effect(&self) -> abbe::Effect {
+        abbe::Effect::new(self.source, self.frame, self.component)
+    }
 }
 
 /// The effects of every enabled source, source by source, without those that are always zero.
@@ -125,8 +132,8 @@ fn give_way(
 /// θ_a = M_a L/GJ      θ_c = F_b L²/2EI_c + M_c L/EI_c        θ_b = M_b L/EI_b − F_c L²/2EI_b
 /// ```
 fn beam_compliance(graph: &mut Graph, beam: &Beam) -> [[Node; 6]; 6] {
-    let index = |motion: Motion, axis: usize| {
-        Component::ALL.iter().position(|c| c.motion() == (motion, axis)).expect("six components")
+    let index = |kind: Motion, axis: usize| {
+        Component::ALL.iter().position(|c| motion(*c) == (kind, axis)).expect("six components")
     };
     let shift = |axis: usize| index(Motion::Translation, axis % 3);
     let turn = |axis: usize| index(Motion::Rotation, axis % 3);
@@ -187,7 +194,7 @@ fn loads(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> Vec<Force> {
 pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
     let (mut shift, mut turn) = ([six[0]; 3], [six[0]; 3]);
     for (component, node) in Component::ALL.into_iter().zip(six) {
-        match component.motion() {
+        match motion(component) {
             (Motion::Translation, axis) => shift[axis] = node,
             (Motion::Rotation, axis) => turn[axis] = node,
         }
@@ -197,7 +204,7 @@ pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
 
 /// Six values in the order of ε from two vectors.
 fn six(shift: Vector, turn: Vector) -> [Node; 6] {
-    Component::ALL.map(|component| match component.motion() {
+    Component::ALL.map(|component| match motion(component) {
         (Motion::Translation, axis) => shift[axis],
         (Motion::Rotation, axis) => turn[axis],
     })

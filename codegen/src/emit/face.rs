@@ -8,7 +8,7 @@ use crate::expr::LengthUnit;
 use crate::spec::{Class, Distribution, Orientation, Spec, VariableKind};
 
 /// Types that a generated module has or uses already.
-const TAKEN: [&str; 16] = [
+const TAKEN: [&str; 18] = [
     "Class",
     "Component",
     "Description",
@@ -18,11 +18,13 @@ const TAKEN: [&str; 16] = [
     "Input",
     "Inputs",
     "LengthUnit",
+    "List",
     "Orientation",
     "Parameter",
     "Parameters",
     "Self",
     "Source",
+    "Text",
     "Variable",
     "VariableKind",
 ];
@@ -64,9 +66,9 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     writer.blank();
     let Spec { name, title, .. } = spec;
     writer.documentation("Names, units, limits, sources.");
-    writer.open("pub const DESCRIPTION: Description<'static> = Description");
-    writer.lines(&format!("name: {name:?},"));
-    writer.lines(&format!("title: {title:?},"));
+    writer.open("pub static DESCRIPTION: Description = Description");
+    writer.lines(&format!("name: Text::Constant({name:?}),"));
+    writer.lines(&format!("title: Text::Constant({title:?}),"));
     writer.lines(match spec.length {
         LengthUnit::Metre => "length: LengthUnit::Metre,",
         LengthUnit::Millimetre => "length: LengthUnit::Millimetre,",
@@ -77,7 +79,8 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     });
     let entries = writer.indent() + 4;
     let entry = |name: &str, arguments: &[String]| call(entries, name, arguments);
-    let mut list = |name: &str, entries: Vec<String>| writer.array(&format!("{name}: &"), &entries, ",");
+    let mut list =
+        |name: &str, entries: Vec<String>| writer.array(&format!("{name}: List::Constant(&"), &entries, "),");
     let frames = spec.frames.iter();
     let frames =
         frames.map(|frame| entry("Frame::new", &[quoted(&frame.name), format!("{:?}", frame.variable)]));

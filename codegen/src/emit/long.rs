@@ -75,7 +75,7 @@ pub(super) fn loop_body(spec: &Spec, kind: FunctionKind, program: &Program) -> O
                 },
                 "let mut values = [zero; EFFECTS];",
                 "effects(q, s, u, &mut values);",
-                "::abbe::long::by_source(super::DESCRIPTION.effects, &values, &columns, displacements);",
+                "::abbe::long::by_source(&super::DESCRIPTION.effects, &values, &columns, displacements);",
             ],
             rows("margin"),
         ),

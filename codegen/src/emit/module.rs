@@ -79,7 +79,7 @@ fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<&'st
 }
 
 fn used_types(spec: &Spec, model: &Model) -> Vec<&'static str> {
-    let mut names = vec!["Description", "Frame", "LengthUnit", "Orientation"];
+    let mut names = vec!["Description", "Frame", "LengthUnit", "List", "Orientation", "Text"];
     if !spec.variables.is_empty() {
         names.extend(["Variable", "VariableKind"]);
     }

@@ -14,12 +14,13 @@ mod transform;
 mod unit;
 mod value;
 
+pub use abbe::LengthUnit;
 pub use dimension::Dimension;
 pub use expression::{Binary, Expression, Kind, Term};
 pub use function::Function;
 pub use scope::{Allowed, Entry, Name, Scope, Symbol};
-pub use transform::{Elementary, Motion};
-pub use unit::{LengthUnit, UNIT_NAMES, Unit};
+pub use transform::{Elementary, Motion, motion};
+pub use unit::{UNIT_NAMES, Unit};
 pub use value::{find_name, parse_value};
 
 pub(crate) use function::FUNCTION_NAMES;

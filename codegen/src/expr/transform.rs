@@ -1,5 +1,7 @@
 //! Products of elementary motions: `Tx(d1) Ry(q4) Tz(300 mm)`.
 
+use abbe::Component;
+
 use super::parse::Parser;
 use super::scope::Allowed;
 use super::tokens::Token;
@@ -13,6 +15,12 @@ pub enum Motion {
     Translation,
     /// Turns about it.
     Rotation,
+}
+
+/// What a generalized error does, and along or about which axis: 0 = x, 1 = y, 2 = z.
+pub fn motion(component: Component) -> (Motion, usize) {
+    let motion = if component.is_rotation() { Motion::Rotation } else { Motion::Translation };
+    (motion, component.axis())
 }
 
 /// One factor of a transform.

@@ -1,33 +1,8 @@
 //! Unit names and their conversion into the coherent system of a spec.
 
+use abbe::LengthUnit;
+
 use super::Dimension;
-
-/// The length unit of a spec, and with it its coherent system: that length, kg, s, rad, K.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LengthUnit {
-    /// Metres.
-    Metre,
-    /// Millimetres.
-    Millimetre,
-}
-
-impl LengthUnit {
-    /// `m` or `mm`.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Millimetre => "mm",
-        }
-    }
-
-    /// How many powers of ten a number grows by when a metre is written in this unit.
-    fn decades(self) -> i32 {
-        match self {
-            Self::Metre => 0,
-            Self::Millimetre => 3,
-        }
-    }
-}
 
 /// A product of unit names: all are powers of ten of SI units, but for the degree.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +57,7 @@ impl Unit {
 
     /// A number in this unit, in the coherent system of a spec: rounded once, and exact where nothing changes.
     pub fn convert(self, number: f64, length: LengthUnit) -> f64 {
-        let decades = self.decades + length.decades() * self.dimension.length_exponent();
+        let decades = self.decades + decades_per_metre(length) * self.dimension.length_exponent();
         // Dividing first keeps 90 deg exactly π/2.
         let mut number = number;
         for _ in 0..self.degrees.abs() {
@@ -115,5 +90,13 @@ mod tests {
         for name in UNIT_NAMES {
             assert!(Unit::named(name).is_some(), "{name}");
         }
+    }
+}
+
+/// How many powers of ten a number grows by when a metre is written in this unit.
+fn decades_per_metre(length: LengthUnit) -> i32 {
+    match length {
+        LengthUnit::Metre => 0,
+        LengthUnit::Millimetre => 3,
     }
 }

@@ -4,7 +4,7 @@
 use super::{Beam, Cause, Compliance, Component, Effect, Frame};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, parse_transform};
+use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
 
 /// What an effect may say.
 pub(super) const EFFECT_KEYS: [&str; 10] =
@@ -83,7 +83,7 @@ fn read_errors(
     let mut complete = true;
     for component in Component::ALL {
         if let Some(item) = section.get(component.name()) {
-            let (motion, axis) = component.motion();
+            let (motion, axis) = motion(component);
             let (dimension, verb) = match motion {
                 Motion::Translation => (Dimension::LENGTH, "translation along"),
                 Motion::Rotation => (Dimension::NONE, "rotation about"),

@@ -4,6 +4,7 @@
 //! transforms, `sources`, `effects` and `loads` the physical errors; `rigid` shows that every matrix is a rigid motion.
 
 mod declarations;
+mod describe;
 mod effects;
 mod frames;
 mod loads;
@@ -13,7 +14,7 @@ mod rigid;
 mod sources;
 mod types;
 
+pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
 pub use types::{
-    Beam, Cause, Class, Compliance, Component, Distribution, Effect, Factor, Frame, Input, Load, Matrix,
-    Orientation, Parameter, Source, Spec, Variable, VariableKind,
+    Beam, Cause, Compliance, Effect, Factor, Frame, Input, Load, Matrix, Parameter, Source, Spec, Variable,
 };

@@ -1,7 +1,9 @@
 //! What a checked spec holds. Numbers are in its coherent system: its length unit, kg, s, rad, K.
 
+use abbe::{Class, Component, LengthUnit, Orientation, VariableKind};
+
 use crate::diagnostic::Span;
-use crate::expr::{Dimension, Elementary, Expression, LengthUnit, Motion};
+use crate::expr::{Dimension, Elementary, Expression, Motion};
 
 /// A manipulator as its file describes it.
 #[derive(Clone, Debug)]
@@ -40,15 +42,6 @@ pub struct Spec {
     pub hash: String,
 }
 
-/// What rows 4–6 of a Jacobian are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Orientation {
-    /// The small rotation in `F_0` axes.
-    RotationVector,
-    /// Spin, roll, pitch of `R_T = R_y(σ) R_z(ρ) R_x(π)`.
-    EulerYzx,
-}
-
 /// A structural parameter.
 #[derive(Clone, Debug)]
 pub struct Parameter {
@@ -79,15 +72,6 @@ pub struct Input {
     pub range: [f64; 2],
     /// What it is.
     pub description: String,
-}
-
-/// Whether a variable turns or slides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum VariableKind {
-    /// An angle.
-    Revolute,
-    /// A length.
-    Prismatic,
 }
 
 /// A joint variable.
@@ -156,24 +140,6 @@ impl Factor {
             Self::Matrix(matrix) => matrix.rows.iter().flatten().collect(),
         }
     }
-}
-
-/// Whether an error is the same every time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
-    /// Same value and sign at every visit of a configuration.
-    Repeatable,
-    /// Unpredictable.
-    Random(Distribution),
-}
-
-/// How a random error is distributed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Distribution {
-    /// The value is the half-width.
-    Uniform,
-    /// The value is the standard deviation.
-    Normal,
 }
 
 /// A physical error.
@@ -254,43 +220,4 @@ pub struct Load {
     pub frame: usize,
     /// Where it is, as seen from that frame.
     pub point: [Expression; 3],
-}
-
-/// The six generalized errors of a frame, in the order of ε. **Spin is about y, roll about z, pitch about x.**
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Component {
-    /// Translation along x.
-    X,
-    /// Translation along y.
-    Y,
-    /// Translation along z.
-    Z,
-    /// Rotation about y.
-    Spin,
-    /// Rotation about z.
-    Roll,
-    /// Rotation about x.
-    Pitch,
-}
-
-impl Component {
-    /// All six, in the order of ε.
-    pub const ALL: [Self; 6] = [Self::X, Self::Y, Self::Z, Self::Spin, Self::Roll, Self::Pitch];
-
-    /// `e_x` … `e_p`.
-    pub fn name(self) -> &'static str {
-        ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p"][self as usize]
-    }
-
-    /// Translation or rotation, and its axis: the one place in this crate that knows.
-    pub fn motion(self) -> (Motion, usize) {
-        match self {
-            Self::X => (Motion::Translation, 0),
-            Self::Y => (Motion::Translation, 1),
-            Self::Z => (Motion::Translation, 2),
-            Self::Spin => (Motion::Rotation, 1),
-            Self::Roll => (Motion::Rotation, 2),
-            Self::Pitch => (Motion::Rotation, 0),
-        }
-    }
 }

@@ -92,7 +92,7 @@ pub fn error_budget(
     let scattered = Scattered { workspace, count: SCATTERED };
     let _ = sweep(manipulator, &scattered, u, &mut |row| {
         points.push(position(&row.repeatable));
-        let other = Ellipsoid::new(covariance(description.sources, row.sources), row.index);
+        let other = Ellipsoid::new(covariance(&description.sources, row.sources), row.index);
         if other.semi_axes[0] > ellipsoid.semi_axes[0] {
             ellipsoid = other;
         }

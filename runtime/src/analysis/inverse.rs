@@ -47,7 +47,7 @@ pub fn inverse(
     target: &Target,
 ) -> Result<Vec<f64>, Unreached> {
     let description = manipulator.description();
-    let variables = description.variables;
+    let variables = &description.variables;
     in_range(free.iter().copied(), Quantity::Variables, variables.len())?;
     if start.len() != variables.len() {
         let (expected, found) = (variables.len(), start.len());
@@ -96,7 +96,7 @@ fn outside(variables: &[Variable], variable: usize, value: f64) -> Unreached {
 /// arm lengths: a metre or a millimetre must not decide which joint moves.
 struct Search<'a> {
     manipulator: &'a dyn Manipulator,
-    variables: &'a [Variable<'a>],
+    variables: &'a [Variable],
     s: &'a [f64],
     free: &'a [usize],
     target: &'a Target,

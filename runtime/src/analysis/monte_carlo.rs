@@ -54,7 +54,7 @@ pub fn monte_carlo(
     let mut first_order = [[0.0; 3]; 3];
     let mut ideal = Pose::IDENTITY;
     sweep(manipulator, &One(configuration), u, &mut |row| {
-        first_order = covariance(description.sources, row.sources);
+        first_order = covariance(&description.sources, row.sources);
         ideal = row.pose;
     })
     .map_err(|Unevaluated { error, .. }| error)?;
@@ -112,7 +112,7 @@ pub fn monte_carlo(
 
 /// One configuration of the exact chain.
 struct Chain<'a> {
-    description: Description<'a>,
+    description: &'a Description,
     transforms: Vec<Pose>,
     effects: Vec<f64>,
     ideal: Pose,

@@ -8,16 +8,16 @@ use crate::*;
 /// The patient positioning system of the paper.
 pub(crate) struct Pps;
 
-const fn variable(name: &'static str, kind: VariableKind, limits: [f64; 2], home: f64) -> Variable<'static> {
-    Variable { name, kind, limits, home }
+const fn variable(name: &'static str, kind: VariableKind, limits: [f64; 2], home: f64) -> Variable {
+    Variable::new(name, kind, limits, home)
 }
 
-const fn frame(name: &'static str, index: usize) -> Frame<'static> {
-    Frame { name, variable: Some(index) }
+const fn frame(name: &'static str, index: usize) -> Frame {
+    Frame::new(name, Some(index))
 }
 
-const fn source(name: &'static str, class: Class) -> Source<'static> {
-    Source { name, class, reference: "" }
+const fn source(name: &'static str, class: Class) -> Source {
+    Source::new(name, class, "")
 }
 
 const fn effect(source: usize, frame: usize, component: Component) -> Effect {
@@ -25,11 +25,8 @@ const fn effect(source: usize, frame: usize, component: Component) -> Effect {
 }
 
 const TILT: f64 = 3.0 * PI / 180.0;
-const PARAMETERS: [Parameter; 3] = [
-    Parameter { name: "x", nominal: 0.0, unit: "mm" },
-    Parameter { name: "y", nominal: 100.0, unit: "mm" },
-    Parameter { name: "z", nominal: 850.0, unit: "mm" },
-];
+const PARAMETERS: [Parameter; 3] =
+    [Parameter::new("x", 0.0, "mm"), Parameter::new("y", 100.0, "mm"), Parameter::new("z", 850.0, "mm")];
 const RANDOM: Class = Class::Random(Distribution::Uniform);
 
 /// Signs of the assembly errors, frame by frame.
@@ -54,30 +51,30 @@ const EFFECTS: [Effect; 45] = {
     effects
 };
 
-const DESCRIPTION: Description = Description {
-    name: "pps",
-    title: "NPTC patient positioning system",
+static DESCRIPTION: Description = Description {
+    name: Text::Constant("pps"),
+    title: Text::Constant("NPTC patient positioning system"),
     length: LengthUnit::Millimetre,
     orientation: Orientation::EulerYzx,
-    frames: &[
+    frames: List::Constant(&[
         frame("lateral", 0),
         frame("vertical", 1),
         frame("longitudinal", 2),
         frame("spin", 3),
         frame("roll", 4),
         frame("pitch", 5),
-    ],
-    variables: &[
+    ]),
+    variables: List::Constant(&[
         variable("d1", VariableKind::Prismatic, [0.0, 2256.0], 1128.0),
         variable("d2", VariableKind::Prismatic, [0.0, 560.0], 280.0),
         variable("d3", VariableKind::Prismatic, [0.0, 1473.0], 0.0),
         variable("q4", VariableKind::Revolute, [-FRAC_PI_2, FRAC_PI_2], 0.0),
         variable("q5", VariableKind::Revolute, [-TILT, TILT], 0.0),
         variable("q6", VariableKind::Revolute, [-TILT, TILT], 0.0),
-    ],
-    parameters: &PARAMETERS,
-    inputs: &[],
-    sources: &[
+    ]),
+    parameters: List::Constant(&PARAMETERS),
+    inputs: List::Constant(&[]),
+    sources: List::Constant(&[
         source("base rail curvature", Class::Repeatable),
         source("spin encoder", RANDOM),
         source("arm deflection", Class::Repeatable),
@@ -85,8 +82,8 @@ const DESCRIPTION: Description = Description {
         source("vertical encoder", RANDOM),
         source("longitudinal encoder", RANDOM),
         source("assembly", Class::Repeatable),
-    ],
-    effects: &EFFECTS,
+    ]),
+    effects: List::Constant(&EFFECTS),
 };
 
 pub(super) fn translation(x: f64, y: f64, z: f64) -> Pose {
@@ -154,8 +151,8 @@ fn column(turns: bool, v: [f64; 3], p: [f64; 3], tool: &Pose) -> Result<[f64; 6]
 }
 
 impl Manipulator for Pps {
-    fn description(&self) -> Description<'_> {
-        DESCRIPTION
+    fn description(&self) -> &Description {
+        &DESCRIPTION
     }
 
     fn transforms(&self, q: &[f64], s: &[f64], into: &mut [Pose]) -> Result<(), Error> {

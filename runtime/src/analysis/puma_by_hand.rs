@@ -18,8 +18,8 @@ const DH: [[f64; 3]; 6] = [
     [0.0, 0.0, 0.0],
 ];
 
-const fn joint(name: &'static str, limit: f64, home: f64) -> Variable<'static> {
-    Variable { name, kind: VariableKind::Revolute, limits: [-limit, limit], home }
+const fn joint(name: &'static str, limit: f64, home: f64) -> Variable {
+    Variable::new(name, VariableKind::Revolute, [-limit, limit], home)
 }
 
 const VARIABLES: [Variable; 6] = [
@@ -31,15 +31,11 @@ const VARIABLES: [Variable; 6] = [
     joint("q6", f64::INFINITY, 0.0),
 ];
 
-const FRAMES: [Frame; 6] = {
-    let mut frames = [Frame { name: "joint", variable: Some(0) }; 6];
-    let mut i = 0;
-    while i < 6 {
-        frames[i].variable = Some(i);
-        i += 1;
-    }
-    frames
-};
+const fn frame(index: usize) -> Frame {
+    Frame::new("joint", Some(index))
+}
+
+const FRAMES: [Frame; 6] = [frame(0), frame(1), frame(2), frame(3), frame(4), frame(5)];
 
 fn transforms(q: &[f64], s: &[f64]) -> Result<[Pose; 7], Error> {
     check(Quantity::Variables, q, 6)?;
@@ -62,25 +58,22 @@ fn column(turns: bool, axis: usize, frame: &Pose, tool: &Pose) -> [f64; 6] {
     [v[1] * z - v[2] * y, v[2] * x - v[0] * z, v[0] * y - v[1] * x, v[0], v[1], v[2]]
 }
 
+static DESCRIPTION: Description = Description {
+    name: Text::Constant("puma"),
+    title: Text::Constant("PUMA 560"),
+    length: LengthUnit::Metre,
+    orientation: Orientation::RotationVector,
+    frames: List::Constant(&FRAMES),
+    variables: List::Constant(&VARIABLES),
+    parameters: List::Constant(&[Parameter::new("x", 0.1, "m"), Parameter::new("z", 0.2, "m")]),
+    inputs: List::Constant(&[]),
+    sources: List::Constant(&[]),
+    effects: List::Constant(&[]),
+};
+
 impl Manipulator for Puma {
-    fn description(&self) -> Description<'_> {
-        Description {
-            name: "puma",
-            title: "PUMA 560",
-            length: LengthUnit::Metre,
-            orientation: Orientation::RotationVector,
-            frames: &FRAMES,
-            variables: &VARIABLES,
-            parameters: const {
-                &[
-                    Parameter { name: "x", nominal: 0.1, unit: "m" },
-                    Parameter { name: "z", nominal: 0.2, unit: "m" },
-                ]
-            },
-            inputs: &[],
-            sources: &[],
-            effects: &[],
-        }
+    fn description(&self) -> &Description {
+        &DESCRIPTION
     }
 
     fn transforms(&self, q: &[f64], s: &[f64], into: &mut [Pose]) -> Result<(), Error> {

@@ -101,5 +101,5 @@ pub(super) fn ready(
         }
     }
     checks::finite(Quantity::Inputs, u).map_err(at_home)?;
-    checks::inputs(description.inputs, u).map_err(at_home)
+    checks::inputs(&description.inputs, u).map_err(at_home)
 }

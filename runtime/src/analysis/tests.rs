@@ -120,7 +120,7 @@ fn a_6r_arm_reaches_what_it_can() {
             let found = inverse(&Puma, &s, &start, &all, &target);
             let found = found.unwrap_or_else(|error| panic!("sample {index}, {target:?}: {error}"));
             let reached = Puma.pose(&found, &s).unwrap();
-            for (value, variable) in found.iter().zip(description.variables) {
+            for (value, variable) in found.iter().zip(&description.variables) {
                 assert!(variable.limits[0] <= *value && *value <= variable.limits[1]);
             }
             let difference = crate::deviation(description.orientation, &reached, &pose);
@@ -151,7 +151,7 @@ fn empty_workspace_has_no_errors() {
 }
 
 fn home() -> Configuration {
-    Configuration::home(&Pps.description())
+    Configuration::home(Pps.description())
 }
 
 #[test]

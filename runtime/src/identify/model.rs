@@ -311,7 +311,7 @@ impl<'a> Model<'a> {
         match unknown {
             Unknown::Base(component) => format!("{}0", component.name()),
             Unknown::Error(frame, component) => format!("{}{}", component.name(), frame + 1),
-            Unknown::Magnitude(source) => self.manipulator.description().sources[source].name.to_owned(),
+            Unknown::Magnitude(source) => self.manipulator.description().sources[source].name.to_string(),
             Unknown::Target(target, axis) => {
                 let axis = ["x", "y", "z"][axis];
                 if self.targets.len() == 1 {

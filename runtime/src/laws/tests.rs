@@ -26,7 +26,7 @@ fn right_robots_pass_by_a_wide_margin() {
 struct Wrong(fn(&mut [[f64; 6]]));
 
 impl Manipulator for Wrong {
-    fn description(&self) -> Description<'_> {
+    fn description(&self) -> &Description {
         Pps.description()
     }
     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {

@@ -23,7 +23,7 @@ impl Compensated {
             named.map_or(self.default, |(_, residual)| *residual)
         };
         let sources = description.sources.iter();
-        sources.map(|source| (source.class == Class::Repeatable).then(|| residual(source.name))).collect()
+        sources.map(|source| (source.class == Class::Repeatable).then(|| residual(&source.name))).collect()
     }
 }
 

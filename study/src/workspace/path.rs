@@ -60,7 +60,7 @@ impl Path {
 
     /// The configurations of that manipulator.
     pub(super) fn configurations(&self, manipulator: &dyn Manipulator) -> Vec<Configuration> {
-        let home = Configuration::home(&manipulator.description());
+        let home = Configuration::home(manipulator.description());
         let configuration = |values: &Vec<f64>| {
             let mut configuration = home.clone();
             for (column, value) in self.columns.iter().zip(values) {

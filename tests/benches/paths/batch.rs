@@ -12,7 +12,7 @@ pub(crate) fn bench(criterion: &mut Criterion, subject: &Subject) {
     for path in Path::ALL {
         let mut group = subject.group(criterion, path.name());
         for set in InstructionSet::all() {
-            let mut results = Tiles::new(set, path.results(&subject.compiled.description()), COUNT);
+            let mut results = Tiles::new(set, path.results(subject.compiled.description()), COUNT);
             let arguments = arguments(subject, path, set);
             let manipulators: [(&str, &dyn Manipulator); 2] =
                 [("compiled", subject.compiled), ("interpreted", &subject.interpreter)];
@@ -27,7 +27,7 @@ pub(crate) fn bench(criterion: &mut Criterion, subject: &Subject) {
 }
 
 fn arguments(subject: &Subject, path: Path, set: InstructionSet) -> Tiles {
-    let rows = path.arguments(&subject.compiled.description());
+    let rows = path.arguments(subject.compiled.description());
     let mut tiles = Tiles::new(set, rows, COUNT);
     for (configuration, q) in subject.variables.iter().enumerate() {
         let values = q.iter().chain(&subject.parameters).chain(&subject.inputs).chain(&subject.errors);

@@ -14,7 +14,7 @@ pub(crate) const COUNT: usize = 64;
 pub(crate) struct Subject {
     pub(crate) name: &'static str,
     pub(crate) compiled: &'static dyn Manipulator,
-    pub(crate) interpreter: Interpreter<'static>,
+    pub(crate) interpreter: Interpreter,
     /// q of each configuration, within the limits.
     pub(crate) variables: Vec<Vec<f64>>,
     pub(crate) parameters: Vec<f64>,
@@ -33,7 +33,7 @@ impl Subject {
         Self {
             name: shipped.name,
             compiled: shipped.compiled,
-            interpreter: Interpreter::new(spec),
+            interpreter: Interpreter::new(spec.clone()),
             variables: (0..COUNT).map(|index| joint_sample(&description, 1.0, &moved, index)).collect(),
             parameters: nominal_parameters(&description),
             inputs: nominal_inputs(&description),

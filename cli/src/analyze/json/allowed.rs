@@ -25,7 +25,7 @@ struct Source<'a> {
 
 pub(super) fn of<'a>(analysis: &'a Analysis<'a>, admissible: &Admissible) -> Allowed<'a> {
     let source = |i: usize| Source {
-        name: analysis.description.sources[i].name,
+        name: &analysis.description.sources[i].name,
         alone: admissible.alone[i],
         equal: admissible.equal[i],
         gain_per_percent: analysis.budget.gains[i] + 0.0,

@@ -50,15 +50,15 @@ pub(super) fn values(subject: &Subject) -> String {
         format!(
             "<tr><th>F<sub>{}</sub> {}</th><td>{}</td></tr>\n",
             i + 1,
-            escaped(frame.name),
+            escaped(&frame.name),
             escaped(&variable)
         )
     });
     let parameters = description
         .parameters
         .iter()
-        .map(|parameter| (parameter.name, quantity(parameter.nominal, parameter.unit)));
-    let inputs = description.inputs.iter().map(|input| (input.name, quantity(input.nominal, input.unit)));
+        .map(|parameter| (&*parameter.name, quantity(parameter.nominal, &parameter.unit)));
+    let inputs = description.inputs.iter().map(|input| (&*input.name, quantity(input.nominal, &input.unit)));
     let list = |values: Vec<(&str, String)>| {
         let values = values.into_iter().map(|(name, value)| format!("{name} = {value}"));
         values.collect::<Vec<_>>().join(", ")

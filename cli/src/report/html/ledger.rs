@@ -35,7 +35,7 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, sub
             Metric::HalfPeakToPeak => errors.half_peak_to_peak,
             Metric::RelativeToHome => errors.relative_to_home,
         };
-        (name, figures, subject.published(&study_file::Subject::Source(source.name.to_owned(), metric)))
+        (name, figures, subject.published(&study_file::Subject::Source(source.name.to_string(), metric)))
     });
     let lines = metrics.iter().map(|(_, _, published)| 1 + usize::from(published.is_some())).sum::<usize>();
     let share = |figures: &Figures| {
@@ -45,7 +45,7 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, sub
     let mut rows = String::new();
     for (i, (name, figures, published)) in metrics.iter().enumerate() {
         let head = if i == 0 {
-            let (name, class) = (escaped(source.name), class(source.class));
+            let (name, class) = (escaped(&source.name), class(source.class));
             let worst =
                 worst.map(|worst| format!("<br>worst at {}", escaped(&unbroken(&subject.label(worst)))));
             let worst = worst.unwrap_or_default();

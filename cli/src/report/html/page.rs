@@ -70,7 +70,7 @@ fn heading(subject: &Subject) -> String {
     let text = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     format!(
         "<header>\n<p class=\"kind\">Error analysis</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n<p>{}</p>\n</header>\n",
-        escaped(subject.description.title),
+        escaped(&subject.description.title),
         escaped(&subject.study.title),
         escaped(&text(description)),
     )

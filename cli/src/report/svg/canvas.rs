@@ -56,7 +56,7 @@ impl Sheet {
     const HEAD: u32 = 56;
 
     pub(super) fn new(size: (u32, u32), figure: &Figure, subject: &Subject, subtitle: &str) -> Self {
-        let name = subject.description.title;
+        let name = &subject.description.title;
         let paper = &figure.asked.paper;
         let paper = if paper.is_empty() {
             String::new()

@@ -64,7 +64,7 @@ fn a_box_is_reached_point_by_point() {
 }
 
 fn home_of(manipulator: &dyn Manipulator) -> Configuration {
-    Configuration::home(&manipulator.description())
+    Configuration::home(manipulator.description())
 }
 
 #[test]

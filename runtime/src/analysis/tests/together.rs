@@ -22,7 +22,7 @@ fn papers() -> (Budget, Vec<Errors>) {
 }
 
 fn radius(errors: &[Vector3<f64>], scales: &[f64]) -> f64 {
-    let sources = Pps.description().sources;
+    let sources = &Pps.description().sources;
     let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
     for ((source, error), scale) in sources.iter().zip(errors).zip(scales) {
         match source.class {
