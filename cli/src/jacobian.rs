@@ -39,22 +39,22 @@ pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome, Failure> {
     let description = interpreter.description();
     let q = match &arguments.q {
         Some(text) => joint_variables(text, &found.spec)?,
-        None => sampling::home(&description),
+        None => sampling::home(description),
     };
     for (variable, value) in description.variables.iter().zip(&q) {
-        beyond_limits(variable, *value, &description);
+        beyond_limits(variable, *value, description);
     }
 
-    let s = sampling::nominal_parameters(&description);
-    let u = sampling::nominal_inputs(&description);
+    let s = sampling::nominal_parameters(description);
+    let u = sampling::nominal_inputs(description);
     let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
     let mut errors = vec![[0.0; 6]; description.frames.len()];
     let pose = interpreter
         .error_jacobian(&q, &s, &mut columns)
         .and_then(|pose| interpreter.generalized_errors(&q, &s, &u, &mut errors).map(|()| pose))
-        .map_err(|error| Failure::evaluation(&found.origin, "this configuration", &error, &description))?;
-    let report = Report::new(&description, q, &pose, &columns, &errors);
-    let text = if arguments.json { json(&report)? } else { report.text(&description) };
+        .map_err(|error| Failure::evaluation(&found.origin, "this configuration", &error, description))?;
+    let report = Report::new(description, q, &pose, &columns, &errors);
+    let text = if arguments.json { json(&report)? } else { report.text(description) };
     Ok(Outcome::passed(text))
 }
 

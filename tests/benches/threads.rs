@@ -20,7 +20,7 @@ fn threads(criterion: &mut Criterion) {
         let description = shipped.compiled.description();
         let moved: Vec<usize> = (0..description.variables.len()).collect();
         let workspace = random_joint_samples(shipped.compiled, &moved, COUNT, 1).expect("its own variables");
-        let u = nominal_inputs(&description);
+        let u = nominal_inputs(description);
         for threads in [1, 2] {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             group.bench_function(format!("{}/threads: {threads}", shipped.name), |bencher| {

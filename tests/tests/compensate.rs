@@ -94,7 +94,7 @@ fn with_errors(shipped: &str) -> Spec {
 fn samples(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     let description = robot.description();
     let all: Vec<usize> = (0..description.variables.len()).collect();
-    let sample = |i| sampling::joint_sample(&description, 1.0, &all, i);
+    let sample = |i| sampling::joint_sample(description, 1.0, &all, i);
     let inner = |q: Vec<f64>| {
         let each = q.into_iter().zip(&description.variables);
         each.map(|(q, v)| 0.5 * q + 0.25 * (v.limits[0] + v.limits[1])).collect()
@@ -134,7 +134,7 @@ fn compensates(name: &str, whole: bool, regular_above: f64) {
     let robot = Interpreter::new(spec.clone());
     let description = robot.description();
     let metre = description.length.in_metres();
-    let (s, u) = (sampling::nominal_parameters(&description), sampling::nominal_inputs(&description));
+    let (s, u) = (sampling::nominal_parameters(description), sampling::nominal_inputs(description));
     let (mut regular, mut before, mut after, mut turned) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
     for q in samples(&robot, 300) {
         let found = corrected(&robot, None, &q, &s, &u).unwrap();

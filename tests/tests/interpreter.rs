@@ -54,12 +54,12 @@ fn equal_to_compiled_code_on_a_thousand_configurations() {
         let interpreter = Interpreter::new(spec.clone());
         let description = interpreter.description();
         assert_eq!(description, shipped.compiled.description(), "{}", shipped.name);
-        let (s, u) = (nominal_parameters(&description), nominal_inputs(&description));
+        let (s, u) = (nominal_parameters(description), nominal_inputs(description));
         let arm = arm_length(&interpreter, &s).unwrap();
         let moved: Vec<usize> = (0..description.variables.len()).collect();
         let mut worst: f64 = 0.0;
         for index in 0..1000 {
-            let q = joint_sample(&description, arm, &moved, index);
+            let q = joint_sample(description, arm, &moved, index);
             match (everything(shipped.compiled, &q, &s, &u), everything(&interpreter, &q, &s, &u)) {
                 (Ok(compiled), Ok(interpreted)) => {
                     assert_eq!(compiled.len(), interpreted.len());
@@ -78,11 +78,11 @@ fn equal_to_compiled_code_on_a_thousand_configurations() {
 /// The arguments of a batch function at spread configurations.
 fn arguments(robot: &dyn Manipulator, path: Path, set: InstructionSet, count: usize) -> Tiles {
     let description = robot.description();
-    let (s, u) = (nominal_parameters(&description), nominal_inputs(&description));
+    let (s, u) = (nominal_parameters(description), nominal_inputs(description));
     let moved: Vec<usize> = (0..description.variables.len()).collect();
-    let mut arguments = Tiles::new(set, path.arguments(&description), count);
+    let mut arguments = Tiles::new(set, path.arguments(description), count);
     for i in 0..count {
-        let q = joint_sample(&description, 1.0, &moved, i);
+        let q = joint_sample(description, 1.0, &moved, i);
         let errors = (0..6 * description.frames.len()).map(|k| 1e-3 * halton(i + 1, k % 30));
         let given = q.iter().chain(&s).chain(&u).copied().chain(errors);
         for (row, value) in given.take(arguments.rows()).enumerate() {

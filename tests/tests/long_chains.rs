@@ -37,7 +37,7 @@ fn batches_are_those_of_the_straight_line_program() {
     assert_eq!(description, Long.description());
     for set in InstructionSet::all() {
         for path in Path::ALL {
-            let mut arguments = Tiles::new(set, path.arguments(&description), COUNT);
+            let mut arguments = Tiles::new(set, path.arguments(description), COUNT);
             for configuration in 0..COUNT {
                 for row in 0..arguments.rows() {
                     // Parameters and inputs are positive, and so are variances.
@@ -46,7 +46,7 @@ fn batches_are_those_of_the_straight_line_program() {
                     arguments.set_value(row, configuration, value);
                 }
             }
-            let mut results = [(); 2].map(|()| Tiles::new(set, path.results(&description), COUNT));
+            let mut results = [(); 2].map(|()| Tiles::new(set, path.results(description), COUNT));
             let [looped, straight_line] = &mut results;
             Long.batch(path, &arguments, looped).unwrap();
             straight.batch(path, &arguments, straight_line).unwrap();

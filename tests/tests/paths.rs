@@ -10,7 +10,7 @@ const SAMPLES: usize = 100;
 fn configurations<const N: usize>(robot: &dyn Manipulator) -> Vec<[f64; N]> {
     let description = robot.description();
     let moved: Vec<usize> = (0..N).collect();
-    (0..SAMPLES).map(|index| joint_sample(&description, 1.0, &moved, index).try_into().unwrap()).collect()
+    (0..SAMPLES).map(|index| joint_sample(description, 1.0, &moved, index).try_into().unwrap()).collect()
 }
 
 fn assert_close(place: &str, found: &[f64], expected: &[f64], tolerance: f64) {

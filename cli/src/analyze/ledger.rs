@@ -51,7 +51,7 @@ pub(super) fn listing(analysis: &Analysis) -> Listing {
         let at = analysis
             .configuration(largest.configuration)
             .filter(|_| largest.value > 0.0)
-            .map(|worst| number::configuration(&worst, analysis.workspace.home(), &analysis.description))
+            .map(|worst| number::configuration(&worst, analysis.workspace.home(), analysis.description))
             .map(|at| unbroken(&at));
         let show = |value| fixed(value, analysis.decimals());
         let mut cells = vec![

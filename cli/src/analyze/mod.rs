@@ -99,29 +99,29 @@ pub(crate) fn run(arguments: &Analyze) -> Result<Outcome, Failure> {
     let workspace = study.region.workspace(manipulator, arguments.seed);
     let workspace = workspace.map_err(|error| Failure::of(&found.origin, error))?;
     let varying = study.region.varying(&found.spec);
-    let u = sampling::nominal_inputs(&description);
+    let u = sampling::nominal_inputs(description);
     let mut watching = Watching {
         files: match &arguments.out {
-            Some(folder) => Some(Files::create(folder, &description, &varying)?),
+            Some(folder) => Some(Files::create(folder, description, &varying)?),
             None => None,
         },
-        pictures: arguments.out.as_ref().map(|_| Pictures::new(&study, &description)),
+        pictures: arguments.out.as_ref().map(|_| Pictures::new(&study, description)),
         progress: Progress::new(workspace.len()),
     };
-    let residuals = study.compensation.as_ref().map(|left| left.of(&description));
+    let residuals = study.compensation.as_ref().map(|left| left.of(description));
     let budget = error_budget(manipulator, &*workspace, &u, residuals.as_deref(), &mut watching);
     let Watching { files, pictures, progress } = watching;
     drop(progress);
     let unevaluated = |refused: &Unevaluated| {
         let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
-            Some(configuration) => number::configuration(&configuration, workspace.home(), &description),
+            Some(configuration) => number::configuration(&configuration, workspace.home(), description),
             None => "home".to_owned(),
         };
-        Failure::evaluation(&found.origin, &at, &refused.error, &description)
+        Failure::evaluation(&found.origin, &at, &refused.error, description)
     };
     let budget = budget.map_err(|refused| unevaluated(&refused))?;
     if budget.configurations == 0 {
-        let reasons = unreachable::summary(&budget.unreachable, &description);
+        let reasons = unreachable::summary(&budget.unreachable, description);
         let message = format!("no configuration of the workspace can be reached: {reasons}");
         return Err(Failure::of(&found.origin, message));
     }

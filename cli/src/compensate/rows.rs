@@ -45,12 +45,12 @@ pub(super) fn of(
     tolerance: f64,
 ) -> Result<Vec<Row>, Failure> {
     let description = manipulator.description();
-    let s = sampling::nominal_parameters(&description);
+    let s = sampling::nominal_parameters(description);
     let (mut rows, mut dropped) = (Vec::new(), Vec::new());
     for (i, (asked, line)) in data.observations.iter_mut().zip(&data.lines).enumerate() {
-        match row(manipulator, &description, &s, asked, poses) {
+        match row(manipulator, description, &s, asked, poses) {
             Ok(found) => {
-                let reason = reason(&description, &found, tolerance);
+                let reason = reason(description, &found, tolerance);
                 let Compensated { q, before, after } = found;
                 let names = description.variables.iter().map(|variable| variable.name.to_string());
                 let (before, after) = (Norms::of(&before), Norms::of(&after));

@@ -53,7 +53,7 @@ impl Data {
 
     fn rows(file: &Path, map: &Map, measured: bool, once: bool) -> Result<Self, Failure> {
         let (mut reader, header) = open(file)?;
-        let fail = |error| unreadable(file, error);
+        let fail = |error| unreadable(file, &error);
         let commanded: Vec<&Column> = map.commanded().collect();
         let seen = if measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
@@ -126,7 +126,7 @@ impl Data {
 
 /// A CSV file and its heading.
 fn open(file: &Path) -> Result<(Reader<File>, Vec<String>), Failure> {
-    let fail = |error| unreadable(file, error);
+    let fail = |error| unreadable(file, &error);
     let reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).flexible(true).from_path(file);
     let mut reader = reader.map_err(fail)?;
     let header: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
@@ -138,7 +138,7 @@ fn open(file: &Path) -> Result<(Reader<File>, Vec<String>), Failure> {
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
 
-fn unreadable(file: &Path, error: csv::Error) -> Failure {
+fn unreadable(file: &Path, error: &csv::Error) -> Failure {
     Failure::of(file.display(), format!("cannot read this file: {error}")).help(WANTED)
 }
 

@@ -212,7 +212,7 @@ pub(super) fn report(
             .map(|group| Alike {
                 these: named(&group.these),
                 act_as: named(&group.act_as),
-                reason: words::reason(group.reason, &setup.description),
+                reason: words::reason(group.reason, setup.description),
             })
             .collect(),
         unexplained: (model.unknowns.len() - known.rank).saturating_sub(group_count),

@@ -47,7 +47,7 @@ fn known(setup: &Setup, data: &Data, solved: &Solved, report: &Report) -> String
     );
     let moved = setup.moved(&data.observations);
     let alike = groups(&solved.model, &data.observations[0].q, &moved, setup.pose).unwrap_or_default();
-    text += &words::table(&alike, &solved.model, &setup.description);
+    text += &words::table(&alike, &solved.model, setup.description);
     if report.unexplained > 0 {
         let line = format!(
             "{} more combinations make no difference at these configurations: other ones would show them.",

@@ -72,10 +72,10 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
     let (title, rows, counts, known, design) = match &arguments.sets {
         Some(file) => {
             let sets = Sets::find(file, &found.spec)?;
-            let (asked, counts) = sets.rows(&interpreter, &description)?;
+            let (asked, counts) = sets.rows(&interpreter, description)?;
             let rows: Vec<Observation> = asked
                 .into_iter()
-                .map(|asked| Observation { u: asked.u, ..map.asked(asked.q, &description) })
+                .map(|asked| Observation { u: asked.u, ..map.asked(asked.q, description) })
                 .collect();
             let known = known_from(&rows)?;
             let design = whole(&model, &rows, &known).map_err(fail)?;
@@ -86,7 +86,7 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
             let moved: Vec<usize> = map.moved().collect();
             let samples = joint_samples(&interpreter, &moved, usize::from(arguments.candidates));
             let samples = samples.map_err(|error| Failure::of(&arguments.spec, error))?.reached();
-            let list: Vec<Observation> = samples.into_iter().map(|s| map.asked(s.q, &description)).collect();
+            let list: Vec<Observation> = samples.into_iter().map(|s| map.asked(s.q, description)).collect();
             let known = known_from(&list)?;
             let design = d_optimal(&model, &list, &known, count).map_err(fail)?;
             let chosen = design.as_ref().map_or(Vec::new(), |design| design.chosen.clone());
@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
         let message = format!("so few configurations cannot determine {} combinations of errors", known.rank);
         return Err(Failure::of(&arguments.spec, message).help("plan more of them"));
     };
-    let used = used(&found, &interpreter, &description, arguments)?;
+    let used = used(&found, &interpreter, description, arguments)?;
     let spread = at_the_tool(&model, &known, &design, &used).map_err(fail)?;
     let spread = Figures::of(spread);
     let observed = known_from(&rows)?;
@@ -125,7 +125,7 @@ pub(crate) fn run(arguments: &Plan) -> Result<Outcome, Failure> {
     let moved = setup.moved(&rows);
     let alike = rows.first().map_or(Ok(Vec::new()), |row| groups(&model, &row.q, &moved, setup.pose));
     let alike = alike.map_err(|error| Failure::of(&arguments.spec, error))?;
-    let alike = alike_table(&alike, &model, &description);
+    let alike = alike_table(&alike, &model, description);
     let text = if arguments.json { json(&report)? } else { text(&found, &map, &report, &alike, arguments) };
     Ok(Outcome::passed(text))
 }

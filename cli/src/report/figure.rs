@@ -48,7 +48,7 @@ impl<'a> Figure<'a> {
         let of = asked.source.as_deref().unwrap_or("all sources");
         let kept = if bounds { "all random sources" } else { "all repeatable sources" };
         let kept = asked.source.as_deref().unwrap_or(kept);
-        let over = |over| Axis::over(over, &subject.description).name;
+        let over = |over| Axis::over(over, subject.description).name;
         let (kind, overs, title) = match asked.content {
             Content::Travel(first) => ("travel", vec![over(first)], format!("{of}, over {}", over(first))),
             Content::Surface([first, second]) => {

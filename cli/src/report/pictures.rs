@@ -53,7 +53,7 @@ impl<'a> Pictures<'a> {
             if let Some(region) = &gather.figure.region {
                 let fail = |error: &dyn std::fmt::Display| Failure::of(&subject.spec.file, error);
                 let workspace = region.workspace(subject.manipulator, None).map_err(|error| fail(&error))?;
-                let u = sampling::nominal_inputs(&subject.description);
+                let u = sampling::nominal_inputs(subject.description);
                 let unreachable = sweep(subject.manipulator, &*workspace, &u, &mut |row| gather.add(row))
                     .map_err(|error| fail(&error))?;
                 let (unreached, reached) = (unreachable.count, workspace.len() - unreachable.count);

@@ -44,7 +44,7 @@ pub(crate) struct Compared {
 impl Subject<'_> {
     /// What differs from home at a configuration.
     pub(super) fn label(&self, configuration: &Configuration) -> String {
-        number::configuration(configuration, self.home, &self.description)
+        number::configuration(configuration, self.home, self.description)
     }
 
     /// An error, with the decimals of the tables.

@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &Simulate) -> Result<Outcome, Failure> {
     let description = interpreter.description();
     let list = match &arguments.at {
         Some(file) => Data::read_commanded(file, &map)?,
-        None => sampled(&interpreter, &description, &map, arguments)?,
+        None => sampled(&interpreter, description, &map, arguments)?,
     };
     let setup = Setup::at_home(&interpreter, &map)?;
     let chance = Chance {
@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Simulate) -> Result<Outcome, Failure> {
     };
     let fail = |(row, error): (usize, abbe::Error)| {
         let line = list.lines.get(row).copied().unwrap_or_default();
-        Failure::evaluation(&list.file, &format!("line {line}"), &error, &description)
+        Failure::evaluation(&list.file, &format!("line {line}"), &error, description)
     };
     let seen = simulate(&setup.real, &list.observations, &chance).map_err(fail)?;
     let mut rows = Vec::new();

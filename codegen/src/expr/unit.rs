@@ -71,6 +71,14 @@ impl Unit {
     }
 }
 
+/// How many powers of ten a number grows by when a metre is written in this unit.
+fn decades_per_metre(length: LengthUnit) -> i32 {
+    match length {
+        LengthUnit::Metre => 0,
+        LengthUnit::Millimetre => 3,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,13 +98,5 @@ mod tests {
         for name in UNIT_NAMES {
             assert!(Unit::named(name).is_some(), "{name}");
         }
-    }
-}
-
-/// How many powers of ten a number grows by when a metre is written in this unit.
-fn decades_per_metre(length: LengthUnit) -> i32 {
-    match length {
-        LengthUnit::Metre => 0,
-        LengthUnit::Millimetre => 3,
     }
 }

@@ -41,7 +41,7 @@ pub struct ReachedBox<'a> {
 pub fn base_box<'a>(manipulator: &'a dyn Manipulator, region: &BaseBox) -> Result<ReachedBox<'a>, Error> {
     let description = manipulator.description();
     in_range(region.solved.iter().copied(), Quantity::Variables, description.variables.len())?;
-    let home = Configuration::home(&description);
+    let home = Configuration::home(description);
     let pose = manipulator.pose(&home.q, &home.s)?;
     let axes = region.points.iter().enumerate().map(|(index, values)| Axis { index, values: values.clone() });
     let BaseBox { orientation, ref solved, .. } = *region;

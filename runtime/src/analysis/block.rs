@@ -29,7 +29,7 @@ impl<'a> Block<'a> {
         size: usize,
     ) -> Self {
         let description = manipulator.description();
-        let rows = |path: Path| (path.arguments(&description), path.results(&description));
+        let rows = |path: Path| (path.arguments(description), path.results(description));
         let (given, wanted) = rows(Path::SourceDisplacements);
         let set = InstructionSet::best();
         let mut arguments = Tiles::new(set, given, size);

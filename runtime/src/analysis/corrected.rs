@@ -18,7 +18,7 @@ pub fn corrected(
     let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
     let mut errors = vec![[0.0; 6]; description.frames.len()];
     let room = vec![[0.0; 6]; q.len()];
-    compensate(&description, target.unwrap_or(&ideal), &q.to_vec(), room, |q, columns| {
+    compensate(description, target.unwrap_or(&ideal), &q.to_vec(), room, |q, columns| {
         manipulator.generalized_errors(q, s, u, &mut errors)?;
         manipulator.transforms(q, s, &mut transforms)?;
         let pose = manipulator.joint_jacobian(q, s, columns)?;

@@ -51,7 +51,7 @@ pub fn identifiable(
 ) -> Result<Identifiability, Unevaluated> {
     let at = |configuration, error| Unevaluated { configuration, error };
     let description = manipulator.description();
-    let nominal = sampling::nominal_parameters(&description);
+    let nominal = sampling::nominal_parameters(description);
     let arm = sampling::arm_length(manipulator, &nominal).map_err(|error| at(None, error))?;
     let own = 6 * description.frames.len();
     let unknowns = own + if base { 6 } else { 0 };

@@ -66,7 +66,7 @@ pub fn inverse(
     let starts = (0..=RESTARTS).map(|restart| match restart {
         0 => start.to_vec(),
         _ => {
-            let sample = sampling::joint_sample(&description, arm, &free, restart - 1);
+            let sample = sampling::joint_sample(description, arm, &free, restart - 1);
             (0..start.len()).map(|i| if free.contains(&i) { sample[i] } else { start[i] }).collect()
         }
     });

@@ -25,7 +25,7 @@ pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointG
     let description = manipulator.description();
     let indices = axes.iter().map(|axis| axis.index);
     in_range(indices, Quantity::Variables, description.variables.len())?;
-    Ok(JointGrid { home: Configuration::home(&description), axes: axes.to_vec() })
+    Ok(JointGrid { home: Configuration::home(description), axes: axes.to_vec() })
 }
 
 impl Workspace for JointGrid {
@@ -93,7 +93,7 @@ fn samples(
 ) -> Result<JointSamples, Error> {
     let description = manipulator.description();
     in_range(moved.iter().copied(), Quantity::Variables, description.variables.len())?;
-    let home = Configuration::home(&description);
+    let home = Configuration::home(description);
     let arm = sampling::arm_length(manipulator, &home.s)?;
     let range = |(dimension, &i): (usize, &usize)| {
         (i, sampling::joint_range(&description.variables[i], arm), sampling::prime(dimension))
@@ -185,7 +185,7 @@ pub struct Listed {
 /// [`Error::Count`] if one has not as many variables or parameters as the manipulator.
 pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>) -> Result<Listed, Error> {
     let description = manipulator.description();
-    let home = Configuration::home(&description);
+    let home = Configuration::home(description);
     for Configuration { q, s } in &configurations {
         for (quantity, expected, found) in
             [(Quantity::Variables, home.q.len(), q.len()), (Quantity::Parameters, home.s.len(), s.len())]

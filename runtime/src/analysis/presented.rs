@@ -39,7 +39,7 @@ pub fn presented_volume<'a>(
     let indices = tool_points.iter().map(|axis| axis.index);
     in_range(indices, Quantity::Parameters, description.parameters.len())?;
 
-    let home = Configuration::home(&description);
+    let home = Configuration::home(description);
     sampling::arm_length(manipulator, &home.s)?;
     Ok(PresentedVolume { manipulator, presentation: presentation.clone(), home })
 }

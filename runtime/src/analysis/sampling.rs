@@ -67,7 +67,7 @@ pub fn nominal_inputs(description: &Description) -> Vec<f64> {
 pub fn arm_length(manipulator: &dyn Manipulator, s: &[f64]) -> Result<f64, Error> {
     let description = manipulator.description();
     let mut transforms = vec![crate::Pose::IDENTITY; description.frames.len() + 1];
-    manipulator.transforms(&home(&description), s, &mut transforms)?;
+    manipulator.transforms(&home(description), s, &mut transforms)?;
     let length = transforms.iter().map(|transform| norm(transform.position())).sum::<f64>();
     Ok(if length > 0.0 { length } else { 1.0 })
 }

@@ -111,10 +111,10 @@ fn identifiable_errors_of_a_6r_arm_are_counted() {
 #[test]
 fn a_6r_arm_reaches_what_it_can() {
     let description = Puma.description();
-    let Configuration { q: start, s } = Configuration::home(&description);
+    let Configuration { q: start, s } = Configuration::home(description);
     let all = [0, 1, 2, 3, 4, 5];
     for index in 0..40 {
-        let q = sampling::joint_sample(&description, 2.0, &all, index);
+        let q = sampling::joint_sample(description, 2.0, &all, index);
         let pose = Puma.pose(&q, &s).unwrap();
         for target in [Target::Pose(pose), Target::Point(pose.position())] {
             let found = inverse(&Puma, &s, &start, &all, &target);

@@ -67,7 +67,7 @@ impl<'a> Model<'a> {
             uncertainty,
             unknowns: Vec::new(),
             roles: vec![Role::Off; description.sources.len()],
-            s: sampling::nominal_parameters(&description),
+            s: sampling::nominal_parameters(description),
         }
     }
 

@@ -11,11 +11,11 @@ pub(crate) fn one_by_one(
     results: &mut Tiles,
 ) -> Result<(), Error> {
     let description = manipulator.description();
-    path.check(&description, arguments, results)?;
+    path.check(description, arguments, results)?;
     let mut given = vec![0.0; arguments.rows()];
     for configuration in 0..arguments.count() {
         arguments.copy_rows(0..arguments.rows(), configuration, &mut given);
-        let values = values(manipulator, &description, path, &given);
+        let values = values(manipulator, description, path, &given);
         let values = values.unwrap_or_else(|_| vec![f64::NAN; results.rows()]);
         for (row, value) in values.into_iter().enumerate() {
             results.set_value(row, configuration, value);

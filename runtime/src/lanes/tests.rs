@@ -19,14 +19,18 @@ fn same(a: f64, b: f64) -> bool {
 
 struct Check;
 
+/// What a register does with three others, and what plain numbers give.
+type Arithmetic<R> = (&'static str, fn(R, R, R) -> R, fn(f64, f64, f64) -> f64);
+
+/// The same with the bits of two.
+type Bits<R> = (&'static str, fn(R, R) -> R, fn(u64, u64) -> u64);
+
 impl Kernel for Check {
     type Output = ();
 
     fn run<R: Register>(self) {
-        type Numbers = fn(f64, f64, f64) -> f64;
-        type Bits = fn(u64, u64) -> u64;
         let fused = |a: f64, b: f64, c: f64| if R::FUSED { a.mul_add(b, c) } else { a * b + c };
-        let arithmetic: [(&str, fn(R, R, R) -> R, Numbers); 7] = [
+        let arithmetic: [Arithmetic<R>; 7] = [
             ("add", |a, b, _| R::add(a, b), |a, b, _| a + b),
             ("sub", |a, b, _| R::sub(a, b), |a, b, _| a - b),
             ("mul", |a, b, _| R::mul(a, b), |a, b, _| a * b),
@@ -35,7 +39,7 @@ impl Kernel for Check {
             ("min", |a, b, _| R::min(a, b), |a, b, _| if a < b { a } else { b }),
             ("max", |a, b, _| R::max(a, b), |a, b, _| if a > b { a } else { b }),
         ];
-        let bits: [(&str, fn(R, R) -> R, Bits); 8] = [
+        let bits: [Bits<R>; 8] = [
             ("xor", R::xor, |a, b| a ^ b),
             ("and", R::and, |a, b| a & b),
             ("or", R::or, |a, b| a | b),

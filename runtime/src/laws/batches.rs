@@ -17,7 +17,7 @@ pub fn batches(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepa
         let scales = scales(path, &subject);
         let mut expected: Option<Tiles> = None;
         for set in InstructionSet::all() {
-            let mut arguments = Tiles::new(set, path.arguments(&description), samples.len());
+            let mut arguments = Tiles::new(set, path.arguments(description), samples.len());
             for (i, at) in samples.iter().enumerate() {
                 let given = at.q.iter().chain(&subject.s).chain(&subject.u).copied();
                 // Errors or variances, if the function takes any.
@@ -28,7 +28,7 @@ pub fn batches(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepa
                 }
             }
             arguments.pad();
-            let mut results = Tiles::new(set, path.results(&description), samples.len());
+            let mut results = Tiles::new(set, path.results(description), samples.len());
             let at_first = |error| Failure::Evaluation { q: samples[0].q.clone(), error };
             if expected.is_none() {
                 one_by_one(manipulator, path, &arguments, &mut results).map_err(at_first)?;
@@ -68,6 +68,6 @@ fn scales(path: Path, subject: &Subject) -> Vec<f64> {
         Path::SourceDisplacements => columns(description.sources.len()),
         Path::Covariance => column.iter().flat_map(|a| column.map(|b| a * b)).collect(),
     };
-    scales.resize(path.results(&description), 1.0);
+    scales.resize(path.results(description), 1.0);
     scales
 }

@@ -29,10 +29,10 @@ pub(super) struct Sample {
 impl<'a> Subject<'a> {
     pub(super) fn new(manipulator: &'a dyn Manipulator) -> Result<Self, Failure> {
         let description = manipulator.description();
-        let s = sampling::nominal_parameters(&description);
-        let u = sampling::nominal_inputs(&description);
+        let s = sampling::nominal_parameters(description);
+        let u = sampling::nominal_inputs(description);
         let arm = sampling::arm_length(manipulator, &s)
-            .map_err(|error| Failure::Evaluation { q: sampling::home(&description), error })?;
+            .map_err(|error| Failure::Evaluation { q: sampling::home(description), error })?;
         Ok(Self { manipulator, s, u, arm })
     }
 
@@ -42,7 +42,7 @@ impl<'a> Subject<'a> {
         let moved = (0..description.variables.len()).collect::<Vec<_>>();
         let mut samples = Vec::with_capacity(count);
         for index in 0..count {
-            let q = sampling::joint_sample(&description, self.arm, &moved, index);
+            let q = sampling::joint_sample(description, self.arm, &moved, index);
             let transforms =
                 self.transforms(&q, &self.s).map_err(|error| Failure::Evaluation { q: q.clone(), error })?;
             let pose = chain(&transforms);

@@ -34,9 +34,9 @@ impl Subject {
             name: shipped.name,
             compiled: shipped.compiled,
             interpreter: Interpreter::new(spec.clone()),
-            variables: (0..COUNT).map(|index| joint_sample(&description, 1.0, &moved, index)).collect(),
-            parameters: nominal_parameters(&description),
-            inputs: nominal_inputs(&description),
+            variables: (0..COUNT).map(|index| joint_sample(description, 1.0, &moved, index)).collect(),
+            parameters: nominal_parameters(description),
+            inputs: nominal_inputs(description),
             errors: (0..6 * description.frames.len()).map(|k| 1e-3 / (1 + k) as f64).collect(),
         }
     }

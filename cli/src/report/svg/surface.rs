@@ -18,7 +18,7 @@ pub(super) fn draw(
     figure: &Figure,
     subject: &Subject,
 ) -> Result<String, Failed> {
-    let [first, second] = over.map(|over| Axis::over(over, &subject.description));
+    let [first, second] = over.map(|over| Axis::over(over, subject.description));
     let errors = Axis::errors("", subject.description.length);
     let what = format!("{} farthest from zero where others vary too{}", figure.errors(), figure.remark());
     Sheet::new((1200, 430), figure, subject, &what).draw(|area| {

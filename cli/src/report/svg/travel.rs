@@ -16,7 +16,7 @@ pub(super) fn draw(
     figure: &Figure,
     subject: &Subject,
 ) -> Result<String, Failed> {
-    let travel = Axis::over(over, &subject.description);
+    let travel = Axis::over(over, subject.description);
     let errors = Axis::errors("", subject.description.length);
     let bins = envelope.0.iter().map(|(_, bin)| bin).collect::<Vec<_>>();
     let mut spans = [Range::default(); 3];

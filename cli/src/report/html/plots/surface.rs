@@ -14,7 +14,7 @@ use abbe_study::number::trimmed;
 use abbe_study::study_file::Over;
 
 pub(super) fn plots(mesh: &Mesh, over: [Over; 2], figure: &Figure, subject: &Subject) -> Plots {
-    let [first, second] = over.map(|over| Axis::over(over, &subject.description));
+    let [first, second] = over.map(|over| Axis::over(over, subject.description));
     let errors = Axis::errors("", subject.description.length);
     let plots = (0..3).map(|i| {
         let height = |cell: &Option<Extremes>| Some(errors.show(cell.as_ref()?.errors[i].farther()));

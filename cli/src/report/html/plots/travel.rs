@@ -16,7 +16,7 @@ use abbe_study::study_file::Over;
 const DOMAINS: [[f64; 2]; 3] = [[0.7, 1.0], [0.35, 0.65], [0.0, 0.3]];
 
 pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Figure, subject: &Subject) -> Plots {
-    let travel = Axis::over(over, &subject.description);
+    let travel = Axis::over(over, subject.description);
     let errors = Axis::errors("", subject.description.length);
     let title = |i: usize| format!("{} {} (mm)", ["x", "y", "z"][i], figure.errors());
     let side = |i: usize| axis(&title(i)).domain(&DOMAINS[i]);
