@@ -44,18 +44,19 @@ fn the_treatment_volume_is_compensated_within_limits() {
         volume.fill(index, &mut q, &mut s).unwrap();
         let tool = |name| s[pps::DESCRIPTION.parameters.iter().position(|p| p.name == name).unwrap()];
         let s = pps::Parameters { x: tool("x"), y: tool("y"), z: tool("z"), ..pps::Parameters::NOMINAL };
-        let found = pps::compensated(&q, &s, &u).unwrap();
-        assert!(within(&pps::Pps, &found.q), "{:?}", found.q);
+        let command = pps::compensated(&q, &s, &u).unwrap();
+        assert!(within(&pps::Pps, &command.q), "{:?}", command.q);
         // On the exact chain, frame by frame: nothing that the compensator itself computes.
         let (mut transforms, errors) =
-            ([abbe::Pose::IDENTITY; pps::FRAMES + 1], pps::generalized_errors(&found.q, &s, &u).unwrap());
-        pps::Pps.transforms(&found.q, &s.to_array(), &mut transforms).unwrap();
+            ([abbe::Pose::IDENTITY; pps::FRAMES + 1], pps::generalized_errors(&command.q, &s, &u).unwrap());
+        pps::Pps.transforms(&command.q, &s.to_array(), &mut transforms).unwrap();
         let real = abbe::real_pose(&transforms, &errors);
         let left = deviation(Orientation::RotationVector, &pps::pose(&q, &s).unwrap(), &real);
-        before = before.max(norms(&found.before).0);
+        assert!(left.iter().all(|number| number.is_finite()), "{left:?}");
+        before = before.max(norms(&command.before).0);
         after = after.max(norms(&left).0);
         // A limit takes the turn, not the tool point.
-        let at_limit = pps::DESCRIPTION.variables.iter().zip(&found.q).any(|(v, q)| v.limits.contains(q));
+        let at_limit = pps::DESCRIPTION.variables.iter().zip(&command.q).any(|(v, q)| v.limits.contains(q));
         held += usize::from(at_limit);
         let turn = if at_limit { &mut turned_at_limit } else { &mut turned };
         *turn = turn.max(norms(&left).1);
@@ -87,7 +88,7 @@ fn with_errors(shipped: &str) -> Spec {
         shipped.spec,
         effects.collect::<String>()
     );
-    Spec::parse("with errors", &text).unwrap_or_else(|found| panic!("{}", found.render(false)))
+    Spec::parse("with errors", &text).unwrap_or_else(|mistakes| panic!("{}", mistakes.render(false)))
 }
 
 /// Joint samples, those next to limits aside: half the range about its middle.
@@ -137,9 +138,9 @@ fn compensates(name: &str, whole: bool, regular_above: f64) {
     let (s, u) = (sampling::nominal_parameters(description), sampling::nominal_inputs(description));
     let (mut regular, mut before, mut after, mut turned) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
     for q in samples(&robot, 300) {
-        let found = corrected(&robot, None, &q, &s, &u).unwrap();
-        assert!(within(&robot, &found.q));
-        let (was, is) = (norms(&found.before), norms(&found.after));
+        let command = corrected(&robot, None, &q, &s, &u).unwrap();
+        assert!(within(&robot, &command.q));
+        let (was, is) = (norms(&command.before), norms(&command.after));
         let cost = |(length, angle): (f64, f64)| (length * metre).hypot(1e-3 * angle);
         assert!(cost(is) <= cost(was), "{name} at {q:?}");
         if least_singular_value(&robot, &q, &s) > regular_above {
@@ -180,11 +181,11 @@ fn a_redundant_arm_stays_near_the_nominal() {
         if least_singular_value(&robot, &q, &s.to_array()) < 0.1 {
             continue;
         }
-        let found = corrected(&robot, None, &q, &s.to_array(), &u.to_array()).unwrap();
+        let command = corrected(&robot, None, &q, &s.to_array(), &u.to_array()).unwrap();
         let q: [f64; 7] = q.try_into().unwrap();
         let (_, columns) = iiwa::joint_jacobian(&q, &s).unwrap();
         let jacobian = abbe::jacobian_view(&columns).into_owned();
-        let d = nalgebra::SVector::<f64, 7>::from_fn(|j, _| found.q[j] - q[j]);
+        let d = nalgebra::SVector::<f64, 7>::from_fn(|j, _| command.q[j] - q[j]);
         let shortest = jacobian.pseudo_inverse(1e-9).unwrap() * (jacobian * d);
         assert!((d - shortest).norm() < 0.1 * d.norm(), "{d} but {shortest}");
         judged += 1;
@@ -200,16 +201,16 @@ fn limits_hold() {
     let mut held = 0;
     for d1 in [300.0, 1128.0, 2000.0] {
         for sign in [-1.0, 1.0] {
-            let found = pps::compensated(&[d1, 280.0, 300.0, sign * q4, 0.0, 0.0], &s, &u).unwrap();
-            assert!(within(&pps::Pps, &found.q));
-            assert!(norms(&found.after).0 < 1e-6);
-            held += usize::from(norms(&found.after).1 > 1e-4 && found.q[3] == sign * q4);
+            let command = pps::compensated(&[d1, 280.0, 300.0, sign * q4, 0.0, 0.0], &s, &u).unwrap();
+            assert!(within(&pps::Pps, &command.q));
+            assert!(norms(&command.after).0 < 1e-6);
+            held += usize::from(norms(&command.after).1 > 1e-4 && command.q[3] == sign * q4);
         }
     }
     assert!(held > 0, "a spin at its limit cannot be turned further");
     // Commanded beyond a limit: it is brought back, and what that leaves is said.
-    let found = pps::compensated(&[-5.0, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u).unwrap();
-    assert!(found.q[0] == 0.0 && norms(&found.after).1 > 1e-3);
+    let command = pps::compensated(&[-5.0, 280.0, 300.0, 0.0, 0.0, 0.0], &s, &u).unwrap();
+    assert!(command.q[0] == 0.0 && norms(&command.after).1 > 1e-3);
 }
 
 #[test]

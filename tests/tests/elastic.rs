@@ -12,8 +12,8 @@ fn errors(spec: &Spec, q: &[f64], s: &[f64], u: &[f64]) -> Vec<[f64; 6]> {
     errors
 }
 
-fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance * expected.abs().max(1e-9), "{found}, expected {expected}");
+fn close(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance * expected.abs().max(1e-9), "{value}, expected {expected}");
 }
 
 /// The positioner's arm deflection written as a beam equals its expressions: section 5.1 and Figure 10.
@@ -48,10 +48,10 @@ beam = { length = "z_offset + d3", axis = "z", EI_y = "arm_EI", EI_z = "arm_EI",
         let t = f64::from(i) / 49.0;
         let q = [2256.0 * t, 560.0 * (1.0 - t), 1473.0 * (7.3 * t).sin().abs(), 3.0 * t - 1.5, 0.0, 0.0];
         let (expressions, beam) = (errors(&spec, &q, &s, &[]), errors(&beam, &q, &s, &[]));
-        for (expected, found) in expressions.as_flattened().iter().zip(beam.as_flattened()) {
+        for (expected, error) in expressions.as_flattened().iter().zip(beam.as_flattened()) {
             assert!(
-                (found - expected).abs() <= 1e-12 * expected.abs().max(1e-3),
-                "{found}, expected {expected}"
+                (error - expected).abs() <= 1e-12 * expected.abs().max(1e-3),
+                "{error}, expected {expected}"
             );
         }
     }
@@ -154,12 +154,12 @@ compliance = { diagonal = [0, 0, 0, "2e-3/(N*m)", 0, 0] }
     )
     .unwrap();
     for (q1, q2) in [(0.0_f64, 0.0_f64), (0.3, -0.9), (-1.2, 0.4)] {
-        let found = errors(&spec, &[q1, q2], &[], &[]);
+        let errors = errors(&spec, &[q1, q2], &[], &[]);
         // Ry(q) turns x down; weight at horizontal distance x turns with moment + x m g about y.
         let elbow = 0.6 * (q1 + q2).cos() * 2.0 * 10.0;
         let shoulder = 0.8 * q1.cos() * 6.0 * 10.0 + elbow;
-        close(found[0][3], 1e-3 * shoulder, 1e-10);
-        close(found[1][3], 2e-3 * elbow, 1e-10);
+        close(errors[0][3], 1e-3 * shoulder, 1e-10);
+        close(errors[1][3], 2e-3 * elbow, 1e-10);
     }
 }
 
@@ -189,23 +189,23 @@ fn work_is_twice_the_energy() {
         (false, false) => "rad/(N*m)",
         _ => "1/N",
     };
-    let written: Vec<String> = (0..6)
+    let entries: Vec<String> = (0..6)
         .map(|i| {
-            let entries = (0..6).map(|j| {
+            let row = (0..6).map(|j| {
                 if unit(i, j) == "1/N" {
                     format!("\"{:e}/N\"", matrix[i][j])
                 } else {
                     format!("\"{:e} {}\"", matrix[i][j], unit(i, j))
                 }
             });
-            format!("[{}]", entries.collect::<Vec<_>>().join(", "))
+            format!("[{}]", row.collect::<Vec<_>>().join(", "))
         })
         .collect();
     let mut text = spec;
     for frame in &frames {
         text += &format!(
             "[[source]]\nname = \"{frame}\"\nclass = \"repeatable\"\nframe = \"{frame}\"\ncompliance = {{ matrix = [{}] }}\n",
-            written.join(", ")
+            entries.join(", ")
         );
     }
     let spec = Spec::parse("puma560.toml", &text).unwrap();
@@ -263,15 +263,15 @@ e_s = {}
     let place = Pose([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0], [0.0, -300.0, 0.0]]);
     let difference = |scale: f64| {
         let (spec, there) = spec(scale);
-        let found = errors(&spec, &[0.2], &[], &[])[0];
+        let end = errors(&spec, &[0.2], &[], &[])[0];
         let exact = located(&place, &there);
-        found.iter().zip(exact).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+        end.iter().zip(exact).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
     };
     // A tilt ψ about z moves the end, 300 mm beyond, by −300 ψ in x.
     let (spec, there) = spec(1.0);
-    let found = errors(&spec, &[0.2], &[], &[])[0];
-    close(found[0], c * there[0] - s * there[1] - 300.0 * there[4], 1e-12);
-    close(found[4], there[4], 1e-12);
+    let end = errors(&spec, &[0.2], &[], &[])[0];
+    close(end[0], c * there[0] - s * there[1] - 300.0 * there[4], 1e-12);
+    close(end[4], there[4], 1e-12);
     let slope = (difference(1.0) / difference(0.01)).log10() / 2.0;
     assert!((slope - 2.0).abs() < 0.01, "first order: {slope}");
 }

@@ -20,7 +20,7 @@ fn error(source: &Source, component: Component) -> &Expression {
         Cause::Errors(errors) => Some(errors),
         _ => None,
     });
-    let (_, value) = errors.flatten().find(|(found, _)| *found == component).unwrap();
+    let (_, value) = errors.flatten().find(|(listed, _)| *listed == component).unwrap();
     value
 }
 

@@ -39,6 +39,7 @@ fn six_revolute_joints() {
 /// With poses and a base frame, 4R + 2P + 6 remain: for every shipped manipulator whose frames all move.
 #[test]
 fn four_per_revolute_and_two_per_prismatic_joint() {
+    let mut judged = 0;
     for shipped in SHIPPED {
         let description = shipped.compiled.description();
         if description.frames.iter().any(|frame| frame.variable.is_none()) {
@@ -48,7 +49,9 @@ fn four_per_revolute_and_two_per_prismatic_joint() {
             description.variables.iter().filter(|v| v.kind == abbe::VariableKind::Prismatic).count();
         let revolute = description.variables.len() - prismatic;
         let all: Vec<usize> = (0..description.variables.len()).collect();
-        let found = ranks(shipped.compiled, &all)[2];
-        assert_eq!(found, 4 * revolute + 2 * prismatic + 6, "{}", shipped.name);
+        let rank = ranks(shipped.compiled, &all)[2];
+        assert_eq!(rank, 4 * revolute + 2 * prismatic + 6, "{}", shipped.name);
+        judged += 1;
     }
+    assert!(judged > 5, "{judged} of the shipped manipulators");
 }

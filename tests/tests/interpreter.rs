@@ -42,6 +42,8 @@ fn everything(robot: &dyn Manipulator, q: &[f64], s: &[f64], u: &[f64]) -> Resul
 
 /// The largest difference between two rows, in units in the last place of the row's largest entry.
 fn ulps(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    assert!(a.iter().chain(b).all(|value| value.is_finite()), "{a:?} {b:?}");
     let largest = a.iter().fold(f64::MIN_POSITIVE, |largest, value| largest.max(value.abs()));
     let ulp = largest.next_up() - largest;
     a.iter().zip(b).fold(0.0, |worst, (a, b)| f64::max(worst, (a - b).abs() / ulp))
@@ -57,7 +59,7 @@ fn equal_to_compiled_code_on_a_thousand_configurations() {
         let (s, u) = (nominal_parameters(description), nominal_inputs(description));
         let arm = arm_length(&interpreter, &s).unwrap();
         let moved: Vec<usize> = (0..description.variables.len()).collect();
-        let mut worst: f64 = 0.0;
+        let (mut worst, mut refused) = (0.0_f64, 0);
         for index in 0..1000 {
             let q = joint_sample(description, arm, &moved, index);
             match (everything(shipped.compiled, &q, &s, &u), everything(&interpreter, &q, &s, &u)) {
@@ -67,11 +69,14 @@ fn equal_to_compiled_code_on_a_thousand_configurations() {
                         worst = worst.max(ulps(a, b));
                     }
                 }
-                (compiled, interpreted) => assert_eq!(compiled.err(), interpreted.err(), "{}", shipped.name),
+                (compiled, interpreted) => {
+                    assert_eq!(compiled.err(), interpreted.err(), "{}", shipped.name);
+                    refused += 1;
+                }
             }
         }
-        println!("{}: {worst} ulp", shipped.name);
-        assert!(worst <= 4.0, "{}: {worst} ulp", shipped.name);
+        println!("{}: {worst} ulp, {refused} of 1000 refused", shipped.name);
+        assert!(worst <= 4.0 && refused < 100, "{}: {worst} ulp, {refused} refused", shipped.name);
     }
 }
 
@@ -100,7 +105,7 @@ fn results(robot: &dyn Manipulator, path: Path, arguments: &Tiles) -> Tiles {
     results
 }
 
-/// To the last bit where the compiler orders the arithmetic as the program does, else to the last few.
+/// To the last bit.
 #[test]
 fn batches_are_those_of_compiled_code_on_every_instruction_set() {
     // More than two blocks of lanes, and a tail.

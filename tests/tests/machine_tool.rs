@@ -54,8 +54,9 @@ fn volumetric_error_of_21_errors() {
         for (row, expected) in expected.into_iter().enumerate() {
             let products =
                 columns.iter().zip(errors.as_flattened()).map(|(column, error)| column[row] * error);
-            let found: f64 = products.sum();
-            assert!((found - expected).abs() <= 1e-12, "row {row} at {q:?}: {found}, by hand {expected}");
+            let displacement: f64 = products.sum();
+            let place = format!("row {row} at {q:?}: {displacement}, by hand {expected}");
+            assert!((displacement - expected).abs() <= 1e-12, "{place}");
         }
     }
 }

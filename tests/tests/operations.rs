@@ -81,6 +81,7 @@ fn accumulated_along_the_chain() {
 /// Errors that the spec does not have take nothing, and one way never more than the other.
 #[test]
 fn sources_of_the_spec_itself() {
+    let mut without = 0;
     for shipped in SHIPPED {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
         let none = spec.enabled_sources().all(|source| source.class != Class::Repeatable);
@@ -88,11 +89,13 @@ fn sources_of_the_spec_itself() {
         let [real, ideal] = [FunctionKind::RealPose, FunctionKind::Pose].map(|kind| operations(&spec, kind));
         if none && spec.orientation == Orientation::RotationVector {
             assert_eq!((predicted, real), (Operations::default(), ideal), "{}", spec.name);
+            without += 1;
         }
         let any = operations(&spec, FunctionKind::Displacement);
         let errors = operations(&spec, FunctionKind::GeneralizedErrors);
         assert!(total(predicted) <= total(any) + total(errors), "{}: {predicted}", spec.name);
     }
+    assert!(without > 0, "every shipped manipulator has repeatable sources");
 }
 
 #[test]

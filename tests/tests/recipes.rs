@@ -28,10 +28,10 @@ fn errors(spec: &Spec, source: &str, frame: usize, q: [f64; 2], u: [f64; 3]) -> 
     errors
 }
 
-fn close(found: [f64; 6], expected: [f64; 6]) {
+fn close(errors: [f64; 6], expected: [f64; 6]) {
     let largest = expected.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    for (a, b) in found.iter().zip(expected) {
-        assert!((a - b).abs() <= 1e-10 * largest, "{found:?}, expected {expected:?}");
+    for (a, b) in errors.iter().zip(expected) {
+        assert!((a - b).abs() <= 1e-10 * largest, "{errors:?}, expected {expected:?}");
     }
 }
 

@@ -1,0 +1,37 @@
+//! What is generated is formatted as `rustfmt` formats by default, so that it stays as it is where it is checked in.
+
+use std::process::{Command, ExitCode};
+
+use abbe_codegen::emit;
+use abbe_codegen::spec::Spec;
+use abbe_manipulators::SHIPPED;
+use abbe_tests::chains::{coupled_joints, long_chain};
+use abbe_tests::needs::{Missing, Test, run, tool};
+
+fn main() -> ExitCode {
+    run([("rustfmt_changes_nothing", rustfmt_changes_nothing as Test)])
+}
+
+/// Shipped manipulators, loops, coupled joints as they are generated; unlucky names and the smallest spec as checked in.
+fn rustfmt_changes_nothing() -> Result<(), Missing> {
+    tool("rustfmt", "")?;
+    // A folder of its own: where the goldens are, another width is set.
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(format!("{name}.rs"));
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let (long, coupled) = (long_chain(), coupled_joints());
+    let specs = SHIPPED.iter().map(|shipped| (shipped.name, shipped.spec));
+    let generated = specs
+        .chain([("long", &*long), ("coupled", coupled)])
+        .map(|(name, text)| write(name, &emit::rust(&Spec::parse(name, text).unwrap())));
+    let checked_in =
+        [("self_", include_str!("../golden/self_.rs")), ("slide", include_str!("../golden/slide.rs"))];
+    let checked_in = checked_in.map(|(name, text)| write(name, text));
+    let arguments = ["--check", "--edition", "2024"];
+    let output = Command::new("rustfmt").args(arguments).args(generated.chain(checked_in)).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+    Ok(())
+}
