@@ -91,6 +91,13 @@ impl Write for Pending {
     }
 }
 
+/// Writes a file that is whole or not there.
+pub(crate) fn write(file: &Path, text: &str) -> Result<(), Failure> {
+    let mut pending = Pending::create(file)?;
+    pending.write_all(text.as_bytes()).map_err(|error| cannot_write(file, &error))?;
+    pending.finish()
+}
+
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     Failure::of(path.display(), format!("cannot write this: {error}"))
 }

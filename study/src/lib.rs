@@ -23,13 +23,19 @@
 //! - The spec of a [`Machine`] is changed once, by [`Machine::change`], before the job starts.
 //!
 //! [`Machine`] is a spec with its name, and its generated code if it is shipped; [`Changes`] what differs from it in one
-//! run; [`study_file`] the study files, [`workspace`] the configurations that they ask for.
+//! run; [`study_file`] the study files, [`workspace`] the configurations that they ask for; [`data`] measurements.
 
 mod changes;
+pub mod compensate;
+pub mod data;
+pub mod identify;
 mod machine;
+pub mod measure;
 pub mod mistake;
 mod notes;
 pub mod number;
+pub mod plan;
+pub mod simulate;
 pub mod study_file;
 pub mod workspace;
 

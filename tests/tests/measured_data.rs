@@ -4,7 +4,9 @@
 use std::process::ExitCode;
 
 use abbe::Manipulator;
-use abbe::identify::{Figures, Model, Observation, Options, Seen, Uncertainty, cross_validate, fit, groups};
+use abbe::identify::{
+    Figures, Measurement, Model, Observation, Options, Uncertainty, cross_validate, fit, groups,
+};
 use abbe_manipulators::{ur5, wam};
 use abbe_tests::needs::{Missing, Test, measured_data, run};
 
@@ -51,17 +53,15 @@ fn commanded_points() -> Result<(), Missing> {
 
 /// Measured point = target − difference.
 fn observations(file: &str) -> Result<Vec<Observation>, Missing> {
-    let observation = |row: &Vec<f64>| {
+    let observation = |(line, row): (u64, &Vec<f64>)| {
         let point = std::array::from_fn(|i| row[1 + i] - row[4 + i]);
-        Observation { q: joints(row), u: Vec::new(), seen: Seen::Points(vec![Some(point)]) }
+        Observation::new(line, joints(row), Vec::new(), Measurement::Points(vec![Some(point)]))
     };
-    Ok(rows(file)?.iter().map(observation).collect())
+    Ok((2..).zip(&rows(file)?).map(observation).collect())
 }
 
 fn figures(model: &Model, data: &[Observation], x: &[f64]) -> Figures {
-    let mut room = model.room();
-    let norms = data.iter().flat_map(|row| model.deviations(&mut room, row, x).unwrap());
-    Figures::of(norms.map(|d| d.iter().map(|v| v * v).sum::<f64>().sqrt()).collect())
+    model.figures(data, x).unwrap()
 }
 
 /// The values of one model's unknowns in the order of another's.
@@ -95,9 +95,13 @@ fn identified(robot: &dyn Manipulator, [grid, random]: [&str; 2]) -> Result<Iden
     assert!(fitted.mean < crossed.mean, "{fitted:?} {crossed:?}: rows left out are not seen");
     let moved: Vec<usize> = (0..robot.description().variables.len()).collect();
     let grouped = groups(&model, &grid[0].q, &moved, false).unwrap().len();
-    assert_eq!(grouped + all.known.rank, model.unknowns.len(), "the twists explain all that is not known");
+    assert_eq!(
+        grouped + all.identifiable.rank,
+        model.unknowns.len(),
+        "the twists explain all that is not known"
+    );
     Ok(Identified {
-        rank: all.known.rank,
+        rank: all.identifiable.rank,
         before: figures(&ideal, &random, &[]),
         base_and_tool: figures(&simple, &random, &simple_fit.x),
         after: figures(&model, &random, &all.x),

@@ -4,17 +4,16 @@ use std::path::Path;
 
 use abbe::{Class, Description, VariableKind};
 
-use super::{Report, Size};
-use crate::data::Data;
 use crate::table::{Table, wrapped};
+use abbe_study::compensate::{Report, Size};
 use abbe_study::number::{digits, error_decimals, fixed, length, short};
 
 /// How many rows are shown one by one.
 const SHOWN: usize = 20;
 
-pub(super) fn of(description: &Description, data: &Data, report: &Report, out: Option<&Path>) -> String {
+pub(super) fn text(description: &Description, report: &Report, out: Option<&Path>) -> String {
     let mut parts = vec![format!("{}: compensated\n\n", description.title)];
-    for line in data.describe() {
+    for line in report.file.lines() {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
     }
     let few = description.variables.len() < 6;

@@ -1,33 +1,25 @@
 //! `abbe identify`: the generalized errors of a real machine, from measurements.
-//!
-//! `readings` asks whether the data are read as they were meant; `terms` makes candidates for richer models;
-//! `solved` fits, judges and chooses, on the data alone; only then the test file is opened. `found` is what comes
-//! out, `words` and `text` say it to people, `written` puts it into a spec.
 
-mod found;
-mod readings;
-mod setup;
-mod solved;
-mod terms;
+mod alike;
 mod text;
-mod words;
-mod written;
 
-use abbe_interpreter::Interpreter;
+use std::path::Path;
 
-use crate::arguments::Identify;
-use crate::data::{Data, Map};
-use crate::failure::Failure;
-use crate::output::{Outcome, json, note};
+use abbe::identify::Loss;
 use abbe_study::Machine;
+use abbe_study::data::{Data, Map};
+use abbe_study::identify::{Family, Identify, Report, Settings};
 
-pub(crate) use readings::check_readings;
-pub(crate) use setup::{Counts, Setup};
-pub(crate) use words::table as alike_table;
+use crate::arguments::{self, Robust, Terms};
+use crate::failure::Failure;
+use crate::notes::Stderr;
+use crate::output::{Outcome, json, note, write};
 
-pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
-    let mut found = Machine::find(&arguments.spec)?;
-    let changes = arguments.changes.read(&found.spec)?;
+pub(crate) use alike::table as alike_table;
+
+pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
+    let mut machine = Machine::find(&arguments.spec)?;
+    let changes = arguments.changes.read(&machine.spec)?;
     if arguments.out.is_some() && !changes.is_empty() {
         return Err(Failure::of(
             "--out",
@@ -35,35 +27,44 @@ pub(crate) fn run(arguments: &Identify) -> Result<Outcome, Failure> {
         )
         .help("make them in a copy of the spec, then identify that"));
     }
-    found.change(&changes);
-    let map = Map::find(&arguments.map, &found.spec)?;
+    machine.change(&changes);
+    let map = Map::find(&arguments.map, &machine.spec)?;
     let data = Data::read(&arguments.data, &map)?;
-    let text = found.text()?;
-    let candidates = terms::candidates(&found.spec, &arguments.terms);
-    let mut spec = terms::with(&found.spec, &text, &candidates)?;
-    changes.apply(&mut spec);
-    let interpreter = Interpreter::new(spec);
-    let setup = Setup::new(&interpreter, &map, &data, candidates.len())?;
-    check_readings(&setup, &map, &data)?;
-    let solved = solved::solve(&setup, &map, &data, &candidates, arguments)?;
-    // From here on nothing is chosen any more.
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
-    let report = found::report(&found.spec, &setup, &data, test.as_ref(), &solved, &map)?;
-    let written = match &arguments.out {
-        Some(file) => Some(written::write(file, &found.spec, &text, &setup, &solved, &candidates, &data)?),
-        None => None,
-    };
+    let settings = Settings { loss: loss(arguments.robust), prior: arguments.prior, folds: arguments.folds };
+    let job = Identify { machine, map, data, test, terms: families(&arguments.terms), settings };
+    let report = job.run(&mut Stderr)?;
+    let written = arguments.out.as_ref().map(|file| write_spec(file, &job.machine, &report)).transpose()?;
     if arguments.json {
-        solved.notes.iter().for_each(|line| note(line));
+        report.notes.iter().for_each(|line| note(line));
         return Ok(Outcome::passed(json(&report)?));
     }
-    Ok(Outcome::passed(text::of(
-        &found.spec,
-        &setup,
-        &data,
-        test.as_ref(),
-        &solved,
-        &report,
-        written.as_deref(),
-    )))
+    Ok(Outcome::passed(text::text(&job.machine.spec, &report, written.as_deref())))
+}
+
+/// Writes the spec of the identified machine; what was added to it comes back, line by line.
+fn write_spec(file: &Path, machine: &Machine, report: &Report) -> Result<String, Failure> {
+    let spec = report.found.written(&machine.spec, &machine.text()?, &file.display().to_string())?;
+    write(file, &spec.text)?;
+    let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned() + "\n");
+    let lines: String = lines.collect();
+    Ok(format!("Written to {}: the nominal spec and these lines\n{lines}", file.display()))
+}
+
+fn loss(robust: Robust) -> Loss {
+    match robust {
+        Robust::None => Loss::Squares,
+        Robust::Huber => Loss::Huber,
+        Robust::Tukey => Loss::Tukey,
+    }
+}
+
+fn families(terms: &[Terms]) -> Vec<Family> {
+    let families = terms.iter().flat_map(|terms| match terms {
+        Terms::Auto => vec![Family::Joint, Family::Load, Family::Elastic],
+        Terms::Joint => vec![Family::Joint],
+        Terms::Load => vec![Family::Load],
+        Terms::Elastic => vec![Family::Elastic],
+    });
+    families.collect()
 }

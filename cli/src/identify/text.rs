@@ -1,36 +1,25 @@
 //! What comes out, for people.
 
-use abbe::identify::groups;
 use abbe_codegen::spec::Spec;
-
-use super::found::{Report, Sizes};
-use super::setup::Setup;
-use super::solved::{Solved, some};
-use super::words;
-use crate::data::Data;
-use crate::table::{Table, wrapped};
+use abbe_study::identify::{Report, Sizes, shown_lines};
 use abbe_study::number::{self, digits, fixed};
 
-pub(super) fn of(
-    spec: &Spec,
-    setup: &Setup,
-    data: &Data,
-    test: Option<&Data>,
-    solved: &Solved,
-    report: &Report,
-    written: Option<&str>,
-) -> String {
+use super::alike;
+use crate::table::{Table, wrapped};
+
+/// `written` says what was written, if anything was.
+pub(super) fn text(spec: &Spec, report: &Report, written: Option<&str>) -> String {
     let mut parts = vec![format!("{}: errors from measurements\n\n", spec.title)];
-    for line in data.describe().into_iter().chain(test.map(Data::describe).into_iter().flatten()) {
+    for line in report.files.iter().flat_map(|file| file.lines()) {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
     }
-    parts.push(known(setup, data, solved, report));
+    parts.push(known(report));
     parts.push(parameters(spec, report));
     parts.push(errors(spec, report));
     if !report.terms.is_empty() || report.cross_validation.constant.is_some() {
         parts.push(terms(spec, report));
     }
-    let notes = solved.notes.iter().map(|note| wrapped(note, 0) + "\n").collect::<String>();
+    let notes = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect::<String>();
     if !notes.is_empty() {
         parts.push(notes);
     }
@@ -40,14 +29,12 @@ pub(super) fn of(
     parts.join("\n")
 }
 
-fn known(setup: &Setup, data: &Data, solved: &Solved, report: &Report) -> String {
+fn known(report: &Report) -> String {
     let mut text = format!(
         "What can be known: {} combinations of {} unknowns, {}\n",
         report.rank, report.unknowns, report.machine
     );
-    let moved = setup.moved(&data.observations);
-    let alike = groups(&solved.model, &data.observations[0].q, &moved, setup.pose).unwrap_or_default();
-    text += &words::table(&alike, &solved.model, setup.description);
+    text += &alike::table(&report.groups);
     if report.unexplained > 0 {
         let line = format!(
             "{} more combinations make no difference at these configurations: other ones would show them.",
@@ -55,10 +42,10 @@ fn known(setup: &Setup, data: &Data, solved: &Solved, report: &Report) -> String
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }
-    let o = solved.fit.known.observability;
+    let o = report.observability;
     let line = format!(
         "Condition number {}; observability O1 {}, O2 {}, O3 {}, O4 {}, O5 {} (columns of unit length).",
-        digits(o.condition, 3),
+        digits(report.condition, 3),
         digits(o.o1, 3),
         digits(o.o2, 3),
         digits(o.o3, 3),
@@ -70,7 +57,7 @@ fn known(setup: &Setup, data: &Data, solved: &Solved, report: &Report) -> String
 
 fn parameters(spec: &Spec, report: &Report) -> String {
     let mut table = Table::new(&["error", "of", "value", "standard deviation", "", ""]);
-    let decimals = number::error_decimals(abbe_length(spec));
+    let decimals = number::error_decimals(spec.length);
     for parameter in &report.parameters {
         let (unit, factor, decimals) = match parameter.unit {
             "rad" => ("mrad", 1e3, 4),
@@ -111,12 +98,8 @@ fn parameters(spec: &Spec, report: &Report) -> String {
     text
 }
 
-fn abbe_length(spec: &Spec) -> abbe::LengthUnit {
-    if spec.length.symbol() == "m" { abbe::LengthUnit::Metre } else { abbe::LengthUnit::Millimetre }
-}
-
 fn errors(spec: &Spec, report: &Report) -> String {
-    let decimals = number::error_decimals(abbe_length(spec));
+    let decimals = number::error_decimals(spec.length);
     let mut table = Table::new(&["position error", "rows", "mean", "rms", "95 %", "max"]);
     let mut row = |name: &str, rows: usize, sizes: &Sizes| {
         let numbers = [sizes.mean, sizes.rms, sizes.p95, sizes.max].map(|value| fixed(value, decimals));
@@ -156,7 +139,7 @@ fn errors(spec: &Spec, report: &Report) -> String {
         let line = format!(
             "Left out as gross errors: {} rows, lines {}.",
             report.rejected.len(),
-            some(&report.rejected)
+            shown_lines(&report.rejected)
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }
@@ -168,7 +151,7 @@ fn terms(spec: &Spec, report: &Report) -> String {
         return "No richer term earns its place: none makes rows that are left out fit better by 1 % and beyond chance.\n"
             .to_owned();
     }
-    let decimals = number::error_decimals(abbe_length(spec));
+    let decimals = number::error_decimals(spec.length);
     let mut table =
         Table::new(&["richer terms, in the order of their gain", "before", "after", "p of the F-test"]);
     for term in &report.terms {

@@ -1,13 +1,11 @@
 //! The report: the paper's Figure 13, errors in space, and its Figure 14, how often which error occurs.
 
 use abbe_codegen::spec::Spec;
+use abbe_study::measure::{Report, RowError};
 use plotly::common::{HoverInfo, Marker, Mode};
 use plotly::layout::AspectMode;
 use plotly::{Bar, Layout, Plot, Scatter3D};
 
-use super::errors::Errors;
-use super::{Report, repeated, text};
-use crate::data::Data;
 use crate::report::{BAR, INK, XYZ, css, document, escaped, section, style};
 use abbe_study::number::{fixed, trimmed};
 
@@ -16,24 +14,24 @@ const MOST: usize = 5000;
 /// The bins of a histogram.
 const BINS: usize = 40;
 
-pub(super) fn page(spec: &Spec, report: &Report, errors: &Errors, data: &Data) -> String {
+pub(super) fn page(spec: &Spec, report: &Report) -> String {
     let to_mm = if spec.length.symbol() == "m" { 1e3 } else { 1.0 };
     let position: Vec<[f64; 3]> =
-        errors.rows.iter().map(|row| [row[0] * to_mm, row[1] * to_mm, row[2] * to_mm]).collect();
+        report.row_errors.iter().map(|row| [0, 1, 2].map(|axis| row.error[axis] * to_mm)).collect();
     let about: Vec<[f64; 3]> =
-        repeated::about_barycentres(data, errors).iter().map(|e| e.map(|v| v * to_mm)).collect();
+        report.about_barycentres.iter().map(|error| error.map(|v| v * to_mm)).collect();
     let heading = format!(
         "<header>\n<p class=\"kind\">Measured</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n</header>\n",
         escaped(&spec.title),
         escaped(&report.title)
     );
-    let sentences = text::sentences(report);
+    let sentences = report.sentences();
     let words: String = sentences.iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect();
-    let lines: String = data.describe().iter().map(|line| format!("{}<br>\n", escaped(line))).collect();
+    let lines: String = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect();
     let mut figures = figure(
         "Accuracy: errors in space",
         "Figure 13",
-        &[cloud(&position, data)],
+        &[cloud(&position, &report.row_errors)],
         560,
         "Each dot is ΔX of one row.",
     );
@@ -98,11 +96,12 @@ fn figure(title: &str, paper: &str, plots: &[Plot], height: u32, words: &str) ->
     )
 }
 
-fn cloud(errors: &[[f64; 3]], data: &Data) -> Plot {
+fn cloud(errors: &[[f64; 3]], rows: &[RowError]) -> Plot {
     let scene = style::scene(["x error (mm)", "y error (mm)", "z error (mm)"], AspectMode::Data, 2, 0.8);
     let mut plot = style::plot(Layout::new().margin(style::margin([0, 0, 0, 0])).scene(scene));
     let step = errors.len().div_ceil(MOST).max(1);
-    let shown: Vec<(&[f64; 3], &u64)> = errors.iter().zip(&data.lines).step_by(step).collect();
+    let lines = rows.iter().map(|row| row.observation.line);
+    let shown: Vec<(&[f64; 3], u64)> = errors.iter().zip(lines).step_by(step).collect();
     let along = |axis: usize| shown.iter().map(|(error, _)| round(error[axis])).collect::<Vec<_>>();
     let hover = shown.iter().map(|([x, y, z], line)| {
         format!("({}, {}, {}) mm<br>line {line}", trimmed(*x, 4), trimmed(*y, 4), trimmed(*z, 4))
@@ -118,7 +117,7 @@ fn cloud(errors: &[[f64; 3]], data: &Data) -> Plot {
 
 fn histograms(errors: &[[f64; 3]]) -> Vec<Plot> {
     let along = |axis: usize| errors.iter().map(|error| error[axis]).collect::<Vec<_>>();
-    let norms = errors.iter().map(|e| super::errors::norm(*e)).collect();
+    let norms = errors.iter().map(|e| e.iter().map(|v| v * v).sum::<f64>().sqrt()).collect();
     let all = [
         ("x error", along(0), XYZ[0]),
         ("y error", along(1), XYZ[1]),

@@ -90,6 +90,10 @@ impl Expression {
         &self.terms
     }
 
+    pub(super) fn into_terms(self) -> Vec<Term> {
+        self.terms
+    }
+
     /// The term that is the whole.
     pub fn whole(&self) -> &Term {
         &self.terms[self.terms.len() - 1]

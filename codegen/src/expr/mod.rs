@@ -1,9 +1,11 @@
 //! Expressions: text to checked terms. Every mistake has its place; every term its dimension.
 //!
 //! `+ - * / ^`, functions, `pi`, numbers with an optional unit, names. `tokens` cuts the text, `parse`
-//! finds its structure, `build` checks names and dimensions and folds constants as the terms are made.
+//! finds its structure, `build` checks names and dimensions and folds constants as the terms are made; `construct` makes
+//! expressions without text.
 
 mod build;
+mod construct;
 mod dimension;
 mod expression;
 mod function;

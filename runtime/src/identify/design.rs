@@ -2,9 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::known::Known;
-use super::solve::Failure;
-use super::{Model, Observation};
+use super::{Failure, Identifiable, Model, Observation};
 
 /// Poses chosen from a list.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,25 +27,29 @@ pub struct Design {
 pub fn d_optimal(
     model: &Model,
     candidates: &[Observation],
-    known: &Known,
+    identifiable: &Identifiable,
     count: usize,
 ) -> Result<Option<Design>, Failure> {
-    designed(model, candidates, known, count, 20 * count.max(10))
+    designed(model, candidates, identifiable, count, 20 * count.max(10))
 }
 
 /// A list as it is: every pose once.
-pub fn whole(model: &Model, list: &[Observation], known: &Known) -> Result<Option<Design>, Failure> {
-    designed(model, list, known, list.len(), 0)
+pub fn whole(
+    model: &Model,
+    list: &[Observation],
+    identifiable: &Identifiable,
+) -> Result<Option<Design>, Failure> {
+    designed(model, list, identifiable, list.len(), 0)
 }
 
 fn designed(
     model: &Model,
     candidates: &[Observation],
-    known: &Known,
+    identifiable: &Identifiable,
     count: usize,
     most: usize,
 ) -> Result<Option<Design>, Failure> {
-    let kept = model.with(known.kept.iter().map(|k| model.unknowns[*k]).collect());
+    let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
     let p = kept.unknowns.len();
     let mut rows = jacobians(&kept, candidates)?;
     let lengths = DVector::from_fn(p, |k, _| {
@@ -98,30 +100,29 @@ fn jacobians(model: &Model, list: &[Observation]) -> Result<Vec<DMatrix<f64>>, F
     let p = model.unknowns.len();
     let x = vec![0.0; p];
     let mut room = model.room();
-    let one = |(i, seen): (usize, &Observation)| {
-        let mut block = DMatrix::zeros(seen.count(), p);
+    let one = |observation: &Observation| {
+        let mut block = DMatrix::zeros(observation.count(), p);
         let mut at = 0;
-        let take = |_: f64, derivative: &mut dyn FnMut(usize) -> f64| {
+        model.residuals(&mut room, observation, &x, |_, derivative| {
             for k in 0..p {
                 block[(at, k)] = derivative(k);
             }
             at += 1;
-        };
-        model.rows(&mut room, seen, &x, take).map_err(|error| Failure::Row(i, error))?;
+        })?;
         Ok(block)
     };
-    list.iter().enumerate().map(one).collect()
+    list.iter().map(one).collect()
 }
 
 /// The standard deviation of the predicted point of the first target at every configuration of a list, from the
 /// covariance of the kept unknowns: `√ tr(J C Jᵀ)`. The length unit.
 pub fn predicted(
     model: &Model,
-    known: &Known,
+    identifiable: &Identifiable,
     covariance: &DMatrix<f64>,
     list: &[Observation],
 ) -> Result<Vec<f64>, Failure> {
-    let kept = model.with(known.kept.iter().map(|k| model.unknowns[*k]).collect());
+    let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
     let blocks = jacobians(&kept, list)?;
     let length = model.uncertainty.length;
     Ok(blocks

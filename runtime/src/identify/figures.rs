@@ -16,8 +16,8 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// Of norms; all 0 if there are none.
-    pub fn of(mut values: Vec<f64>) -> Self {
+    /// Those of norms; all 0 if there are none.
+    pub fn from_norms(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let count = values.len();
         let n = count.max(1) as f64;

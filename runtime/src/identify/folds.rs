@@ -2,19 +2,19 @@
 
 use nalgebra::DVector;
 
-use super::model::Model;
-use super::solve::{Failure, Fit, REJECTED, with_priors};
+use super::fit::REJECTED;
+use super::linearize::{push, with_priors};
 use super::triangle::{Problem, Triangle};
-use super::{Figures, Observation};
+use super::{Failure, Figures, Fit, Model, Observation};
 use crate::analysis::sampling::halton;
 
-/// The part that each row is left out with.
+/// The part that each observation is left out with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Folds {
     /// How many there are.
     pub count: usize,
-    /// By row.
-    pub of: Vec<usize>,
+    /// By observation.
+    pub fold: Vec<usize>,
 }
 
 impl Folds {
@@ -25,9 +25,9 @@ impl Folds {
         let mut order: Vec<usize> = (0..rows).collect();
         let key = |i: &usize| (halton(i + 1, 1) * 1e3).fract();
         order.sort_by(|a, b| key(a).total_cmp(&key(b)));
-        let mut of = vec![0; rows];
-        order.iter().enumerate().for_each(|(place, i)| of[*i] = place % count);
-        Self { count, of }
+        let mut fold = vec![0; rows];
+        order.iter().enumerate().for_each(|(place, i)| fold[*i] = place % count);
+        Self { count, fold }
     }
 }
 
@@ -39,15 +39,10 @@ fn triangles(
     weights: &[f64],
     folds: &Folds,
 ) -> Result<Vec<Triangle>, Failure> {
-    let p = model.unknowns.len();
-    let mut triangles = vec![Triangle::new(p); folds.count];
+    let mut triangles = vec![Triangle::new(model.unknowns.len()); folds.count];
     let mut room = model.room();
-    for (i, seen) in data.iter().enumerate() {
-        let triangle = &mut triangles[folds.of[i]];
-        let take = |residual: f64, derivative: &mut dyn FnMut(usize) -> f64| {
-            triangle.push((0..p).map(derivative).chain([-residual]), weights[i].sqrt());
-        };
-        model.rows(&mut room, seen, x, take).map_err(|error| Failure::Row(i, error))?;
+    for (i, observation) in data.iter().enumerate() {
+        push(model, &mut room, observation, x, weights[i], &mut triangles[folds.fold[i]])?;
     }
     Ok(triangles)
 }
@@ -63,10 +58,10 @@ pub fn cross_validate(
     count: usize,
 ) -> Result<Figures, Failure> {
     let folds = Folds::new(data.len(), count);
-    let kept = model.with(fit.known.kept.iter().map(|k| model.unknowns[*k]).collect());
-    let x: Vec<f64> = fit.known.kept.iter().map(|k| fit.x[*k]).collect();
+    let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
+    let x: Vec<f64> = fit.identifiable.kept.iter().map(|k| fit.x[*k]).collect();
     let priors: Vec<Option<f64>> =
-        fit.known.kept.iter().map(|k| fit.priors.get(*k).copied().flatten()).collect();
+        fit.identifiable.kept.iter().map(|k| fit.priors.get(*k).copied().flatten()).collect();
     let parts = triangles(&kept, data, &x, &fit.weights, &folds)?;
     let solve = |left_out: usize| {
         let step =
@@ -76,12 +71,12 @@ pub fn cross_validate(
     let solutions: Vec<Vec<f64>> = (0..folds.count).map(solve).collect();
     let mut room = kept.room();
     let mut norms = Vec::new();
-    for (i, seen) in data.iter().enumerate().filter(|(i, _)| fit.weights[*i] >= REJECTED) {
-        let left = kept.deviations(&mut room, seen, &solutions[folds.of[i]]);
-        let left = left.map_err(|error| Failure::Row(i, error))?;
-        norms.extend(left.into_iter().map(crate::analysis::sampling::norm));
+    for ((weight, observation), fold) in fit.weighed(data).zip(&folds.fold) {
+        if weight >= REJECTED {
+            norms.extend(kept.distances(&mut room, observation, &solutions[*fold])?);
+        }
     }
-    Ok(Figures::of(norms))
+    Ok(Figures::from_norms(norms))
 }
 
 /// All folds but one.

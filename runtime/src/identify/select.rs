@@ -2,22 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::solve::{Failure, Fit};
-use super::{FTest, Folds, Model, Observation, f_test};
-
-/// A group of unknowns that come together: sine and cosine of a joint, say.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
-    /// What it is called.
-    pub name: String,
-    /// Its unknowns, by index.
-    pub unknowns: Vec<usize>,
-}
+use super::{FTest, Failure, Fit, Folds, Model, Observation, f_test};
 
 /// A group that earned its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
-    /// Which candidate.
+    /// Which candidate, by index.
     pub candidate: usize,
     /// Root mean square of what is left on left-out data, in units of the uncertainty, before it.
     pub before: f64,
@@ -39,13 +29,13 @@ const BLOCK: usize = 256;
 /// Chooses forward: always the candidate that helps most on left-out data, until none helps by one percent, or what it
 /// explains of all data could be chance.
 ///
-/// `model` has the unknowns of all candidates besides those of `fit`, whose model it extends: its unknowns come
-/// first. Everything is linear about that fit, so one pass over the data decides all of it.
+/// A candidate is a group of unknowns that come together, by index: sine and cosine of a joint, say. `model` has those of
+/// all candidates behind those of `fit`, whose model it extends. Everything is linear about that fit, so one pass over the data decides all of it.
 pub fn select(
     model: &Model,
     data: &[Observation],
     fit: &Fit,
-    candidates: &[Candidate],
+    candidates: &[Vec<usize>],
     folds: usize,
     most: usize,
 ) -> Result<Vec<Selection>, Failure> {
@@ -53,19 +43,19 @@ pub fn select(
     x.resize(model.unknowns.len(), 0.0);
     let folds = Folds::new(data.len(), folds);
     let sums = Sums::new(model, data, &x, &fit.weights, &folds)?;
-    let mut chosen = fit.known.kept.clone();
-    let mut found: Vec<Selection> = Vec::new();
+    let mut chosen = fit.identifiable.kept.clone();
+    let mut selections: Vec<Selection> = Vec::new();
     let mut before = sums.left_out(&chosen).unwrap_or(f64::INFINITY);
-    while found.len() < most {
-        let new = |i: &usize| found.iter().all(|selection| selection.candidate != *i);
-        let with = |i: usize| [&chosen[..], &candidates[i].unknowns].concat();
+    while selections.len() < most {
+        let new = |i: &usize| selections.iter().all(|selection| selection.candidate != *i);
+        let with = |i: usize| [&chosen[..], &candidates[i]].concat();
         let all = (0..candidates.len()).filter(new);
         let scored = all.filter_map(|i| Some((i, sums.left_out(&with(i))?)));
         let Some((best, after)) = scored.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
         if after > before * (1.0 - GAIN) {
             break;
         }
-        let (all, terms) = (with(best), candidates[best].unknowns.len());
+        let (all, terms) = (with(best), candidates[best].len());
         let freedom = sums.rows.saturating_sub(all.len());
         let test = f_test(sums.cost(&chosen), sums.cost(&all), terms, freedom);
         // The best of many looks good by chance: each of them has had its try (Bonferroni).
@@ -73,10 +63,10 @@ pub fn select(
             break;
         }
         let rms = |square: f64| (square / sums.rows.max(1) as f64).sqrt();
-        found.push(Selection { candidate: best, before: rms(before), after: rms(after), test });
+        selections.push(Selection { candidate: best, before: rms(before), after: rms(after), test });
         (chosen, before) = (all, after);
     }
-    Ok(found)
+    Ok(selections)
 }
 
 /// `[J | r]ᵀ [J | r]` of every fold, columns of `J` of unit length over all folds.
@@ -101,7 +91,7 @@ impl Sums {
         for (fold, sum) in sums.iter_mut().enumerate() {
             let mut block = DMatrix::zeros(BLOCK, p + 1);
             let mut filled = 0;
-            for (i, seen) in data.iter().enumerate().filter(|(i, _)| folds.of[*i] == fold) {
+            for (i, observation) in data.iter().enumerate().filter(|(i, _)| folds.fold[*i] == fold) {
                 let weight = weights[i].sqrt();
                 let take = |residual: f64, derivative: &mut dyn FnMut(usize) -> f64| {
                     for k in 0..p {
@@ -115,7 +105,7 @@ impl Sums {
                         filled = 0;
                     }
                 };
-                model.rows(&mut room, seen, x, take).map_err(|error| Failure::Row(i, error))?;
+                model.residuals(&mut room, observation, x, take)?;
             }
             let rest = block.rows(0, filled).into_owned();
             sum.gemm(1.0, &rest.transpose(), &rest, 1.0);

@@ -3,10 +3,10 @@
 use rand::RngExt;
 use rand_distr::{Normal, StandardNormal};
 
-use super::{Model, Observation, Seen, Unknown};
+use super::{Failure, Measurement, Model, Observation, Unknown};
 use crate::analysis::stream;
 use crate::chain::displacement;
-use crate::{Class, Distribution, Error};
+use crate::{Class, Distribution};
 
 /// What an instrument and chance add to the errors of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,12 +28,8 @@ const APART: u64 = 0x6d65_6173_7572_6564;
 
 /// What would be seen at the configurations of `list`, on the exact chain with the known sources of `model`.
 ///
-/// Row i follows from the seed and i alone. What `list` has seen says which targets there are, or that poses are.
-pub fn simulate(
-    model: &Model,
-    list: &[Observation],
-    chance: &Chance,
-) -> Result<Vec<Observation>, (usize, Error)> {
+/// Observation i follows from the seed and i alone. What was measured says which targets are seen, or that poses are.
+pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<Vec<Observation>, Failure> {
     let description = model.manipulator.description();
     let sources = description.sources.iter().enumerate();
     let random: Vec<(usize, Distribution)> = sources
@@ -53,30 +49,30 @@ pub fn simulate(
                 Distribution::Normal => numbers.sample(StandardNormal),
             })
             .collect();
-        let pose = model.pose(&mut room, asked, &x).map_err(|error| (i, error))?;
+        let pose = model.pose(&mut room, asked, &x)?;
         let gross = numbers.random::<f64>() < chance.outliers;
         let mut wrong = || if gross { numbers.random_range(-chance.gross..=chance.gross) } else { 0.0 };
         let shift = [wrong(), wrong(), wrong()];
         let mut noise = |sigma: f64| Normal::new(0.0, sigma).map_or(0.0, |normal| numbers.sample(normal));
-        let seen = match &asked.seen {
-            Seen::Points(points) => {
+        let measured = match &asked.measured {
+            Measurement::Points(points) => {
                 let targets = points.iter().zip(&model.targets).enumerate().map(|(j, (point, target))| {
                     let at = pose.apply(*target);
                     // One target of a row is taken for another thing.
                     let shift = if j == 0 { shift } else { [0.0; 3] };
-                    let seen = core::array::from_fn(|k| at[k] + shift[k] + noise(chance.noise.length));
-                    point.map(|_| seen)
+                    let measured = core::array::from_fn(|k| at[k] + shift[k] + noise(chance.noise.length));
+                    point.map(|_| measured)
                 });
-                Seen::Points(targets.collect())
+                Measurement::Points(targets.collect())
             }
-            Seen::Pose(_) => {
+            Measurement::Pose(_) => {
                 let turn = [0; 3].map(|_| noise(chance.noise.angle));
                 let mut seen = pose.then(&displacement(&[0.0, 0.0, 0.0, turn[0], turn[1], turn[2]]));
                 seen.0[3] = core::array::from_fn(|k| pose.0[3][k] + shift[k] + noise(chance.noise.length));
-                Seen::Pose(seen)
+                Measurement::Pose(seen)
             }
         };
-        Ok(Observation { seen, ..asked.clone() })
+        Ok(Observation { measured, ..asked.clone() })
     };
     list.iter().enumerate().map(one).collect()
 }

@@ -21,7 +21,7 @@ pub struct Observability {
 
 impl Observability {
     /// All 0 if there is nothing.
-    pub(super) fn of(values: &[f64], rows: usize) -> Self {
+    pub(super) fn from_singular_values(values: &[f64], rows: usize) -> Self {
         let (Some(first), Some(last)) = (values.first(), values.last()) else { return Self::default() };
         let r = values.len() as f64;
         Self {
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn indices_of_known_values() {
-        let found = Observability::of(&[2.0, 0.5], 4);
+        let found = Observability::from_singular_values(&[2.0, 0.5], 4);
         assert_eq!((found.condition, found.o2, found.o3, found.o4, found.o5), (4.0, 0.25, 0.5, 0.125, 0.4));
         assert!((found.o1 - 0.5).abs() < 1e-15);
     }

@@ -13,17 +13,18 @@ use crate::{Manipulator, Pose};
 const EXACT: Uncertainty = Uncertainty { length: 1.0, angle: 1.0 };
 
 fn observation(q: &[f64], points: usize) -> Observation {
-    let seen = match points {
-        0 => Seen::Pose(Pose::IDENTITY),
-        _ => Seen::Points(vec![Some([0.0; 3]); points]),
+    let measured = match points {
+        0 => Measurement::Pose(Pose::IDENTITY),
+        _ => Measurement::Points(vec![Some([0.0; 3]); points]),
     };
-    Observation { q: q.to_vec(), u: Vec::new(), seen }
+    Observation::new(1, q.to_vec(), Vec::new(), measured)
 }
 
 /// Samples of the joints that are moved.
 fn sampled(robot: &dyn Manipulator, moved: &[usize], count: usize, points: usize) -> Vec<Observation> {
     let samples = joint_samples(robot, moved, count).unwrap().reached();
-    samples.iter().map(|sample| observation(&sample.q, points)).collect()
+    let numbered = samples.iter().zip(1..);
+    numbered.map(|(sample, line)| Observation { line, ..observation(&sample.q, points) }).collect()
 }
 
 /// A machine with errors everywhere, base, targets and tool included.
@@ -47,7 +48,7 @@ fn residuals(model: &Model, seen: &Observation, x: &[f64]) -> (Vec<f64>, Vec<Vec
         values.push(residual);
         rows.push((0..x.len()).map(derivative).collect());
     };
-    model.rows(&mut model.room(), seen, x, take).unwrap();
+    model.residuals(&mut model.room(), seen, x, take).unwrap();
     (values, rows)
 }
 
@@ -88,7 +89,7 @@ fn derivatives_are_those_of_the_exact_chain() {
     let pose = pose.with(pose.constants(true));
     // The pose that would be seen is about where it should be, not half a turn away.
     let near = pose.pose(&mut pose.room(), &observation(&q, 0), &vec![0.0; pose.unknowns.len()]).unwrap();
-    differences(&pose, &Observation { seen: Seen::Pose(near), ..observation(&q, 0) });
+    differences(&pose, &Observation { measured: Measurement::Pose(near), ..observation(&q, 0) });
 }
 
 #[test]
@@ -126,7 +127,7 @@ fn counted(robot: &dyn Manipulator, moved: &[usize], points: usize, base: bool) 
     };
     let model = model.with(model.constants(pose).into_iter().filter(kept).collect());
     let zero = vec![0.0; model.unknowns.len()];
-    let known = what_can_be_known(&model, &data, &zero).unwrap();
+    let known = identifiable(&model, &data, &zero).unwrap();
     assert!(known.gap > 1e6, "{}", known.gap);
     let found = groups(&model, &data[0].q, moved, pose).unwrap();
     assert_eq!(known.rank + found.len(), model.unknowns.len());
@@ -193,7 +194,10 @@ fn measured(
             let at = pose.apply(*target);
             Some(at.map(|coordinate| coordinate + random.sample(normal)))
         };
-        Observation { seen: Seen::Points(model.targets.iter().map(point).collect()), ..asked.clone() }
+        Observation {
+            measured: Measurement::Points(model.targets.iter().map(point).collect()),
+            ..asked.clone()
+        }
     };
     list.iter().map(see).collect()
 }
@@ -243,10 +247,10 @@ fn stated_deviations_are_true() {
         let truth: Vec<f64> = model.unknowns.iter().map(draw).collect();
         let data = measured(&model, &truth, &list, 0.04, &mut random);
         let found = fit(&model, &data, &Options::default()).unwrap();
-        assert_eq!(found.known.rank, 16);
+        assert_eq!(found.identifiable.rank, 16);
         // All 36 are wrong; what the kept ones must be is what all of them act as.
         let mut expected = truth.clone();
-        for (k, act_as) in &found.known.held {
+        for (k, act_as) in &found.identifiable.held {
             act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
         }
         for (k, deviation) in found.standard_deviations().iter().enumerate() {
@@ -273,14 +277,15 @@ fn gross_errors_are_rejected_and_named() {
     let mut data = measured(&model, &truth, &list, 0.04, &mut random);
     let wrong: Vec<usize> = (0..400).filter(|i| i % 10 == 3).collect();
     for i in &wrong {
-        let Seen::Points(points) = &mut data[*i].seen else { unreachable!() };
+        let Measurement::Points(points) = &mut data[*i].measured else { unreachable!() };
         points[0].as_mut().unwrap()[i % 3] += 5.0 + *i as f64;
     }
     for loss in [Loss::Tukey, Loss::Huber] {
         let options = Options { loss, priors: model.priors(0.01).unwrap(), ..Options::default() };
         let found = fit(&model, &data, &options).unwrap();
         if loss == Loss::Tukey {
-            assert_eq!(found.rejected(), wrong);
+            let rejected: Vec<u64> = found.rejected(&data).map(|row| row.line).collect();
+            assert_eq!(rejected, wrong.iter().map(|i| *i as u64 + 1).collect::<Vec<_>>());
         }
         assert!((0.8..1.25).contains(&found.sigma), "{loss:?} {}", found.sigma);
     }
@@ -314,7 +319,7 @@ fn exchange_beats_an_even_spread() {
     let model = Model::ideal(&Puma, vec![[0.0; 3]], Uncertainty { length: 1e-4, angle: 1.0 });
     let model = model.with(model.constants(false));
     let list = sampled(&Puma, &[0, 1, 2, 3, 4, 5], 300, 1);
-    let known = what_can_be_known(&model, &list, &vec![0.0; model.unknowns.len()]).unwrap();
+    let known = identifiable(&model, &list, &vec![0.0; model.unknowns.len()]).unwrap();
     let found = d_optimal(&model, &list, &known, 30).unwrap().unwrap();
     assert_eq!(found.chosen.len(), 30);
     let deviation = |chosen: &[usize]| {

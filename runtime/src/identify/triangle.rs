@@ -69,7 +69,7 @@ pub(super) struct Problem {
 
 impl Problem {
     /// Some columns of a finished triangle, as often as they are named.
-    pub(super) fn of(triangle: &DMatrix<f64>, columns: &[usize]) -> Self {
+    pub(super) fn from_triangle(triangle: &DMatrix<f64>, columns: &[usize]) -> Self {
         let last = triangle.ncols() - 1;
         let columns_and_right: Vec<usize> = columns.iter().copied().chain([last]).collect();
         let full = triangle.select_columns(&columns_and_right);
@@ -124,12 +124,12 @@ mod tests {
             if i < 400 { triangle.push(row, 1.0) } else { half.push(row, 1.0) }
         }
         let r = triangle.merged(half).finish();
-        let x = Problem::of(&r, &[0, 1, 2, 3, 4]).solve(0.0).unwrap();
+        let x = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]).solve(0.0).unwrap();
         let a = DMatrix::from_fn(m, p, value);
         let b = DVector::from_fn(m, |i, _| value(i, p));
         let expected = (a.transpose() * &a).cholesky().unwrap().solve(&(a.transpose() * &b));
         assert!((&x - expected).norm() < 1e-12);
-        let problem = Problem::of(&r, &[0, 1, 2, 3, 4]);
+        let problem = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]);
         assert!(((&problem.a * &x - &problem.b).norm_squared() - (a * x - b).norm_squared()).abs() < 1e-9);
     }
 }

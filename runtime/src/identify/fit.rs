@@ -1,0 +1,137 @@
+//! Least squares on the exact model: what is asked for, and what comes out.
+
+use nalgebra::DMatrix;
+
+use super::robust::robust_scale;
+use super::solver::Solver;
+use super::{Failure, Identifiable, Loss, Model, Observation, Options, identifiable};
+
+/// An observation with less weight than this counts as left out.
+pub(super) const REJECTED: f64 = 0.05;
+
+/// The result of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// What the data determine.
+    pub identifiable: Identifiable,
+    /// The unknowns, zero where they are held.
+    pub x: Vec<f64>,
+    /// Covariance of the kept ones, in the order of `identifiable.kept`.
+    pub covariance: DMatrix<f64>,
+    /// The priors that it was found with.
+    pub priors: Vec<Option<f64>>,
+    /// What the uncertainty of the instrument must be multiplied with to explain the residuals.
+    pub sigma: f64,
+    /// Weighted sum of squared residuals, in units of the uncertainty.
+    pub cost: f64,
+    /// Numbers measured.
+    pub numbers: usize,
+    /// The weight that the loss gives every observation, 1 to 0; their own weights come on top.
+    pub weights: Vec<f64>,
+    /// How many steps were made.
+    pub steps: usize,
+}
+
+impl Fit {
+    /// The standard deviation of every unknown; none where it is held at zero.
+    pub fn standard_deviations(&self) -> Vec<Option<f64>> {
+        let mut all = vec![None; self.x.len()];
+        for (i, k) in self.identifiable.kept.iter().enumerate() {
+            all[*k] = Some(self.covariance[(i, i)].max(0.0).sqrt());
+        }
+        all
+    }
+
+    /// Kept unknowns of which the data say less than was known before, by their priors.
+    pub fn hardly_known(&self) -> Vec<usize> {
+        let deviations = self.standard_deviations();
+        let hardly = |k: &usize| match (deviations[*k], self.priors.get(*k).copied().flatten()) {
+            (Some(found), Some(prior)) => found > 0.5 * prior,
+            _ => false,
+        };
+        self.identifiable.kept.iter().copied().filter(hardly).collect()
+    }
+
+    /// Pairs of kept unknowns whose correlation is beyond `least`, either sign, strongest first.
+    pub fn correlations(&self, least: f64) -> Vec<(usize, usize, f64)> {
+        let mut pairs = Vec::new();
+        for i in 0..self.identifiable.kept.len() {
+            for j in 0..i {
+                let c = self.covariance[(i, j)] / (self.covariance[(i, i)] * self.covariance[(j, j)]).sqrt();
+                if c.abs() > least {
+                    pairs.push((self.identifiable.kept[j], self.identifiable.kept[i], c));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
+        pairs
+    }
+
+    /// The observations that a robust loss left out; `data` are those of the fit.
+    pub fn rejected<'o>(&self, data: &'o [Observation]) -> impl Iterator<Item = &'o Observation> {
+        self.weighed(data).filter(|(weight, _)| *weight < REJECTED).map(|(_, observation)| observation)
+    }
+
+    /// All others.
+    pub fn kept<'o>(&self, data: &'o [Observation]) -> impl Iterator<Item = &'o Observation> {
+        self.weighed(data).filter(|(weight, _)| *weight >= REJECTED).map(|(_, observation)| observation)
+    }
+
+    /// Every observation with the weight that the loss gave it.
+    pub(super) fn weighed<'o>(
+        &self,
+        data: &'o [Observation],
+    ) -> impl Iterator<Item = (f64, &'o Observation)> {
+        self.weights.iter().copied().zip(data)
+    }
+}
+
+/// The unknowns that explain the measurements best.
+///
+/// What cannot be known is held at zero; see [`identifiable()`]. Known sources do not count there: an error that
+/// changes from place to place makes groups differ by a little of a little, which no data of a real machine tell.
+pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit, Failure> {
+    let mut at = options.at.clone();
+    at.resize(model.unknowns.len(), 0.0);
+    let identifiable = identifiable(&model.without_known_sources(), data, &at)?;
+    let numbers = data.iter().map(Observation::count).sum();
+    if numbers <= identifiable.rank {
+        return Err(Failure::TooFew { numbers, rank: identifiable.rank });
+    }
+    let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
+    // The same place with what is held at zero: to first order, which is near enough to start from.
+    let mut start = at.clone();
+    for (k, act_as) in &identifiable.held {
+        act_as.iter().for_each(|(j, factor)| start[*j] += factor * at[*k]);
+    }
+    let start = identifiable.kept.iter().map(|k| start[*k]).collect();
+    let mut solver = Solver::new(&kept, data, options, &identifiable.kept, start);
+    if options.loss != Loss::Squares {
+        // Huber first: it comes near from anywhere; then the loss that was asked for. Gross errors never have their say.
+        for round in 0..60 {
+            let before = solver.x.clone();
+            solver.reweight(if round < 12 { Loss::Huber } else { options.loss })?;
+            solver.steps_at_most(3)?;
+            let moved = (&solver.x - &before).component_mul(&solver.scale()).amax();
+            if round >= 15 && moved < 1e-3 * solver.cost.sqrt() {
+                break;
+            }
+        }
+    }
+    if !solver.steps_at_most(options.steps)? {
+        return Err(Failure::NotConverged { steps: solver.steps });
+    }
+    let weight: f64 = solver.weights.iter().zip(data).map(|(weight, row)| weight * row.count() as f64).sum();
+    let freedom = (weight - identifiable.rank as f64).max(1.0);
+    let cost = solver.cost_of_data();
+    let sigma = match options.loss {
+        Loss::Squares => (cost / freedom).sqrt(),
+        // Of what is not gross.
+        _ => robust_scale(&mut solver.residuals()?.0),
+    };
+    let covariance = solver.covariance(sigma);
+    let mut x = vec![0.0; model.unknowns.len()];
+    identifiable.kept.iter().zip(solver.x.iter()).for_each(|(k, value)| x[*k] = *value);
+    let (priors, weights, steps) = (options.priors.clone(), solver.weights, solver.steps);
+    Ok(Fit { identifiable, x, covariance, priors, sigma, cost, numbers, weights, steps })
+}

@@ -1,0 +1,52 @@
+//! What an instrument tells.
+
+use crate::Pose;
+
+/// What was measured at one configuration, in the frame of the instrument.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Measurement {
+    /// One point for each target on the end effector, none where it was hidden. The length unit.
+    Points(Vec<Option<[f64; 3]>>),
+    /// The whole pose of the tool.
+    Pose(Pose),
+}
+
+/// One row of measurements: where it stands, what was commanded, what was measured, what it weighs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// Its line in the file, from 1: what messages call it by.
+    pub line: u64,
+    /// The joint variables as commanded: length unit, rad.
+    pub q: Vec<f64>,
+    /// The inputs: load, temperature.
+    pub u: Vec<f64>,
+    /// What was measured.
+    pub measured: Measurement,
+    /// Its weight in sums of squares: 1 where the instrument is as good as stated, ¼ where its standard deviation is twice
+    /// that.
+    pub weight: f64,
+}
+
+impl Observation {
+    /// A row as good as the instrument is stated to be.
+    pub fn new(line: u64, q: Vec<f64>, u: Vec<f64>, measured: Measurement) -> Self {
+        Self { line, q, u, measured, weight: 1.0 }
+    }
+
+    /// How many numbers were measured: three for every target that was not hidden, six for a pose.
+    pub fn count(&self) -> usize {
+        match &self.measured {
+            Measurement::Points(points) => 3 * points.iter().flatten().count(),
+            Measurement::Pose(_) => 6,
+        }
+    }
+}
+
+/// One standard deviation of the instrument.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncertainty {
+    /// Of a coordinate, in the length unit.
+    pub length: f64,
+    /// Of an angle, rad; only poses have those.
+    pub angle: f64,
+}

@@ -1,0 +1,27 @@
+//! How a fit is done.
+
+use super::Loss;
+
+/// How a fit is done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Where it is judged what can be known; at zero, the nominal machine, if empty.
+    ///
+    /// A target exactly on the last axis hides more than one that is off it by as little as a real one is: the
+    /// solution for base and tool alone is a good place.
+    pub at: Vec<f64>,
+    /// What a residual costs.
+    pub loss: Loss,
+    /// A standard deviation about zero for some unknowns, by index; none where nothing is known before.
+    pub priors: Vec<Option<f64>>,
+    /// The bounds of some unknowns, by index.
+    pub bounds: Vec<Option<[f64; 2]>>,
+    /// The most steps.
+    pub steps: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { at: Vec::new(), loss: Loss::Squares, priors: Vec::new(), bounds: Vec::new(), steps: 100 }
+    }
+}

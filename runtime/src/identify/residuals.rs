@@ -1,0 +1,246 @@
+//! Model minus measurement, and how it moves with every unknown.
+
+use super::columns::{Frame, turned};
+use super::{Failure, Figures, Measurement, Model, Observation, Role, Uncertainty, Unknown};
+use crate::analysis::sampling;
+use crate::chain::rotation_vector;
+use crate::{Component, Error, Pose, Quantity};
+
+/// Room for the numbers of one configuration, made once and used for many.
+#[derive(Clone, Debug)]
+pub struct Room {
+    transforms: Vec<Pose>,
+    errors: Vec<[f64; 6]>,
+    effects: Vec<f64>,
+    frames: Vec<Frame>,
+    targets: Vec<[f64; 3]>,
+    base: [f64; 6],
+    tool: [f64; 6],
+}
+
+impl Model<'_> {
+    /// ε and the tool, at one configuration.
+    fn errors(&self, room: &mut Room, observation: &Observation, x: &[f64]) -> Result<(), Error> {
+        room.errors.fill([0.0; 6]);
+        room.tool = [0.0; 6];
+        room.base = [0.0; 6];
+        room.targets.copy_from_slice(&self.targets);
+        let description = self.manipulator.description();
+        if self.roles.iter().any(|role| *role != Role::Off) {
+            self.manipulator.effects(&observation.q, &self.s, &observation.u, &mut room.effects)?;
+            for (effect, value) in description.effects.iter().zip(&room.effects) {
+                if self.roles[effect.source] == Role::Known {
+                    room.errors[effect.frame][effect.component.index()] += value;
+                }
+            }
+        }
+        for (unknown, value) in self.unknowns.iter().zip(x) {
+            match *unknown {
+                Unknown::Base(component) => room.base[component.index()] += value,
+                Unknown::Error(frame, component) => room.errors[frame][component.index()] += value,
+                Unknown::Tool(component) => room.tool[component.index()] += value,
+                Unknown::Target(target, axis) => room.targets[target][axis] += value,
+                Unknown::Magnitude(source) => {
+                    for (effect, size) in description.effects.iter().zip(&room.effects) {
+                        if effect.source == source {
+                            room.errors[effect.frame][effect.component.index()] += value * size;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs along the chain: where everything is, and how it moves.
+    fn chain(&self, room: &mut Room, observation: &Observation, x: &[f64]) -> Result<(), Failure> {
+        self.errors(room, observation, x)
+            .and_then(|()| self.manipulator.transforms(&observation.q, &self.s, &mut room.transforms))
+            .map_err(|error| Failure::Observation { line: observation.line, error })?;
+        room.frames.clear();
+        room.frames.push(Frame::new(&self.base, &room.base));
+        for i in 0..room.errors.len() {
+            let before = room.frames[i].after.then(&room.transforms[i]);
+            room.frames.push(Frame::new(&before, &room.errors[i]));
+        }
+        let tool = room.frames[room.errors.len()].after.then(&room.transforms[room.errors.len()]);
+        room.frames.push(Frame::new(&tool, &room.tool));
+        Ok(())
+    }
+
+    /// The pose of the tool as the instrument should see it; what was measured does not matter.
+    pub fn pose(&self, room: &mut Room, observation: &Observation, x: &[f64]) -> Result<Pose, Failure> {
+        self.chain(room, observation, x)?;
+        Ok(room.frames[room.errors.len() + 1].after)
+    }
+
+    /// Room for the numbers of one configuration.
+    pub fn room(&self) -> Room {
+        let description = self.manipulator.description();
+        let frames = description.frames.len();
+        Room {
+            transforms: vec![Pose::IDENTITY; frames + 1],
+            errors: vec![[0.0; 6]; frames],
+            effects: vec![0.0; description.effects.len()],
+            frames: Vec::with_capacity(frames + 2),
+            targets: self.targets.clone(),
+            base: [0.0; 6],
+            tool: [0.0; 6],
+        }
+    }
+
+    /// Model minus measurement at `x`, number by number: `row(residual, derivative of unknown k)`.
+    ///
+    /// In units of the uncertainty of the observation. Three for every target that was not hidden, or position and rotation
+    /// vector of a pose: six.
+    pub(super) fn residuals(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+        row: impl FnMut(f64, &mut dyn FnMut(usize) -> f64),
+    ) -> Result<(), Failure> {
+        let Uncertainty { length, angle } = self.uncertainty;
+        let weight = observation.weight.sqrt();
+        let uncertainty = Uncertainty { length: length / weight, angle: angle / weight };
+        self.differences(room, observation, x, uncertainty, row)
+    }
+
+    /// Model minus measurement in units of an uncertainty.
+    fn differences(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+        Uncertainty { length, angle }: Uncertainty,
+        mut row: impl FnMut(f64, &mut dyn FnMut(usize) -> f64),
+    ) -> Result<(), Failure> {
+        self.chain(room, observation, x)?;
+        let last = room.frames[room.errors.len() + 1].after;
+        match &observation.measured {
+            Measurement::Points(points) => {
+                for (j, measured) in points.iter().enumerate() {
+                    let Some(measured) = measured else { continue };
+                    let target = *room.targets.get(j).ok_or_else(|| Failure::Observation {
+                        line: observation.line,
+                        error: Error::Count {
+                            quantity: Quantity::Pose,
+                            expected: self.targets.len(),
+                            found: points.len(),
+                        },
+                    })?;
+                    let point = last.apply(target);
+                    for axis in 0..3 {
+                        row((point[axis] - measured[axis]) / length, &mut |k| {
+                            self.point(room, k, j, point)[axis] / length
+                        });
+                    }
+                }
+            }
+            Measurement::Pose(measured) => {
+                let point = last.position();
+                for axis in 0..3 {
+                    row((point[axis] - measured.0[3][axis]) / length, &mut |k| {
+                        self.point(room, k, usize::MAX, point)[axis] / length
+                    });
+                }
+                let mut difference = last.then(&measured.inverse());
+                difference.0[3] = [0.0; 3];
+                let turn = rotation_vector(&difference);
+                for axis in 0..3 {
+                    row(turn[axis] / angle, &mut |k| turned(turn, self.turn(room, k))[axis] / angle);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How a point of target `j` moves with unknown `k`.
+    fn point(&self, room: &Room, k: usize, j: usize, point: [f64; 3]) -> [f64; 3] {
+        let last = room.errors.len() + 1;
+        match self.unknowns[k] {
+            Unknown::Base(component) => room.frames[0].point(component, point),
+            Unknown::Error(frame, component) => room.frames[frame + 1].point(component, point),
+            Unknown::Tool(component) => room.frames[last].point(component, point),
+            Unknown::Target(target, axis) if target == j => room.frames[last].after.0[axis],
+            Unknown::Target(..) => [0.0; 3],
+            Unknown::Magnitude(source) => self.caused(room, source, |frame, c| frame.point(c, point)),
+        }
+    }
+
+    fn turn(&self, room: &Room, k: usize) -> [f64; 3] {
+        match self.unknowns[k] {
+            Unknown::Base(component) => room.frames[0].turn(component),
+            Unknown::Error(frame, component) => room.frames[frame + 1].turn(component),
+            Unknown::Tool(component) => room.frames[room.errors.len() + 1].turn(component),
+            Unknown::Target(..) => [0.0; 3],
+            Unknown::Magnitude(source) => self.caused(room, source, Frame::turn),
+        }
+    }
+
+    fn caused(&self, room: &Room, source: usize, moves: impl Fn(&Frame, Component) -> [f64; 3]) -> [f64; 3] {
+        let description = self.manipulator.description();
+        let mut sum = [0.0; 3];
+        for (effect, size) in description.effects.iter().zip(&room.effects) {
+            if effect.source == source {
+                let moved = moves(&room.frames[effect.frame + 1], effect.component);
+                sum = core::array::from_fn(|i| sum[i] + size * moved[i]);
+            }
+        }
+        sum
+    }
+
+    /// Position errors, model minus measurement, one vector for every point that was measured. The length unit.
+    pub fn deviations(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+    ) -> Result<Vec<[f64; 3]>, Failure> {
+        let Uncertainty { length, .. } = self.uncertainty;
+        let mut values = Vec::new();
+        self.differences(room, observation, x, self.uncertainty, |residual, _| {
+            values.push(residual * length);
+        })?;
+        if matches!(observation.measured, Measurement::Pose(_)) {
+            values.truncate(3);
+        }
+        Ok(values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect())
+    }
+
+    /// The norms of the [deviations](Self::deviations).
+    pub fn distances(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+    ) -> Result<Vec<f64>, Failure> {
+        Ok(self.deviations(room, observation, x)?.into_iter().map(sampling::norm).collect())
+    }
+
+    /// Figures of the norms of the position errors of all observations at `x`. The length unit.
+    pub fn figures<'o>(
+        &self,
+        observations: impl IntoIterator<Item = &'o Observation>,
+        x: &[f64],
+    ) -> Result<Figures, Failure> {
+        let mut room = self.room();
+        let mut norms = Vec::new();
+        for observation in observations {
+            norms.extend(self.distances(&mut room, observation, x)?);
+        }
+        Ok(Figures::from_norms(norms))
+    }
+
+    /// The pose of the tool, and how its point moves per unit of every unknown.
+    pub fn tool(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+    ) -> Result<(Pose, Vec<[f64; 3]>), Failure> {
+        let pose = self.pose(room, observation, x)?;
+        let moves = (0..self.unknowns.len()).map(|k| self.point(room, k, usize::MAX, pose.position()));
+        Ok((pose, moves.collect()))
+    }
+}

@@ -1,0 +1,29 @@
+//! What is unknown of a machine, and what part its sources have.
+
+use crate::Component;
+
+/// A number that measurements are to tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unknown {
+    /// An error of the base: of a frame `E_0` at `F_0`.
+    Base(Component),
+    /// A constant generalized error of a frame, from 0.
+    Error(usize, Component),
+    /// How large a repeatable source is, 1 = as the spec has it.
+    Magnitude(usize),
+    /// A coordinate (0, 1, 2) of a target in the frame of the tool, less what the model says.
+    Target(usize, usize),
+    /// An error of the tool: where whole poses are measured.
+    Tool(Component),
+}
+
+/// What part a source has in a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// It is there as the spec has it.
+    Known,
+    /// Its magnitude is among the unknowns.
+    Unknown,
+    /// It is left out.
+    Off,
+}

@@ -1,0 +1,127 @@
+//! Joint commands that put the real tool where the ideal one should be.
+
+mod rows;
+
+use abbe::identify::Figures;
+use abbe_codegen::diagnostic::Diagnostics;
+use serde::Serialize;
+
+use crate::data::{Base, Data, Map, Summary, Table, Unusable};
+use crate::{Machine, Notes, mistake};
+
+pub use rows::{Norms, Row};
+
+/// Which commands compensate the errors of this machine?
+pub struct Compensate {
+    /// The machine: its repeatable sources are its errors.
+    pub machine: Machine,
+    /// What the columns of the data are.
+    pub map: Map,
+    /// The commands to be corrected.
+    pub data: Data,
+    /// Whether the tool is to be brought to the poses that the data have, from the joints of the row on.
+    pub poses: bool,
+    /// What may be left at the tool point, in the length unit; of an angle, 1 rad counts as 1 m.
+    pub tolerance: f64,
+}
+
+/// Corrected commands.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// The machine's name.
+    pub name: String,
+    /// The length unit of everything.
+    pub length: &'static str,
+    /// How many rows are compensated to the tolerance.
+    pub compensated: usize,
+    /// What may be left at the tool point.
+    pub tolerance: f64,
+    /// The distance of the tool point from where it should be, with the commands as they were.
+    pub before: Size,
+    /// … and corrected.
+    pub after: Size,
+    /// Row by row.
+    pub rows: Vec<Row>,
+    /// Rows that cannot be used.
+    pub unusable: Vec<Unusable>,
+    /// The file.
+    #[serde(skip)]
+    pub file: Summary,
+}
+
+/// Figures of the norms of ΔX: lengths in the spec's unit, angles in rad.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Size {
+    /// The mean distance of the tool point.
+    pub mean: f64,
+    /// The root mean square.
+    pub rms: f64,
+    /// The largest.
+    pub max: f64,
+    /// The largest turn.
+    pub angle_max: f64,
+}
+
+impl Size {
+    fn new(norms: impl Iterator<Item = Norms>) -> Self {
+        let (lengths, angles): (Vec<f64>, Vec<f64>) = norms.map(|norms| (norms.length, norms.angle)).unzip();
+        let Figures { mean, rms, max, .. } = Figures::from_norms(lengths);
+        Self { mean, rms, max, angle_max: angles.into_iter().fold(0.0, f64::max) }
+    }
+}
+
+impl Compensate {
+    /// Corrects row by row.
+    pub fn run(&self, _notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, map, tolerance, .. } = self;
+        if self.poses {
+            check_poses(map)?;
+        }
+        let manipulator = machine.evaluator(true);
+        let mut data = self.data.clone();
+        let rows = rows::rows(&*manipulator, &mut data, self.poses, *tolerance)?;
+        Ok(Report {
+            name: machine.spec.name.clone(),
+            length: machine.spec.length.symbol(),
+            compensated: rows.iter().filter(|row| row.reason.is_none()).count(),
+            tolerance: *tolerance,
+            before: Size::new(rows.iter().map(|row| row.before)),
+            after: Size::new(rows.iter().map(|row| row.after)),
+            file: Summary { rows: rows.len(), ..data.summary() },
+            unusable: data.unusable,
+            rows,
+        })
+    }
+}
+
+/// Whether a map has poses to which the tool can be brought.
+pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
+    if map.is_pose() && map.base != Base::Unknown {
+        return Ok(());
+    }
+    let help = "name the columns of position and orientation; or leave `--poses` out to correct joints";
+    Err(mistake::with_help(map.path(), "`--poses` needs a map with `[pose]`, in F_0", help))
+}
+
+impl Report {
+    /// Whether every row is compensated.
+    pub fn complete(&self) -> bool {
+        self.compensated == self.rows.len() + self.unusable.len()
+    }
+
+    /// The corrected commands in the columns and units of the data, and what they leave.
+    pub fn table(&self, map: &Map) -> Table {
+        let mut heading = map.heading(false);
+        let added = ["line", "error_before", "error_after", "angle_before", "angle_after", "compensated"];
+        heading.extend(added.map(str::to_owned));
+        let rows = self.rows.iter().map(|row| {
+            let mut values = map.numbers(&row.corrected, [0.0; 3], false);
+            let done = f64::from(u8::from(row.reason.is_none()));
+            let Row { line, before, after, .. } = row;
+            let added = [*line as f64, before.length, after.length, before.angle, after.angle, done];
+            values.extend(added.map(Some));
+            values
+        });
+        Table { heading, rows: rows.collect() }
+    }
+}

@@ -1,0 +1,131 @@
+//! A CSV file: its heading, and records that know their lines.
+
+use std::path::Path;
+
+use abbe_codegen::diagnostic::Diagnostics;
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use crate::mistake;
+
+const WANTED: &str = "give a CSV file with a heading in its first line";
+
+/// A file with a heading.
+pub(super) struct File {
+    file: String,
+    bytes: Vec<u8>,
+    pub(super) heading: Vec<String>,
+}
+
+/// A record below the heading.
+pub(super) struct Record<'t> {
+    /// Its line in the file, from 1.
+    pub(super) line: u64,
+    heading: &'t [String],
+    fields: StringRecord,
+}
+
+impl File {
+    /// Reads a file and its heading.
+    pub(super) fn read(file: &Path) -> Result<Self, Diagnostics> {
+        let file_name = file.display().to_string();
+        let bytes = std::fs::read(file).map_err(|error| unreadable(&file_name, &error.into()))?;
+        let mut table = Self { file: file_name, bytes, heading: Vec::new() };
+        let mut reader = table.reader();
+        let heading = reader.headers().map_err(|error| unreadable(&table.file, &error))?;
+        table.heading = heading.iter().map(str::to_owned).collect();
+        if table.heading.is_empty() {
+            return Err(mistake::with_help(&table.file, "this file is empty", WANTED));
+        }
+        Ok(table)
+    }
+
+    fn reader(&self) -> csv::Reader<&[u8]> {
+        ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).flexible(true).from_reader(&self.bytes[..])
+    }
+
+    /// Every record below the heading.
+    pub(super) fn records(&self) -> impl Iterator<Item = Result<Record<'_>, Diagnostics>> {
+        let mut lines = Lines { bytes: &self.bytes, at: 0, line: 1 };
+        self.reader().into_records().map(move |record| {
+            let fields = record.map_err(|error| unreadable(&self.file, &error))?;
+            let line = fields.position().map_or(0, |position| lines.of_record(position.byte()));
+            Ok(Record { line, heading: &self.heading, fields })
+        })
+    }
+}
+
+/// Counts lines. The reader's own positions are behind the record before: the rest of a line end, empty lines and comments
+/// are still to come.
+struct Lines<'t> {
+    bytes: &'t [u8],
+    at: usize,
+    line: u64,
+}
+
+impl Lines<'_> {
+    /// The line on which the next record after that byte begins.
+    fn of_record(&mut self, byte: u64) -> u64 {
+        let mut start = byte as usize;
+        loop {
+            match self.bytes.get(start) {
+                Some(b'\r' | b'\n') => start += 1,
+                Some(b'#') => {
+                    let rest = self.bytes[start..].iter();
+                    start += rest.take_while(|byte| **byte != b'\n').count();
+                }
+                _ => break,
+            }
+        }
+        self.line += self.bytes[self.at..start].iter().filter(|byte| **byte == b'\n').count() as u64;
+        self.at = start;
+        self.line
+    }
+}
+
+impl Record<'_> {
+    /// Whether there is nothing at a place.
+    pub(super) fn is_empty(&self, place: usize) -> bool {
+        self.fields.get(place).is_none_or(str::is_empty)
+    }
+
+    /// The finite numbers at some places, or why one is none.
+    pub(super) fn numbers(&self, places: &[usize]) -> Result<Vec<f64>, String> {
+        places.iter().map(|place| self.number(*place)).collect()
+    }
+
+    fn number(&self, place: usize) -> Result<f64, String> {
+        let name = &self.heading[place];
+        match self.fields.get(place) {
+            None => Err(format!("it ends before `{name}`")),
+            Some("") => Err(format!("`{name}` is missing")),
+            Some(text) => match text.parse::<f64>() {
+                Ok(value) if value.is_finite() => Ok(value),
+                Ok(_) => Err(format!("`{name}` is `{}`", text.escape_debug())),
+                Err(_) => Err(format!("`{name}` is `{}`, not a number", text.escape_debug())),
+            },
+        }
+    }
+}
+
+fn unreadable(file: &str, error: &csv::Error) -> Diagnostics {
+    mistake::with_help(file, format!("cannot read this file: {error}"), WANTED)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lines;
+
+    #[test]
+    fn line_ends_of_any_kind_count() {
+        for end in ["\n", "\r\n"] {
+            let text = ["a,b", "1,2", "", "# no row", "3,4", "5,6"].join(end);
+            let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+            let mut lines = Lines { bytes: text.as_bytes(), at: 0, line: 1 };
+            let found: Vec<u64> = reader
+                .records()
+                .map(|record| lines.of_record(record.unwrap().position().unwrap().byte()))
+                .collect();
+            assert_eq!(found, [2, 5, 6], "{end:?}");
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! The columns of a data file and what they mean, both ways: numbers to measurements, and measurements to numbers.
+
+use abbe::Pose;
+use abbe::identify::{Measurement, Observation};
+
+use super::column::Channel;
+use super::map::{Layout, Map};
+use super::rotation;
+
+impl Map {
+    /// What the numbers of the measured columns mean, none where a target was hidden; or why they mean nothing.
+    pub(super) fn measurement(&self, numbers: &[Option<f64>]) -> Result<Measurement, String> {
+        let known: Vec<f64> = numbers.iter().flatten().copied().collect();
+        let point = |factor: f64| std::array::from_fn(|i| known[i] * factor);
+        Ok(match &self.layout {
+            Layout::Point(_, factor) => Measurement::Points(vec![Some(point(*factor))]),
+            Layout::Difference(_, _, factor) => {
+                let actual = std::array::from_fn(|i| (known[i] - known[3 + i]) * factor);
+                Measurement::Points(vec![Some(actual)])
+            }
+            Layout::Targets(targets) => {
+                let points = numbers.chunks_exact(3).zip(targets).map(|(three, target)| match three {
+                    [Some(x), Some(y), Some(z)] => Some([x, y, z].map(|value| value * target.factor)),
+                    _ => None,
+                });
+                Measurement::Points(points.collect())
+            }
+            Layout::Pose(_, factor, turn) => {
+                let [x, y, z] = rotation::from_numbers(turn, &known[3..])?;
+                Measurement::Pose(Pose([x, y, z, point(*factor)]))
+            }
+        })
+    }
+
+    /// The heading: joints and inputs, and what is measured unless this is a plan.
+    pub fn heading(&self, measured: bool) -> Vec<String> {
+        let mut names: Vec<String> = self.commanded().map(|column| column.name.clone()).collect();
+        if measured {
+            names.extend(self.measured().into_iter().map(|column| column.name.clone()));
+        }
+        names
+    }
+
+    /// The numbers of a row; `ideal` is the commanded tool point, for differences.
+    pub fn numbers(&self, row: &Observation, ideal: [f64; 3], measured: bool) -> Vec<Option<f64>> {
+        let channels = self.joints.iter().zip(&row.q).chain(self.inputs.iter().zip(&row.u));
+        let commanded = channels.filter_map(|(channel, value)| match channel {
+            Channel::Column(_, factor) => Some(Some(value / factor)),
+            Channel::Fixed(_) => None,
+        });
+        let mut numbers: Vec<Option<f64>> = commanded.collect();
+        if !measured {
+            return numbers;
+        }
+        match (&self.layout, &row.measured) {
+            (Layout::Point(_, factor), Measurement::Points(points)) => {
+                numbers.extend(spread(points.first().copied().flatten(), *factor));
+            }
+            (Layout::Difference(_, _, factor), Measurement::Points(points)) => {
+                let point = points.first().copied().flatten();
+                let difference = point.map(|point| std::array::from_fn(|i| ideal[i] - point[i]));
+                numbers.extend(spread(Some(ideal), *factor));
+                numbers.extend(spread(difference, *factor));
+            }
+            (Layout::Targets(targets), Measurement::Points(points)) => {
+                for (target, point) in targets.iter().zip(points) {
+                    numbers.extend(spread(*point, target.factor));
+                }
+            }
+            (Layout::Pose(_, factor, turn), Measurement::Pose(pose)) => {
+                let [x, y, z, position] = pose.0;
+                numbers.extend(spread(Some(position), *factor));
+                numbers.extend(rotation::to_numbers(turn, &[x, y, z]).into_iter().map(Some));
+            }
+            _ => {}
+        }
+        numbers
+    }
+}
+
+/// The coordinates of a point, or three empty fields.
+fn spread(point: Option<[f64; 3]>, factor: f64) -> [Option<f64>; 3] {
+    std::array::from_fn(|i| point.map(|point| point[i] / factor))
+}

@@ -1,0 +1,148 @@
+//! What the columns of a data file are.
+
+use std::sync::Arc;
+
+use abbe::analysis::sampling;
+use abbe::identify::{Measurement, Observation, Uncertainty};
+use abbe::{Description, Pose};
+use abbe_codegen::spec::Spec;
+
+use super::column::{Channel, Column};
+use super::turn::Turn;
+
+/// A target on the end effector.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// The columns of its coordinates.
+    pub columns: [Column; 3],
+    /// What makes them coherent.
+    pub factor: f64,
+    /// Where it is in the frame of the tool, as designed.
+    pub position: [f64; 3],
+}
+
+/// Where the instrument stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Base {
+    /// It sees in `F_0` but for small errors of the base.
+    Known,
+    /// Anywhere.
+    Unknown,
+    /// It sees in `F_0` itself: nothing of the base is unknown.
+    Exact,
+}
+
+/// What was measured; columns of lengths with the factor that makes them coherent.
+#[derive(Clone, Debug)]
+pub enum Layout {
+    /// The tool point.
+    Point([Column; 3], f64),
+    /// The commanded tool point, and commanded minus actual.
+    Difference([Column; 3], [Column; 3], f64),
+    /// Targets on the end effector.
+    Targets(Vec<Target>),
+    /// Position and orientation.
+    Pose([Column; 3], f64, Turn),
+}
+
+/// A map, read and checked.
+#[derive(Clone, Debug)]
+pub struct Map {
+    /// What it is called.
+    pub title: String,
+    /// One standard deviation of the instrument.
+    pub uncertainty: Uncertainty,
+    /// Where the instrument stands.
+    pub base: Base,
+    /// By variable of the spec.
+    pub joints: Vec<Channel>,
+    /// By input of the spec.
+    pub inputs: Vec<Channel>,
+    /// What was measured.
+    pub layout: Layout,
+    pub(super) path: String,
+    pub(super) text: Arc<str>,
+}
+
+impl Map {
+    /// The map of a file whose columns are named as the spec names its variables and inputs: in its coherent units. What has
+    /// no column among the inputs is nominal.
+    pub fn from_names(header: &[String], spec: &Spec) -> Self {
+        let column = |name: &str| Column { name: name.to_owned(), span: None };
+        let joints = spec.variables.iter().map(|variable| Channel::Column(column(&variable.name), 1.0));
+        let inputs = spec.inputs.iter().map(|input| match header.contains(&input.name) {
+            true => Channel::Column(column(&input.name), 1.0),
+            false => Channel::Fixed(input.value),
+        });
+        Self {
+            title: String::new(),
+            uncertainty: Uncertainty { length: 1.0, angle: 1.0 },
+            base: Base::Known,
+            joints: joints.collect(),
+            inputs: inputs.collect(),
+            layout: Layout::Point([(); 3].map(|()| column("")), 1.0),
+            path: "the names of the spec".to_owned(),
+            text: Arc::from(""),
+        }
+    }
+
+    /// What messages call it: the path of its file.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// Whether whole poses are measured.
+    pub fn is_pose(&self) -> bool {
+        matches!(self.layout, Layout::Pose(..))
+    }
+
+    /// The targets in the frame of the tool: the tool point itself if there are no others.
+    pub fn targets(&self) -> Vec<[f64; 3]> {
+        match &self.layout {
+            Layout::Targets(targets) => targets.iter().map(|target| target.position).collect(),
+            _ => vec![[0.0; 3]],
+        }
+    }
+
+    /// The variables that have a column.
+    pub fn moved(&self) -> impl Iterator<Item = usize> {
+        let columns = self.joints.iter().enumerate();
+        columns.filter(|(_, channel)| matches!(channel, Channel::Column(..))).map(|(i, _)| i)
+    }
+
+    /// An observation that is to be made at `q`; what the map holds fixed is so, inputs are nominal.
+    pub fn planned(&self, line: u64, mut q: Vec<f64>, description: &Description) -> Observation {
+        for (value, channel) in q.iter_mut().zip(&self.joints) {
+            if let Channel::Fixed(fixed) = channel {
+                *value = *fixed;
+            }
+        }
+        Observation::new(line, q, sampling::nominal_inputs(description), self.unmeasured())
+    }
+
+    /// What stands for a measurement before there is one.
+    pub(super) fn unmeasured(&self) -> Measurement {
+        match self.is_pose() {
+            true => Measurement::Pose(Pose::IDENTITY),
+            false => Measurement::Points(vec![Some([0.0; 3]); self.targets().len()]),
+        }
+    }
+
+    /// The columns of joints and inputs.
+    pub(super) fn commanded(&self) -> impl Iterator<Item = &Column> {
+        self.joints.iter().chain(&self.inputs).filter_map(|channel| match channel {
+            Channel::Column(column, _) => Some(column),
+            Channel::Fixed(_) => None,
+        })
+    }
+
+    /// The columns of what was measured.
+    pub(super) fn measured(&self) -> Vec<&Column> {
+        match &self.layout {
+            Layout::Point(columns, _) => columns.iter().collect(),
+            Layout::Difference(target, difference, _) => target.iter().chain(difference).collect(),
+            Layout::Targets(targets) => targets.iter().flat_map(|target| &target.columns).collect(),
+            Layout::Pose(position, _, turn) => position.iter().chain(turn.columns()).collect(),
+        }
+    }
+}

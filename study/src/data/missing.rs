@@ -1,0 +1,35 @@
+//! Columns that a map names and a file has not.
+
+use std::path::Path;
+
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
+
+use super::column::Column;
+use super::map::Map;
+
+impl Map {
+    /// The mistake that columns are missing: all of them, each where the map names it.
+    pub(super) fn missing(&self, file: &Path, columns: &[&Column], header: &[String]) -> Diagnostics {
+        let wanted: Vec<&str> =
+            self.commanded().chain(self.measured()).map(|column| column.name.as_str()).collect();
+        let list = columns.iter().map(|column| {
+            // Those that the map has found are not what is missing.
+            let free = header.iter().filter(|name| !wanted.contains(&name.as_str()));
+            let similarity = |name: &&String| match name.contains(column.name.as_str()) {
+                true => 0.9,
+                false => strsim::jaro_winkler(&column.name, name),
+            };
+            let near = free.max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+            let near = near.filter(|name| similarity(name) > 0.55);
+            let help = match near {
+                Some(name) => format!("did you mean `{name}`? there are: {}", header.join(", ")),
+                None => format!("there are: {}", header.join(", ")),
+            };
+            let message =
+                format!("there is no column `{}` in {}", column.name.escape_debug(), file.display());
+            let span = column.span.clone();
+            Diagnostic { span, ..Diagnostic::whole_file(message) }.label("the map wants it").help(help)
+        });
+        Diagnostics { path: self.path.clone(), text: self.text.clone(), list: list.collect() }
+    }
+}

@@ -1,0 +1,188 @@
+//! Rows of a data file: what can be used, and what cannot and why.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use abbe::identify::Observation;
+use abbe_codegen::diagnostic::Diagnostics;
+use serde::Serialize;
+
+use super::column::{Channel, Column};
+use super::file::{File, Record};
+use super::map::{Layout, Map};
+use crate::mistake;
+
+/// A row that cannot be used.
+#[derive(Clone, Debug, Serialize)]
+pub struct Unusable {
+    /// Its line in the file.
+    pub line: u64,
+    /// Why not.
+    pub reason: String,
+}
+
+/// The rows of a file.
+#[derive(Clone, Debug, Default)]
+pub struct Data {
+    /// The file's name.
+    pub file: String,
+    /// Those that can be used, in order.
+    pub observations: Vec<Observation>,
+    /// Those that cannot.
+    pub unusable: Vec<Unusable>,
+}
+
+/// Which columns are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Columns {
+    /// What was commanded alone: a plan.
+    Commanded,
+    /// What was measured, too.
+    Measured,
+}
+
+impl Data {
+    /// Reads what was commanded and what was measured. A row that was there before, digit by digit, is not used.
+    pub fn read(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
+        Self::rows(file, map, Columns::Measured, true)
+    }
+
+    /// The names of the columns of a file.
+    pub fn heading(file: &Path) -> Result<Vec<String>, Diagnostics> {
+        File::read(file).map(|file| file.heading)
+    }
+
+    /// Reads where the tool is wanted: what is measured elsewhere; the same place may be wanted again.
+    pub fn read_wanted(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
+        Self::rows(file, map, Columns::Measured, false)
+    }
+
+    /// Reads what was commanded alone: a plan.
+    pub fn read_commanded(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
+        Self::rows(file, map, Columns::Commanded, false)
+    }
+
+    fn rows(file: &Path, map: &Map, columns: Columns, once: bool) -> Result<Self, Diagnostics> {
+        let table = File::read(file)?;
+        let header = &table.heading;
+        let commanded: Vec<&Column> = map.commanded().collect();
+        let measured = if columns == Columns::Measured { map.measured() } else { Vec::new() };
+        let place = |column: &&Column| header.iter().position(|name| *name == column.name);
+        let missing: Vec<&Column> =
+            commanded.iter().chain(&measured).filter(|column| place(column).is_none()).copied().collect();
+        if !missing.is_empty() {
+            return Err(map.missing(file, &missing, header));
+        }
+        let places = |columns: &[&Column]| columns.iter().filter_map(place).collect::<Vec<_>>();
+        let (commanded, measured) = (places(&commanded), places(&measured));
+        let mut data = Self { file: file.display().to_string(), ..Self::default() };
+        let mut known = HashSet::new();
+        for record in table.records() {
+            let record = record?;
+            let measured = (columns == Columns::Measured).then_some(&measured[..]);
+            let row = row(&record, &commanded, measured, map).and_then(|(bits, row)| {
+                if !once || known.insert(bits) {
+                    Ok(row)
+                } else {
+                    Err("the same as a row before it, digit by digit".to_owned())
+                }
+            });
+            match row {
+                Ok(observation) => data.observations.push(observation),
+                Err(reason) => data.unusable.push(Unusable { line: record.line, reason }),
+            }
+        }
+        if data.observations.is_empty() {
+            let why = data.unusable.first().map(|row| format!(": line {}: {}", row.line, row.reason));
+            let message = format!("there is no row in it that can be used{}", why.unwrap_or_default());
+            let help = "one row of numbers in every line below the heading";
+            return Err(mistake::with_help(file.display(), message, help));
+        }
+        Ok(data)
+    }
+
+    /// Notes a row that was left out after all.
+    pub fn leave_out(&mut self, line: u64, reason: &str) {
+        let place = self.unusable.partition_point(|row| row.line < line);
+        self.unusable.insert(place, Unusable { line, reason: reason.to_owned() });
+    }
+
+    /// How many rows there are, and what is wrong with the others.
+    pub fn summary(&self) -> Summary {
+        Summary { file: self.file.clone(), rows: self.observations.len(), unusable: self.unusable.clone() }
+    }
+}
+
+/// How many rows of a file can be used, and what is wrong with the others.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// The file's name.
+    pub file: String,
+    /// How many rows can be used.
+    pub rows: usize,
+    /// Those that cannot.
+    pub unusable: Vec<Unusable>,
+}
+
+impl Summary {
+    /// In words, one line each and not too many.
+    pub fn lines(&self) -> Vec<String> {
+        const SHOWN: usize = 10;
+        let mut lines = vec![format!("{}: {} rows", self.file, self.rows)];
+        if !self.unusable.is_empty() {
+            lines[0] += &format!(", {} more that cannot be used:", self.unusable.len());
+            lines.extend(
+                self.unusable.iter().take(SHOWN).map(|row| format!("  line {}: {}", row.line, row.reason)),
+            );
+            if self.unusable.len() > SHOWN {
+                lines.push(format!("  … and {} more", self.unusable.len() - SHOWN));
+            }
+        }
+        lines
+    }
+}
+
+/// The digits of a row, by which it is known again.
+type Bits = Vec<u64>;
+
+/// What a record says; `measured` are the places of what was measured, none if that is not wanted.
+fn row(
+    record: &Record,
+    commanded: &[usize],
+    measured: Option<&[usize]>,
+    map: &Map,
+) -> Result<(Bits, Observation), String> {
+    let commanded = record.numbers(commanded)?;
+    let mut values = commanded.iter().copied();
+    let mut channel = |channel: &Channel| match channel {
+        Channel::Column(_, factor) => values.next().unwrap_or_default() * factor,
+        Channel::Fixed(value) => *value,
+    };
+    let q = map.joints.iter().map(&mut channel).collect();
+    let u = map.inputs.iter().map(&mut channel).collect();
+    let mut bits: Bits = commanded.iter().map(|value| value.to_bits()).collect();
+    let Some(places) = measured else {
+        return Ok((bits, Observation::new(record.line, q, u, map.unmeasured())));
+    };
+    let numbers = measured_numbers(record, places, map)?;
+    bits.extend(numbers.iter().flatten().map(|value| value.to_bits()));
+    Ok((bits, Observation::new(record.line, q, u, map.measurement(&numbers)?)))
+}
+
+/// The numbers of what was measured, none where a target was hidden: its three fields are empty.
+fn measured_numbers(record: &Record, places: &[usize], map: &Map) -> Result<Vec<Option<f64>>, String> {
+    if !matches!(map.layout, Layout::Targets(_)) {
+        return Ok(record.numbers(places)?.into_iter().map(Some).collect());
+    }
+    let mut numbers = Vec::new();
+    for three in places.chunks_exact(3) {
+        match three.iter().all(|place| record.is_empty(*place)) {
+            true => numbers.extend([None; 3]),
+            false => numbers.extend(record.numbers(three)?.into_iter().map(Some)),
+        }
+    }
+    if numbers.iter().all(Option::is_none) {
+        return Err("no target was seen".to_owned());
+    }
+    Ok(numbers)
+}

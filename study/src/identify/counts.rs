@@ -1,0 +1,36 @@
+//! How much of a machine can be known.
+
+use std::fmt;
+
+use abbe::identify::{Identifiable, Model, Unknown};
+use serde::Serialize;
+
+/// How many errors of base and frames can be known, of how many.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Counts {
+    /// How many can be known.
+    pub rank: usize,
+    /// How many there are.
+    pub unknowns: usize,
+    /// Whether those of the base are among them.
+    pub base: bool,
+}
+
+impl Counts {
+    pub(crate) fn new(model: &Model, identifiable: &Identifiable) -> Self {
+        let machine = |unknown: &Unknown| matches!(unknown, Unknown::Base(_) | Unknown::Error(..));
+        Self {
+            // Those of the tool are kept last: only for what no error of a frame stands for.
+            rank: identifiable.kept.iter().filter(|k| machine(&model.unknowns[**k])).count(),
+            unknowns: model.unknowns.iter().filter(|unknown| machine(unknown)).count(),
+            base: model.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Base(_))),
+        }
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = if self.base { "frames and base" } else { "frames" };
+        write!(f, "{} of the {} errors of {of}", self.rank, self.unknowns)
+    }
+}

@@ -1,0 +1,99 @@
+//! A spec with terms as sources: what is fitted, and what `analyze` then computes, are one and the same.
+
+use abbe_codegen::expr::{Dimension, Expression, Function, Symbol, Unit};
+use abbe_codegen::spec::{Cause, Class, Compliance, Effect, Load, Source, Spec};
+
+use super::terms::{Basis, Term};
+
+/// The spec with all terms as repeatable sources of magnitude 1, behind its own.
+///
+/// Where a term gives way under weight and the spec has no loads, 1 kg hangs on the last frame.
+pub fn extended(spec: &Spec, terms: &[Term]) -> Spec {
+    let mut extended = spec.clone();
+    if terms.iter().any(|term| term.basis == Basis::Moment) {
+        let zero = || Expression::from_number(0.0, Dimension::LENGTH);
+        if spec.loads.is_empty() {
+            let mass = Expression::from_number(1.0, Dimension::MASS);
+            let frame = spec.frames.len().saturating_sub(1);
+            extended.loads.push(Load { mass, frame, point: [zero(), zero(), zero()] });
+        }
+        let down = || Expression::from_number(-gravity(spec), Dimension::ACCELERATION);
+        let none = || Expression::from_number(0.0, Dimension::ACCELERATION);
+        extended.gravity.get_or_insert_with(|| [none(), none(), down()]);
+    }
+    extended.sources.extend(terms.iter().map(|term| term.source(spec)));
+    extended
+}
+
+/// Standard gravity, 9.80665 m/s², in the coherent system of a spec.
+fn gravity(spec: &Spec) -> f64 {
+    in_units(spec, 9.80665, &[("m", 1), ("s", -2)])
+}
+
+/// A number in a product of units, in the coherent system of a spec.
+fn in_units(spec: &Spec, number: f64, units: &[(&str, i32)]) -> f64 {
+    let unit = units.iter().fold(Unit::NONE, |product, (name, power)| {
+        let product_with = Unit::named(name).and_then(|unit| product.times(unit, *power));
+        product_with.unwrap_or(product)
+    });
+    unit.convert(number, spec.length)
+}
+
+impl Term {
+    /// The source of magnitude 1.
+    pub fn source(&self, spec: &Spec) -> Source {
+        let cause = match self.basis {
+            Basis::Moment => Cause::Compliance(Box::new(self.compliance(spec))),
+            basis => {
+                let mut value = basis.expression(spec);
+                if !self.component.is_rotation() {
+                    value = Expression::from_number(1.0, Dimension::LENGTH) * value;
+                }
+                Cause::Errors(vec![(self.component, value)])
+            }
+        };
+        Source {
+            name: self.name(spec),
+            class: Class::Repeatable,
+            enabled: true,
+            description: String::new(),
+            reference: String::new(),
+            effects: vec![Effect { frame: self.frame, at: Vec::new(), cause, span: 0..0 }],
+        }
+    }
+
+    /// A microradian per N times the length unit, about one axis.
+    fn compliance(&self, spec: &Spec) -> Compliance {
+        let value = in_units(spec, 1e-6, &[("N", -1), (spec.length.symbol(), -1)]);
+        let dimension = Dimension::NONE.over(Dimension::MOMENT).unwrap_or(Dimension::NONE);
+        let mut compliance = Compliance::default();
+        let place = self.component as usize;
+        compliance[place][place] = Some(Expression::from_number(value, dimension));
+        compliance
+    }
+}
+
+impl Basis {
+    /// A pure number, as a spec computes it; a compliance has none.
+    fn expression(self, spec: &Spec) -> Expression {
+        let number = |value: f64| Expression::from_number(value, Dimension::NONE);
+        let angle = |variable: usize, times: u8| {
+            let angle = Expression::from_symbol(Symbol::Variable(variable), Dimension::NONE);
+            if times == 1 { angle } else { number(f64::from(times)) * angle }
+        };
+        match self {
+            Self::Sine { variable, times } => angle(variable, times).call(Function::Sin),
+            Self::Cosine { variable, times } => angle(variable, times).call(Function::Cos),
+            Self::Power { variable, exponent } => {
+                let travel = Expression::from_symbol(Symbol::Variable(variable), Dimension::LENGTH);
+                (travel / Expression::from_number(1000.0, Dimension::LENGTH)).power(f64::from(exponent))
+            }
+            Self::Input(input) => {
+                let dimension = spec.inputs[input].dimension;
+                let value = Expression::from_symbol(Symbol::Input(input), dimension);
+                value / Expression::from_number(1.0, dimension)
+            }
+            Self::Moment => number(0.0),
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Gross errors: rows far from a fit that they cannot pull at.
+
+use abbe::identify::{Failure, Fit, Loss, Measurement, Model, Observation, Options, fit, robust_scale};
+
+use crate::data::Data;
+
+/// The most rows on which gross errors are looked for.
+const ROWS: usize = 400;
+
+/// What is to be said of gross errors, if a plain fit, or that there is none, looks as if there were any.
+pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option<String> {
+    let rows = &data.observations;
+    if let Some(plain) = plain {
+        let distances = distances(model, rows, &plain.x).ok()?;
+        let mut all: Vec<f64> = distances.into_iter().flat_map(|(_, distances)| distances).collect();
+        let rms = (all.iter().map(|d| d * d).sum::<f64>() / all.len().max(1) as f64).sqrt();
+        // Norms of Gaussian errors: the root mean square is 1.13 / 0.6745⁻¹ times that scale, about 0.76.
+        if rms < 1.6 * robust_scale(&mut all) {
+            return None;
+        }
+    }
+    let part: Vec<Observation> = rows.iter().step_by(rows.len().div_ceil(ROWS).max(1)).cloned().collect();
+    let priors = model.priors(0.01).ok()?;
+    let robust = fit(model, &part, &Options { loss: Loss::Tukey, priors, ..Options::default() }).ok()?;
+    let bound = 10.0 * (robust.sigma * model.uncertainty.length);
+    let wrong: Vec<u64> = distances(model, rows, &robust.x)
+        .ok()?
+        .into_iter()
+        .filter(|(_, distances)| distances.iter().any(|distance| *distance > bound))
+        .map(|(line, _)| line)
+        .collect();
+    let poses = rows.iter().any(|row| matches!(row.measured, Measurement::Pose(_)));
+    if wrong.is_empty() || poses && wrong.len() == rows.len() {
+        return None;
+    }
+    Some(format!(
+        "note: {} of {} rows lie more than ten standard deviations from a fit that leaves them out (lines {}); \
+         `--robust tukey` does without them",
+        wrong.len(),
+        rows.len(),
+        shown_lines(&wrong)
+    ))
+}
+
+/// By observation: its line, and how far every point that was measured is from where the model has it.
+fn distances(model: &Model, rows: &[Observation], x: &[f64]) -> Result<Vec<(u64, Vec<f64>)>, Failure> {
+    let mut room = model.room();
+    rows.iter().map(|row| Ok((row.line, model.distances(&mut room, row, x)?))).collect()
+}
+
+/// The first lines of a list, and how many more there are.
+pub fn shown_lines(lines: &[u64]) -> String {
+    let shown = lines.iter().take(12).map(u64::to_string).collect::<Vec<_>>().join(", ");
+    if lines.len() > 12 { format!("{shown} and {} more", lines.len() - 12) } else { shown }
+}

@@ -1,0 +1,35 @@
+//! The generalized errors of a real machine, from measurements.
+//!
+//! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant; `terms`
+//! are candidates for richer models, `extended` the spec that has them; `solve` fits, judges and chooses, on the data
+//! alone, `gross` looks for gross errors. `found` is the identified machine, `written` its spec; `report` is what comes out,
+//! with `alike` and `counts`, `job` the way from one to the other.
+
+mod alike;
+mod counts;
+mod extended;
+mod found;
+mod gross;
+mod job;
+mod readings;
+mod report;
+mod setup;
+mod solve;
+mod terms;
+mod written;
+
+pub use alike::Alike;
+pub use counts::Counts;
+pub use extended::extended;
+pub use found::{FoundError, FoundModel, FoundTerm};
+pub use gross::shown_lines;
+pub use job::Identify;
+pub use report::{
+    Compared, CrossValidation, Held, Indices, LeftOut, Pair, Parameter, Report, Sizes, TermGain,
+};
+pub use solve::Settings;
+pub use terms::{Basis, Family, Term, candidates};
+pub use written::WrittenSpec;
+
+pub(crate) use readings::check_readings;
+pub(crate) use setup::Setup;

@@ -1,0 +1,191 @@
+//! What comes out of an identification.
+
+use abbe::identify::Figures;
+use serde::Serialize;
+
+use super::alike::Alike;
+use super::counts::Counts;
+use super::found::FoundModel;
+use crate::data::{Summary, Unusable};
+
+/// What is found, how well it is known, and how good it is.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The machine's name.
+    pub name: String,
+    /// The length unit of everything.
+    pub length: &'static str,
+    /// What the map is called.
+    pub title: String,
+    /// How many combinations of the unknowns these data determine.
+    pub rank: usize,
+    /// Of how many unknowns.
+    pub unknowns: usize,
+    /// Of base and frames alone, without the targets on the tool.
+    pub machine: Counts,
+    /// The smallest singular value that counts over the largest that does not; none if all count.
+    pub gap: Option<f64>,
+    /// The condition number of the kept columns, each of unit length.
+    pub condition: f64,
+    /// Indices of observability.
+    pub observability: Indices,
+    /// What cannot be told apart, and why.
+    pub groups: Vec<Alike>,
+    /// What stays unknown for other reasons than the groups say: 0 if they explain it all.
+    pub unexplained: usize,
+    /// The unknowns that stand for the combinations that are known.
+    pub parameters: Vec<Parameter>,
+    /// The others.
+    pub held: Vec<Held>,
+    /// Parameters that are correlated by more than 0.9, either sign.
+    pub correlations: Vec<Pair>,
+    /// What the stated uncertainty must be multiplied with to explain what is left.
+    pub uncertainty_factor: f64,
+    /// Where `F_0` stands as the instrument sees it, errors of the base aside: rows of a homogeneous matrix.
+    pub base: [[f64; 4]; 4],
+    /// How good it is on the data, gross errors left out.
+    pub fit: Compared,
+    /// How good it is on the test data.
+    pub test: Option<Compared>,
+    /// How good it is on rows left out in turn.
+    pub cross_validation: CrossValidation,
+    /// The richer terms that were taken in, in the order of their gain.
+    pub terms: Vec<TermGain>,
+    /// Rows that cannot be used.
+    pub unusable: Vec<LeftOut>,
+    /// Lines that a robust loss left out.
+    pub rejected: Vec<u64>,
+    /// What must be said.
+    pub notes: Vec<String>,
+    /// The files: the data, and the test data if there are any.
+    #[serde(skip)]
+    pub files: Vec<Summary>,
+    /// The identified machine.
+    #[serde(skip)]
+    pub found: FoundModel,
+}
+
+/// Indices of observability; see [`abbe::identify::Observability`].
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(missing_docs, reason = "their meaning is that of the literature")]
+pub struct Indices {
+    pub o1: f64,
+    pub o2: f64,
+    pub o3: f64,
+    pub o4: f64,
+    pub o5: f64,
+}
+
+/// An unknown that stands for a combination that is known.
+#[derive(Clone, Debug, Serialize)]
+pub struct Parameter {
+    /// `e_x1`, of the base `e_x0`.
+    pub name: String,
+    /// The frame of an error, from 1; 0 is the base.
+    pub frame: Option<usize>,
+    /// What that is called.
+    pub frame_name: Option<String>,
+    /// What was found.
+    pub value: f64,
+    /// How well.
+    pub standard_deviation: f64,
+    /// The length unit, rad, or nothing.
+    pub unit: &'static str,
+    /// Whether the data say less of it than was known before.
+    pub hardly_known: bool,
+}
+
+/// An unknown that is held at zero, and what it acts as.
+#[derive(Clone, Debug, Serialize)]
+pub struct Held {
+    /// The unknown.
+    pub name: String,
+    /// Names of parameters and factors.
+    pub acts_as: Vec<(String, f64)>,
+}
+
+/// Two parameters.
+#[derive(Clone, Debug, Serialize)]
+pub struct Pair {
+    /// Their names.
+    pub of: [String; 2],
+    /// Their correlation.
+    pub correlation: f64,
+}
+
+/// Position errors.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Sizes {
+    /// The mean of their norms.
+    pub mean: f64,
+    /// The root mean square.
+    pub rms: f64,
+    /// The largest.
+    pub max: f64,
+    /// What 95 % of them do not exceed.
+    pub p95: f64,
+}
+
+/// Position errors of some rows.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Compared {
+    /// How many rows.
+    pub rows: usize,
+    /// As delivered.
+    pub before: Sizes,
+    /// With base and tool fitted.
+    pub base_and_tool: Sizes,
+    /// With everything.
+    pub after: Sizes,
+}
+
+/// Position errors of rows that are left out in turn.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CrossValidation {
+    /// In how many parts.
+    pub folds: usize,
+    /// With constants alone, if richer terms were tried.
+    pub constant: Option<Sizes>,
+    /// With everything.
+    pub after: Sizes,
+}
+
+/// A group of terms that earned its place.
+#[derive(Clone, Debug, Serialize)]
+pub struct TermGain {
+    /// What it is called.
+    pub name: String,
+    /// Root mean square of a coordinate on rows left out, the length unit, before it.
+    pub before: f64,
+    /// … and with it.
+    pub after: f64,
+    /// The F-test of it.
+    pub f: f64,
+    /// How likely so large an F is by chance.
+    pub p: f64,
+}
+
+/// A row that cannot be used.
+#[derive(Clone, Debug, Serialize)]
+pub struct LeftOut {
+    /// Its file.
+    pub file: String,
+    /// Its line there.
+    pub line: u64,
+    /// Why not.
+    pub reason: String,
+}
+
+impl From<Figures> for Sizes {
+    fn from(Figures { mean, rms, max, p95, .. }: Figures) -> Self {
+        Self { mean, rms, max, p95 }
+    }
+}
+
+impl LeftOut {
+    pub(super) fn of_file(file: &Summary) -> impl Iterator<Item = Self> {
+        let left_out =
+            |row: &Unusable| Self { file: file.file.clone(), line: row.line, reason: row.reason.clone() };
+        file.unusable.iter().map(left_out)
+    }
+}

@@ -1,0 +1,146 @@
+//! The identified machine as a spec: the nominal one, comments and all, with the errors found as repeatable sources.
+
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::document::{Document, Section};
+use abbe_codegen::spec::Spec;
+
+use super::found::{FoundError, FoundModel, FoundTerm};
+use super::terms::{Basis, Term};
+use crate::number::digits;
+
+/// A spec to be written.
+#[derive(Clone, Debug)]
+pub struct WrittenSpec {
+    /// All of it.
+    pub text: String,
+    /// What was added to the nominal one.
+    pub added: String,
+}
+
+impl FoundModel {
+    /// The nominal spec, whose text this is, with what was found; `path` is the name of its file.
+    ///
+    /// What is written is a spec, or it is not written.
+    pub fn written(&self, spec: &Spec, text: &str, path: &str) -> Result<WrittenSpec, Diagnostics> {
+        let base = free_name(spec, "measured from");
+        let frame = format!(
+            "# Where the machine stands, as the instrument sees it: no error of the machine itself.\n[[frame]]\n\
+             name = {base:?}\norigin = {{ xyz = [0, 0, 0] }}\n\n"
+        );
+        let sources = self.sources(spec, &base);
+        let at = before_frames(text);
+        let mut new = format!("{}{frame}{}\n{sources}", &text[..at], text[at..].trim_end());
+        let mut added = format!("{frame}{}", sources.trim_start());
+        if self.terms.iter().any(|found| found.term.basis == Basis::Moment) {
+            let [load, gravity] = weight(spec);
+            new = format!("{gravity}{}\n{load}", new.trim_end());
+            added = format!("{gravity}{added}{load}");
+        }
+        Spec::parse(path, &new)?;
+        Ok(WrittenSpec { text: new, added })
+    }
+
+    fn sources(&self, spec: &Spec, base: &str) -> String {
+        let names = std::iter::once(base).chain(spec.frames.iter().map(|frame| frame.name.as_str()));
+        let errors = std::iter::once(&self.base).chain(&self.frames);
+        let constants = names.zip(errors).filter(|(_, errors)| !errors.is_empty());
+        let constants = constants.map(|(frame, errors)| self.constant(spec, frame, errors));
+        constants.chain(self.terms.iter().map(|found| self.term(spec, found))).collect()
+    }
+
+    fn constant(&self, spec: &Spec, frame: &str, errors: &[FoundError]) -> String {
+        let (mut lines, mut deviations) = (String::new(), Vec::new());
+        for error in errors {
+            let name = error.component.name();
+            let unit = if error.component.is_rotation() { "rad" } else { spec.length.symbol() };
+            lines += &format!("{name} = \"{} {unit}\"\n", number(error.value));
+            deviations.push(format!("{name} {} {unit}", digits(error.standard_deviation, 2)));
+        }
+        format!(
+            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\nframe = {frame:?}\n{lines}reference = {:?}\n",
+            source_name(spec, &format!("identified: {frame}")),
+            format!("Standard deviations: {}", deviations.join(", ")),
+            self.reference,
+        )
+    }
+
+    fn term(&self, spec: &Spec, found: &FoundTerm) -> String {
+        let FoundTerm { term, magnitude, standard_deviation } = found;
+        format!(
+            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\nreference = {:?}\n\n[[source.effect]]\nframe = {:?}\n{}\n",
+            source_name(spec, &format!("identified: {}", term.name(spec))),
+            format!("Standard deviation: {} of it", digits((standard_deviation / magnitude).abs(), 2)),
+            self.reference,
+            spec.frames[term.frame].name,
+            effect(spec, term, *magnitude),
+        )
+    }
+}
+
+/// The error that a term causes.
+fn effect(spec: &Spec, term: &Term, magnitude: f64) -> String {
+    let (factor, basis) = (number(magnitude), term.basis.text(spec));
+    let name = term.component.name();
+    if term.basis == Basis::Moment {
+        let entry = |rotation: &str| match rotation == name {
+            true => format!("\"{factor} * {basis}\""),
+            false => "0".to_owned(),
+        };
+        let turns = ["e_s", "e_r", "e_p"].map(entry).join(", ");
+        return format!("compliance = {{ diagonal = [0, 0, 0, {turns}] }}");
+    }
+    match term.component.is_rotation() {
+        true => format!("{name} = \"{factor} * ({basis})\""),
+        false => format!("{name} = \"{factor} * (1 {} * {basis})\"", spec.length.symbol()),
+    }
+}
+
+/// A number that a spec understands, to seven digits.
+fn number(value: f64) -> String {
+    format!("{:e}", format!("{value:.6e}").parse::<f64>().unwrap_or(value) + 0.0)
+}
+
+/// What compliances need beside their sources: a load and gravity, if the spec has none.
+fn weight(spec: &Spec) -> [String; 2] {
+    let last = spec.frames.last().map_or("", |frame| frame.name.as_str());
+    let load = format!("\n[[load]]\nname = \"weight at the tip\"\nmass = \"1 kg\"\nframe = {last:?}\n");
+    let gravity = "gravity = [0, 0, \"-9.80665 m/s^2\"]\n".to_owned();
+    [
+        if spec.loads.is_empty() { load } else { String::new() },
+        if spec.gravity.is_none() { gravity } else { String::new() },
+    ]
+}
+
+/// Where the first frame begins, the comments above it included.
+fn before_frames(text: &str) -> usize {
+    let mut document = Document::new("", text);
+    let tables = document.tables(text);
+    let first = tables.as_ref().and_then(|tables| {
+        let item = Section::root(tables).get("frame")?;
+        let items = document.array(&item, "frames")?;
+        items.first().map(|item| item.span().start.min(item.key_span.start))
+    });
+    let mut at = first.map_or(text.len(), |at| text[..at].rfind('\n').map_or(0, |newline| newline + 1));
+    while at > 0 {
+        let line = text[..at - 1].rfind('\n').map_or(0, |newline| newline + 1);
+        if !text[line..at].starts_with('#') {
+            break;
+        }
+        at = line;
+    }
+    at
+}
+
+/// A name that no frame has.
+fn free_name(spec: &Spec, name: &str) -> String {
+    let taken = |name: &str| spec.frames.iter().any(|frame| frame.name == name);
+    let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} {i}")));
+    names.into_iter().find(|name| !taken(name)).unwrap_or_default()
+}
+
+/// A name that no source has.
+fn source_name(spec: &Spec, name: &str) -> String {
+    let taken = |name: &str| spec.sources.iter().any(|source| source.name == name);
+    let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} ({i})")));
+    names.into_iter().find(|name| !taken(name)).unwrap_or_default()
+}

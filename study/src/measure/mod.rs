@@ -1,0 +1,150 @@
+//! How good a machine is: accuracy, repeatability, and what the sources of its spec explain.
+//!
+//! `errors` are ΔX of every row; `repeated` what ISO 9283 says of configurations that were visited again; `explained`
+//! compares with the prediction; `sentences` says the last two in words.
+
+mod errors;
+mod explained;
+mod repeated;
+mod sentences;
+
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_interpreter::Interpreter;
+use serde::Serialize;
+
+use crate::data::{Base, Data, Map, Summary, Table};
+use crate::identify::{Setup, check_readings};
+use crate::{Machine, Notes, mistake};
+
+pub use errors::RowError;
+pub use explained::Explained;
+pub use repeated::{MeanAndMax, Repeated};
+
+/// How good is this machine?
+pub struct Measure {
+    /// The machine as its spec has it.
+    pub machine: Machine,
+    /// What the columns of the data are.
+    pub map: Map,
+    /// The measurements.
+    pub data: Data,
+}
+
+/// What was measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The machine's name.
+    pub name: String,
+    /// The length unit of everything.
+    pub length: &'static str,
+    /// What the map is called.
+    pub title: String,
+    /// How many rows could be used.
+    pub rows: usize,
+    /// ΔX = measured − ideal: along x, y, z and as norm; of poses the turns about x, y, z as well.
+    pub errors: Vec<Size>,
+    /// What the sources of the spec explain of it.
+    pub explained: Explained,
+    /// Configurations that were visited again.
+    pub repeated: Repeated,
+    /// How many rows could not be used.
+    pub unusable: usize,
+    /// The file.
+    #[serde(skip)]
+    pub file: Summary,
+    /// Whether it was fitted where the instrument stands.
+    #[serde(skip)]
+    pub base_fitted: bool,
+    /// ΔX of every row.
+    #[serde(skip)]
+    pub row_errors: Vec<RowError>,
+    /// The points of visits of the same configuration about their barycentre.
+    #[serde(skip)]
+    pub about_barycentres: Vec<[f64; 3]>,
+}
+
+/// One component of ΔX over all rows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Size {
+    /// `x`, `norm`, `about x`.
+    pub name: &'static str,
+    /// The length unit, or rad.
+    pub unit: &'static str,
+    /// The mean.
+    pub mean: f64,
+    /// The root mean square.
+    pub rms: f64,
+    /// The largest, either sign.
+    pub max: f64,
+    /// Three standard deviations about the mean.
+    pub three_sigma: f64,
+}
+
+impl Size {
+    fn new(name: &'static str, unit: &'static str, values: &[f64]) -> Self {
+        let n = values.len().max(1) as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        Self {
+            name,
+            unit,
+            mean: mean + 0.0,
+            rms: (values.iter().map(|v| v * v).sum::<f64>() / n).sqrt(),
+            max: values.iter().fold(0.0, |most: f64, v| most.max(v.abs())),
+            three_sigma: 3.0 * (squares / (n - 1.0).max(1.0)).sqrt(),
+        }
+    }
+}
+
+impl Measure {
+    /// Compares every row with the ideal machine and with the predicted one.
+    pub fn run(&self, _notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, map, data } = self;
+        let interpreter = Interpreter::new(machine.spec.clone());
+        let setup = Setup::new(&interpreter, map, data, 0)?;
+        check_readings(&setup, map, data)?;
+        let mut data = data.clone();
+        let rows = errors::row_errors(&setup, &mut data)?;
+        let unit = machine.spec.length.symbol();
+        let along = |axis: usize| rows.iter().map(|row| row.error[axis]).collect::<Vec<_>>();
+        let mut errors: Vec<Size> = ["x", "y", "z"]
+            .into_iter()
+            .enumerate()
+            .map(|(i, name)| Size::new(name, unit, &along(i)))
+            .collect();
+        errors.push(Size::new("norm", unit, &rows.iter().map(RowError::distance).collect::<Vec<_>>()));
+        if setup.pose || setup.ideal.targets.len() > 1 {
+            let names = ["about x", "about y", "about z"].into_iter().enumerate();
+            errors.extend(names.map(|(i, name)| Size::new(name, "rad", &along(3 + i))));
+        }
+        let explained = explained::explained(&setup, &rows);
+        Ok(Report {
+            name: machine.spec.name.clone(),
+            length: unit,
+            title: map.title.clone(),
+            rows: rows.len(),
+            errors,
+            explained: explained.map_err(|failure| mistake::whole(&data.file, failure))?,
+            repeated: repeated::repeated(&rows),
+            unusable: data.unusable.len(),
+            file: Summary { rows: rows.len(), ..data.summary() },
+            base_fitted: map.base == Base::Unknown,
+            about_barycentres: repeated::about_barycentres(&rows),
+            row_errors: rows,
+        })
+    }
+}
+
+impl Report {
+    /// ΔX row by row.
+    pub fn table(&self) -> Table {
+        let names = ["line", "x", "y", "z", "about_x", "about_y", "about_z"];
+        // One more for the line, and none for the norm.
+        let names = &names[..self.errors.len()];
+        let rows = self.row_errors.iter().map(|row| {
+            let values = row.error[..names.len() - 1].iter().map(|value| Some(*value));
+            std::iter::once(Some(row.observation.line as f64)).chain(values).collect()
+        });
+        Table { heading: names.iter().map(|name| (*name).to_owned()).collect(), rows: rows.collect() }
+    }
+}

@@ -1,0 +1,246 @@
+//! Where to measure, and how well the errors of the machine will then be known where it is used.
+
+mod sets;
+
+use abbe::analysis::{Workspace, joint_samples};
+use abbe::identify::{
+    Design, Failure, Figures, Identifiable, Measurement, Model, Observation, Unknown, d_optimal, groups,
+    identifiable, predicted, whole,
+};
+use abbe::{Description, Manipulator};
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_interpreter::Interpreter;
+use serde::Serialize;
+
+use crate::data::{Map, Table};
+use crate::identify::{Alike, Counts, Setup};
+use crate::{Machine, Notes, Study, mistake};
+
+pub use sets::{Counted, Sets};
+
+/// The most configurations of the workspace of use that are looked at.
+const USED: usize = 1000;
+
+/// Where should this machine be measured?
+pub struct Plan {
+    /// The nominal machine.
+    pub machine: Machine,
+    /// What will be measured, and how well.
+    pub map: Map,
+    /// How the configurations are chosen.
+    pub choice: Choice,
+    /// Where the machine is to be used: the workspace of this study.
+    pub study: Study,
+}
+
+/// How configurations are chosen.
+#[derive(Clone, Debug)]
+pub enum Choice {
+    /// Those of a plan file.
+    Sets(Sets),
+    /// The configurations that tell most, D-optimal.
+    Optimal {
+        /// How many.
+        count: usize,
+        /// From how many samples within the limits.
+        candidates: usize,
+    },
+}
+
+/// What is to be measured, and what it will tell.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The machine's name.
+    pub name: String,
+    /// The length unit of everything.
+    pub length: &'static str,
+    /// What the plan is called.
+    pub title: String,
+    /// How many rows are to be measured.
+    pub rows: usize,
+    /// Set by set.
+    pub sets: Vec<Counted>,
+    /// How many combinations of the unknowns they determine.
+    pub rank: usize,
+    /// Of how many unknowns.
+    pub unknowns: usize,
+    /// Of base and frames alone, without the targets on the tool.
+    pub machine: Counts,
+    /// The condition number.
+    pub condition: f64,
+    /// `ln det` of the information of columns of unit length.
+    pub log_det: f64,
+    /// How many exchanges led to a D-optimal plan.
+    pub exchanges: usize,
+    /// How many configurations of use were looked at.
+    pub used: usize,
+    /// Standard deviation of the identified tool point there, the length unit.
+    pub predicted: Predicted,
+    /// What cannot be told apart, and why.
+    #[serde(skip)]
+    pub groups: Vec<Alike>,
+    /// What is to be measured.
+    #[serde(skip)]
+    pub observations: Vec<Observation>,
+}
+
+/// Figures of a standard deviation.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Predicted {
+    /// The mean.
+    pub mean: f64,
+    /// The root mean square.
+    pub rms: f64,
+    /// The largest.
+    pub max: f64,
+    /// What 95 % do not exceed.
+    pub p95: f64,
+}
+
+/// What is to be measured, by title and sets, and what it determines.
+struct Chosen {
+    title: String,
+    sets: Vec<Counted>,
+    rows: Vec<Observation>,
+    identifiable: Identifiable,
+    design: Option<Design>,
+}
+
+impl Plan {
+    /// Chooses the configurations and predicts what they will tell.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, map, .. } = self;
+        let interpreter = Interpreter::new(machine.spec.clone());
+        let description = interpreter.description();
+        let setup = Setup::at_home(&interpreter, map)?;
+        let model = setup.ideal.with(setup.constants());
+        let fail = |failure: Failure| mistake::whole(&machine.origin, failure);
+        let Chosen { title, sets, rows, identifiable, design } = self.choose(&interpreter, &model, notes)?;
+        let Some(design) = design else {
+            let rank = identifiable.rank;
+            let message = format!("so few configurations cannot determine {rank} combinations of errors");
+            return Err(mistake::with_help(&machine.origin, message, "plan more of them"));
+        };
+        let used = self.used(&interpreter, description)?;
+        let spread = Figures::from_norms(at_the_tool(&model, &identifiable, &design, &used).map_err(fail)?);
+        let observed = determined(&model, &rows).map_err(fail)?;
+        let moved = setup.moved(&rows);
+        let alike = rows.first().map_or(Ok(Vec::new()), |row| groups(&model, &row.q, &moved, setup.pose));
+        let alike = alike.map_err(|error| mistake::whole(&machine.origin, error))?;
+        Ok(Report {
+            name: machine.spec.name.clone(),
+            length: machine.spec.length.symbol(),
+            title,
+            rows: rows.len(),
+            sets,
+            rank: identifiable.rank,
+            unknowns: model.unknowns.len(),
+            machine: Counts::new(&model, &identifiable),
+            condition: observed.observability.condition,
+            log_det: design.log_det,
+            exchanges: design.exchanges,
+            used: used.len(),
+            predicted: Predicted { mean: spread.mean, rms: spread.rms, max: spread.max, p95: spread.p95 },
+            groups: alike.iter().map(|group| Alike::new(group, &model, description)).collect(),
+            observations: rows,
+        })
+    }
+
+    fn choose(
+        &self,
+        manipulator: &Interpreter,
+        model: &Model,
+        notes: &mut dyn Notes,
+    ) -> Result<Chosen, Diagnostics> {
+        let description = manipulator.description();
+        let fail = |failure: Failure| mistake::whole(&self.machine.origin, failure);
+        match &self.choice {
+            Choice::Sets(sets) => {
+                let (asked, counts) = sets.rows(manipulator, description, notes)?;
+                let rows: Vec<Observation> = (1..)
+                    .zip(asked)
+                    .map(|(line, asked)| Observation {
+                        u: asked.u,
+                        ..self.map.planned(line, asked.q, description)
+                    })
+                    .collect();
+                let identifiable = determined(model, &rows).map_err(fail)?;
+                let design = whole(model, &rows, &identifiable).map_err(fail)?;
+                Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
+            }
+            Choice::Optimal { count, candidates } => {
+                let moved: Vec<usize> = self.map.moved().collect();
+                let samples = joint_samples(manipulator, &moved, *candidates);
+                let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
+                let list: Vec<Observation> = (1..)
+                    .zip(samples)
+                    .map(|(line, sample)| self.map.planned(line, sample.q, description))
+                    .collect();
+                let identifiable = determined(model, &list).map_err(fail)?;
+                let design = d_optimal(model, &list, &identifiable, *count).map_err(fail)?;
+                let chosen = design.iter().flat_map(|design| &design.chosen);
+                let rows = chosen.map(|i| list[*i].clone()).collect();
+                let title = format!("D-optimal: {count} of {} samples", list.len());
+                Ok(Chosen { title, sets: Vec::new(), rows, identifiable, design })
+            }
+        }
+    }
+
+    /// Where the machine is to be used: nothing is measured there.
+    fn used(
+        &self,
+        manipulator: &dyn Manipulator,
+        description: &Description,
+    ) -> Result<Vec<Observation>, Diagnostics> {
+        let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, error);
+        let workspace = self.study.region.workspace(manipulator, None).map_err(fail)?;
+        let step = workspace.len().div_ceil(USED).max(1);
+        let places = (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
+        let mut places: Vec<_> = places.collect();
+        if places.is_empty() {
+            let every: Vec<usize> = (0..description.variables.len()).collect();
+            places = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
+        }
+        let u: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
+        let nothing = || Measurement::Points(Vec::new());
+        let rows =
+            (1..).zip(places).map(|(line, place)| Observation::new(line, place.q, u.clone(), nothing()));
+        Ok(rows.collect())
+    }
+}
+
+impl Report {
+    /// What is to be measured, in the columns and units of the map.
+    pub fn table(&self, map: &Map) -> Table {
+        let rows = self.observations.iter().map(|row| map.numbers(row, [0.0; 3], false));
+        Table { heading: map.heading(false), rows: rows.collect() }
+    }
+}
+
+fn determined(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
+    identifiable(model, rows, &vec![0.0; model.unknowns.len()])
+}
+
+/// The standard deviation of the tool point: a target of its own, which nothing was measured with.
+fn at_the_tool(
+    model: &Model,
+    identifiable: &Identifiable,
+    design: &Design,
+    used: &[Observation],
+) -> Result<Vec<f64>, Failure> {
+    let mut model = model.clone();
+    // A single target at zero is the tool point; where it is on the tool has been measured with the rest.
+    let single =
+        model.targets.len() == 1 && !model.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Tool(_)));
+    let place = if single { 0 } else { model.targets.len() };
+    if !single {
+        model.targets.push([0.0; 3]);
+    }
+    let mut points = vec![None; model.targets.len()];
+    points[place] = Some([0.0; 3]);
+    let list: Vec<Observation> = used
+        .iter()
+        .map(|row| Observation { measured: Measurement::Points(points.clone()), ..row.clone() })
+        .collect();
+    predicted(&model, identifiable, &design.covariance, &list)
+}

@@ -1,0 +1,176 @@
+//! Sets of configurations to be measured: a plan file.
+//!
+//! ```toml
+//! [plan]
+//! title = "Two sets"
+//! repeat = 2                     # how often every row is measured, 1 if not given
+//!
+//! [[set]]
+//! name = "treatment volume"
+//! workspace.joints = { samples = 50 }      # any form that a study's workspace has
+//!
+//! [[set]]
+//! name = "one axis at a time"              # all others at home
+//! axes = { d1 = { from = 0, to = 100, step = 10 } }
+//!
+//! [inputs]                                 # every set is measured with each of these
+//! payload = ["0 kg", "70 kg"]
+//! ```
+
+use std::path::Path;
+use std::sync::Arc;
+
+use abbe::analysis::{Axis, Configuration};
+use abbe::{Description, Manipulator};
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::document::{Document, Section};
+use abbe_codegen::spec::Spec;
+use serde::Serialize;
+
+use crate::workspace::{Candidates, Region, count, read_region};
+use crate::{Notes, mistake};
+
+/// A plan, read and checked.
+#[derive(Clone, Debug)]
+pub struct Sets {
+    pub(super) title: String,
+    repeat: usize,
+    sets: Vec<Set>,
+    inputs: Vec<Axis>,
+}
+
+#[derive(Clone, Debug)]
+struct Set {
+    name: String,
+    content: Content,
+}
+
+#[derive(Clone, Debug)]
+enum Content {
+    Workspace(Region),
+    /// One axis at a time.
+    Axes(Vec<Axis>),
+}
+
+/// A configuration and the inputs it is measured with.
+pub(super) struct Asked {
+    pub(super) q: Vec<f64>,
+    pub(super) u: Vec<f64>,
+}
+
+/// How many rows a set has.
+#[derive(Clone, Debug, Serialize)]
+pub struct Counted {
+    /// Its name.
+    pub name: String,
+    /// How many.
+    pub rows: usize,
+}
+
+impl Sets {
+    /// The plan in a file, or the one shipped under that name.
+    pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
+        let name = argument.to_string_lossy();
+        let shipped = abbe_manipulators::PLANS.iter().find(|(shipped, _)| *shipped == name);
+        let mut document = match shipped {
+            Some((name, text)) if !argument.exists() => Document::new(format!("plans/{name}.toml"), *text),
+            _ => Document::read(argument)?,
+        };
+        let text = Arc::clone(&document.text);
+        let tables = document.tables(&text);
+        let sets = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
+        document.finish(sets)
+    }
+
+    /// Every row, and how many each set has.
+    pub(super) fn rows(
+        &self,
+        manipulator: &dyn Manipulator,
+        description: &Description,
+        notes: &mut dyn Notes,
+    ) -> Result<(Vec<Asked>, Vec<Counted>), Diagnostics> {
+        let home = Configuration::home(description);
+        let nominal: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
+        let mut all_inputs = vec![nominal];
+        for axis in &self.inputs {
+            let each = |u: &Vec<f64>| {
+                let u = u.clone();
+                let with = move |value: &f64| {
+                    let mut u = u.clone();
+                    u[axis.index] = *value;
+                    u
+                };
+                axis.values.iter().map(with).collect::<Vec<_>>()
+            };
+            all_inputs = all_inputs.iter().flat_map(each).collect();
+        }
+        let (mut rows, mut counts) = (Vec::new(), Vec::new());
+        for set in &self.sets {
+            let configurations: Vec<Vec<f64>> = match &set.content {
+                Content::Workspace(region) => {
+                    let workspace = region.workspace(manipulator, None);
+                    let workspace = workspace.map_err(|error| mistake::whole(&set.name, error))?;
+                    let unreached = workspace.len() - workspace.reached().len();
+                    if unreached > 0 {
+                        notes.note(&format!(
+                            "note: {}: {unreached} configurations cannot be reached",
+                            set.name
+                        ));
+                    }
+                    workspace.reached().into_iter().map(|configuration| configuration.q).collect()
+                }
+                Content::Axes(axes) => axes
+                    .iter()
+                    .flat_map(|axis| {
+                        axis.values.iter().map(|value| {
+                            let mut q = home.q.clone();
+                            q[axis.index] = *value;
+                            q
+                        })
+                    })
+                    .collect(),
+            };
+            let before = rows.len();
+            for u in &all_inputs {
+                for _ in 0..self.repeat {
+                    rows.extend(configurations.iter().map(|q| Asked { q: q.clone(), u: u.clone() }));
+                }
+            }
+            counts.push(Counted { name: set.name.clone(), rows: rows.len() - before });
+        }
+        Ok((rows, counts))
+    }
+}
+
+fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets> {
+    root.check_keys(&["plan", "set", "inputs"], document);
+    let mut head = root.required("plan", document).and_then(|item| document.section(&item))?;
+    head.name = "[plan]".to_owned();
+    head.check_keys(&["title", "description", "repeat"], document);
+    let repeat = match head.get("repeat") {
+        Some(item) => count(&item, 1000, document, spec),
+        None => Some(1),
+    };
+    let inputs = match root.get("inputs") {
+        Some(item) => Candidates::inputs(spec).axes(&item, document, spec),
+        None => Vec::new(),
+    };
+    let items =
+        root.required("set", document).and_then(|item| document.array(&item, "tables, each a [[set]]"))?;
+    let mut sets = Vec::new();
+    for item in &items {
+        let mut section = document.section(item)?;
+        section.span = item.span();
+        section.name = "this [[set]]".to_owned();
+        section.check_keys(&["name", "workspace", "axes"], document);
+        let name = section.optional_text("name", document);
+        let content = if let Some(axes) = section.get("axes") {
+            Content::Axes(Candidates::variables(spec).axes(&axes, document, spec))
+        } else {
+            let workspace = section.required("workspace", document)?;
+            Content::Workspace(read_region(&workspace, document, spec)?)
+        };
+        sets.push(Set { name, content });
+    }
+    Some(Sets { title: head.optional_text("title", document), repeat: repeat?, sets, inputs })
+}
