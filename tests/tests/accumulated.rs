@@ -29,12 +29,15 @@ fn evaluated(model: &Model, jacobian: &Jacobian, sample: usize) -> (Vec<[f64; 6]
 }
 
 /// Equal to 1e-13 of what the rows are made of: the largest of each block of three in `scale`.
-fn assert_close(place: &str, found: &[f64; 6], expected: &[f64; 6], scale: &[f64; 6]) {
+fn assert_close(place: &str, actual: &[f64; 6], expected: &[f64; 6], scale: &[f64; 6]) {
     for rows in [0..3, 3..6] {
         let largest = scale[rows.clone()].iter().fold(0.0, |largest: f64, value| largest.max(*value));
         for i in rows {
-            let (found, expected) = (found[i], expected[i]);
-            assert!((found - expected).abs() <= 1e-13 * largest, "{place}, row {i}: {found}, not {expected}");
+            let (actual, expected) = (actual[i], expected[i]);
+            assert!(
+                (actual - expected).abs() <= 1e-13 * largest,
+                "{place}, row {i}: {actual}, not {expected}"
+            );
         }
     }
 }
@@ -47,9 +50,9 @@ fn product(columns: &[[f64; 6]], errors: &[f64]) -> ([f64; 6], [f64; 6]) {
 }
 
 /// ΔX is `J_e ε`.
-fn assert_product(place: &str, found: &[f64; 6], columns: &[[f64; 6]], errors: &[f64]) {
+fn assert_product(place: &str, displacement: &[f64; 6], columns: &[[f64; 6]], errors: &[f64]) {
     let (expected, scale) = product(columns, errors);
-    assert_close(place, found, &expected, &scale);
+    assert_close(place, displacement, &expected, &scale);
 }
 
 fn compare(spec: &Spec) {

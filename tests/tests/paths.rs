@@ -13,9 +13,9 @@ fn configurations<const N: usize>(robot: &dyn Manipulator) -> Vec<[f64; N]> {
     (0..SAMPLES).map(|index| joint_sample(description, 1.0, &moved, index).try_into().unwrap()).collect()
 }
 
-fn assert_close(place: &str, found: &[f64], expected: &[f64], tolerance: f64) {
-    assert_eq!(found.len(), expected.len());
-    for (i, (a, b)) in found.iter().zip(expected).enumerate() {
+fn assert_close(place: &str, actual: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(actual.len(), expected.len());
+    for (i, (a, b)) in actual.iter().zip(expected).enumerate() {
         assert!((a - b).abs() <= tolerance, "{place}, number {i}: {a}, not {b}");
     }
 }
@@ -81,8 +81,8 @@ macro_rules! tests {
                     std::array::from_fn(|k| ((6 * i + k) as f64 * 1.7 + sample as f64).sin())
                 });
                 let (expected, scale) = product(errors.as_flattened());
-                let found = displacement(&q, &s, &errors).unwrap();
-                assert_close(NAME, &found, &expected, 1e-13 * scale);
+                let given = displacement(&q, &s, &errors).unwrap();
+                assert_close(NAME, &given, &expected, 1e-13 * scale);
 
                 let errors = generalized_errors(&q, &s, &u).unwrap();
                 let (expected, scale) = product(errors.as_flattened());
@@ -91,7 +91,7 @@ macro_rules! tests {
 
                 let effects = effects(&q, &s, &u).unwrap();
                 let by_source = source_displacements(&q, &s, &u).unwrap();
-                for (source, found) in by_source.iter().enumerate() {
+                for (source, displacement) in by_source.iter().enumerate() {
                     let mut errors = [[0.0; 6]; FRAMES];
                     for (effect, value) in DESCRIPTION.effects.iter().zip(effects) {
                         if effect.source == source {
@@ -99,22 +99,22 @@ macro_rules! tests {
                         }
                     }
                     let (expected, scale) = product(errors.as_flattened());
-                    assert_close(NAME, found, &expected, 1e-13 * scale);
+                    assert_close(NAME, displacement, &expected, 1e-13 * scale);
                 }
 
                 let variances = errors.map(|six| six.map(|error| error * error));
-                let found = covariance(&q, &s, &variances).unwrap();
+                let covariance = covariance(&q, &s, &variances).unwrap();
                 let expected: [[f64; 6]; 6] = std::array::from_fn(|j| {
                     let weighted: Vec<f64> =
                         columns.iter().zip(variances.as_flattened()).map(|(c, v)| c[j] * v).collect();
                     product(&weighted).0
                 });
                 let sigma: [f64; 6] = std::array::from_fn(|i| expected[i][i].sqrt());
-                for (j, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                for (j, (column, expected)) in covariance.iter().zip(&expected).enumerate() {
                     let own = largest(&sigma[j / 3 * 3..][..3]);
                     for rows in [0..3, 3..6] {
                         let scale = own * largest(&sigma[rows.clone()]);
-                        assert_close(NAME, &found[rows.clone()], &expected[rows], 1e-13 * scale);
+                        assert_close(NAME, &column[rows.clone()], &expected[rows], 1e-13 * scale);
                     }
                 }
             }
@@ -128,13 +128,13 @@ macro_rules! tests {
                 $robot.transforms(&q, &s.to_array(), &mut transforms).unwrap();
                 let errors = generalized_errors(&q, &s, &u).unwrap();
                 let expected = abbe::real_pose(&transforms, &errors);
-                let found = real_pose(&q, &s, &u).unwrap();
-                assert_close(NAME, found.0[..3].as_flattened(), expected.0[..3].as_flattened(), 1e-12);
+                let real = real_pose(&q, &s, &u).unwrap();
+                assert_close(NAME, real.0[..3].as_flattened(), expected.0[..3].as_flattened(), 1e-12);
                 let scale = largest(&transforms.map(|transform| largest(&transform.position())));
-                assert_close(NAME, &found.position(), &expected.position(), 1e-12 * scale);
+                assert_close(NAME, &real.position(), &expected.position(), 1e-12 * scale);
 
                 let (pose, columns) = compensator_step(&q, &s, &u).unwrap();
-                assert_eq!(pose, found);
+                assert_eq!(pose, real);
                 for (variable, column) in columns.iter().enumerate() {
                     let expected = differences(&$robot, &q, &s.to_array(), variable);
                     let scale = scale.max(1.0);

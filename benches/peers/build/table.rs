@@ -25,17 +25,17 @@ pub fn table(spec: &Spec) -> Value {
 }
 
 fn expression(graph: &Graph, spec: &Spec, node: Node) -> String {
-    let of = |node| expression(graph, spec, node);
+    let text = |node| expression(graph, spec, node);
     match graph.op(node) {
         // Whole numbers stay whole, so that 0 and 1 are recognized everywhere.
         Op::Constant(bits) => format!("{}", f64::from_bits(bits)),
         Op::Symbol(Symbol::Variable(index)) => spec.variables[index].name.clone(),
-        Op::Neg(a) => format!("(-{})", of(a)),
-        Op::Add(a, b) => format!("({} + {})", of(a), of(b)),
-        Op::Sub(a, b) => format!("({} - {})", of(a), of(b)),
-        Op::Mul(a, b) => format!("({} * {})", of(a), of(b)),
-        Op::Call(Function::Sin, a) => format!("sin({})", of(a)),
-        Op::Call(Function::Cos, a) => format!("cos({})", of(a)),
+        Op::Neg(a) => format!("(-{})", text(a)),
+        Op::Add(a, b) => format!("({} + {})", text(a), text(b)),
+        Op::Sub(a, b) => format!("({} - {})", text(a), text(b)),
+        Op::Mul(a, b) => format!("({} * {})", text(a), text(b)),
+        Op::Call(Function::Sin, a) => format!("sin({})", text(a)),
+        Op::Call(Function::Cos, a) => format!("cos({})", text(a)),
         other => panic!("{}: the generators are not told of {other:?}", spec.name),
     }
 }

@@ -85,10 +85,10 @@ impl Answers {
             let result = self.result(row.kind, index);
             let pose = self.poses[index].as_flattened();
             let pose = if row.kind.has_pose() { pose } else { &[] };
-            let found = output.pose.iter().take(pose.len()).chain(&output.result);
-            for (right, found) in pose.iter().chain(&result).zip(found) {
+            let given = output.pose.iter().take(pose.len()).chain(&output.result);
+            for (right, given) in pose.iter().chain(&result).zip(given) {
                 // NaN is what was never written.
-                let off = (right - found).abs();
+                let off = (right - given).abs();
                 largest = if off.is_nan() { f64::INFINITY } else { largest.max(off) };
             }
         }

@@ -25,8 +25,8 @@ pub fn rows(robot: &str) -> Vec<Row> {
     for (library, shown) in LIBRARIES {
         for kind in Kind::ALL {
             let name = format!("{library}_{robot}_{}", kind.name());
-            let found = FUNCTIONS.iter().find(|(listed, _)| **listed == name);
-            let function = found.unwrap_or_else(|| panic!("{name} was not generated")).1;
+            let listed = FUNCTIONS.iter().find(|(listed, _)| **listed == name);
+            let function = listed.unwrap_or_else(|| panic!("{name} was not generated")).1;
             // Safety: generated for this robot; a row has room for all that it reads and writes.
             rows.push(match kind {
                 Kind::Dense | Kind::Distinct => {

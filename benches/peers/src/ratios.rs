@@ -13,8 +13,8 @@ pub fn head() -> String {
 /// The lines of a robot.
 pub fn lines(robot: &str, rows: &[Row], times: &[Times]) -> Vec<String> {
     let ratios = Ratios { rows, times };
-    let line = |title: &str, of: &dyn Fn(Kind) -> Option<f64>| {
-        let cells = Kind::ALL.map(|kind| of(kind).map_or(String::new(), |ratio| format!("{ratio:.2}")));
+    let line = |title: &str, ratio: &dyn Fn(Kind) -> Option<f64>| {
+        let cells = Kind::ALL.map(|kind| ratio(kind).map_or(String::new(), |ratio| format!("{ratio:.2}")));
         format!("| {robot} | {title} | {} |", cells.join(" | "))
     };
     let single = |row: &Row| row.side == Side::Ours && row.block == 1;
@@ -24,11 +24,13 @@ pub fn lines(robot: &str, rows: &[Row], times: &[Times]) -> Vec<String> {
     let generator = |row: &Row| row.side == Side::Generator;
     let library = |row: &Row| row.side == Side::Library;
     vec![
-        line("best generator / ours, one by one", &|kind| ratios.of(kind, generator, single)),
-        line("Pinocchio / ours, one by one", &|kind| ratios.of(kind, library, single)),
-        line("best generator / our best batch", &|kind| ratios.of(kind, generator, batch)),
-        line("Pinocchio / our best batch", &|kind| ratios.of(kind, library, batch)),
-        line(&format!("interpreter / compiled, {MANY} at once"), &|kind| ratios.of(kind, interpreted, many)),
+        line("best generator / ours, one by one", &|kind| ratios.fastest_over(kind, generator, single)),
+        line("Pinocchio / ours, one by one", &|kind| ratios.fastest_over(kind, library, single)),
+        line("best generator / our best batch", &|kind| ratios.fastest_over(kind, generator, batch)),
+        line("Pinocchio / our best batch", &|kind| ratios.fastest_over(kind, library, batch)),
+        line(&format!("interpreter / compiled, {MANY} at once"), &|kind| {
+            ratios.fastest_over(kind, interpreted, many)
+        }),
     ]
 }
 
@@ -39,7 +41,12 @@ struct Ratios<'t> {
 
 impl Ratios<'_> {
     /// The fastest of some rows over the fastest of others.
-    fn of(&self, kind: Kind, these: impl Fn(&Row) -> bool, those: impl Fn(&Row) -> bool) -> Option<f64> {
+    fn fastest_over(
+        &self,
+        kind: Kind,
+        these: impl Fn(&Row) -> bool,
+        those: impl Fn(&Row) -> bool,
+    ) -> Option<f64> {
         Some(self.fastest(kind, these)? / self.fastest(kind, those)?)
     }
 
