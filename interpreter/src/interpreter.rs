@@ -1,12 +1,13 @@
 //! A spec as a [`Manipulator`].
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use abbe::lanes::{Path, Tiles};
-use abbe::{Description, Error, Manipulator, Pose, Quantity, checks};
+use abbe::analysis::Sweepable;
+use abbe::lanes::{self, Batches, Tiles};
+use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks};
 use abbe_codegen::chain::{EffectNode, Model};
 use abbe_codegen::program::FunctionKind;
-use abbe_codegen::spec::{Orientation, Spec};
+use abbe_codegen::spec::Spec;
 
 use crate::lanes::{Batch, Block};
 use crate::tape::Tape;
@@ -19,45 +20,19 @@ const POSE: usize = 12;
 pub struct Interpreter {
     spec: Arc<Spec>,
     description: Description,
-    euler: bool,
-    transforms: Tape,
-    pose: Tape,
-    error_jacobian: Tape,
-    joint_jacobian: Tape,
-    parameter_jacobian: Tape,
-    effects: Tape,
-    generalized_errors: Tape,
-    /// In the order of [`Path::ALL`].
-    batches: [Tape; Path::ALL.len()],
+    model: Arc<Model>,
+    /// In the order of [`Function::ALL`]; made when they are first asked for.
+    tapes: [OnceLock<Tape>; Function::ALL.len()],
 }
 
 impl Interpreter {
-    /// Prepares the programs of a spec, which it keeps.
+    /// Prepares a spec, which it keeps.
     pub fn new(spec: impl Into<Arc<Spec>>) -> Self {
         let spec = spec.into();
         let model = Model::new(&spec);
-        let counts = [spec.variables.len(), spec.parameters.len(), spec.inputs.len()];
-        let tape = |kind: FunctionKind| {
-            let errors = match kind {
-                FunctionKind::Displacement | FunctionKind::Covariance => 6 * spec.frames.len(),
-                _ => 0,
-            };
-            let [variables, parameters, inputs] = counts;
-            Tape::new(&kind.program(&model), [variables, parameters, inputs, errors])
-        };
-        Self {
-            description: spec.describe(model.effects.iter().map(EffectNode::effect)),
-            euler: spec.orientation == Orientation::EulerYzx,
-            transforms: tape(FunctionKind::Transforms),
-            pose: tape(FunctionKind::Pose),
-            error_jacobian: tape(FunctionKind::ErrorJacobian),
-            joint_jacobian: tape(FunctionKind::JointJacobian),
-            parameter_jacobian: tape(FunctionKind::ParameterJacobian),
-            effects: tape(FunctionKind::Effects),
-            generalized_errors: tape(FunctionKind::GeneralizedErrors),
-            batches: Path::ALL.map(|path| tape(kind(path))),
-            spec,
-        }
+        let description = spec.describe(model.effects.iter().map(EffectNode::effect));
+        let tapes = [const { OnceLock::new() }; Function::ALL.len()];
+        Self { spec, description, model: Arc::new(model), tapes }
     }
 
     /// The spec that it runs.
@@ -65,61 +40,67 @@ impl Interpreter {
         &self.spec
     }
 
-    /// Checks the arguments of one configuration.
-    fn check(&self, q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
-        let description = &self.description;
-        for (quantity, values, expected) in [
-            (Quantity::Variables, q, description.variables.len()),
-            (Quantity::Parameters, s, description.parameters.len()),
-            (Quantity::Inputs, u, description.inputs.len()),
-        ] {
-            count(quantity, expected, values.len())?;
-            checks::finite(quantity, values)?;
+    /// The program of a function, ready to run.
+    fn tape(&self, function: Function) -> &Tape {
+        self.tapes[function as usize].get_or_init(|| {
+            let numbers = |quantity: Quantity| {
+                let arrays = function.signature().arguments.iter();
+                arrays
+                    .filter(|array| array.quantity == quantity)
+                    .map(|array| array.len(&self.description))
+                    .sum()
+            };
+            let symbols = [Quantity::Variables, Quantity::Parameters, Quantity::Inputs, Quantity::Errors];
+            Tape::new(&FunctionKind::ALL[function as usize].program(&self.model), symbols.map(numbers))
+        })
+    }
+
+    /// The results of a function at one configuration, one after the other, finite and not singular.
+    fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
+        let signature = function.signature();
+        for (array, values) in signature.arguments.iter().zip(arguments) {
+            count(array.quantity, array.len(&self.description), values.len())?;
+            checks::finite(array.quantity, values)?;
         }
-        checks::inputs(&description.inputs, u)
-    }
-
-    /// The inputs at their default values, for what does not depend on them.
-    fn nominal_inputs(&self) -> Vec<f64> {
-        self.description.inputs.iter().map(|input| input.nominal).collect()
-    }
-
-    /// Runs a tape at one configuration.
-    fn run(&self, tape: &Tape, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<f64>, Error> {
-        self.check(q, s, u)?;
+        if let [_, _, u] = arguments {
+            checks::inputs(&self.description.inputs, u)?;
+        }
+        let tape = self.tape(function);
         let mut rows = vec![[0.0]; tape.slots];
         let mut block = Block::new(tape, &mut rows);
-        for (slot, value) in q.iter().chain(s).chain(u).enumerate() {
+        for (slot, value) in arguments.iter().copied().flatten().enumerate() {
             block.set(slot, 0, *value);
         }
         block.run(tape);
-        Ok(tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect())
+        let values: Vec<f64> = tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect();
+        let mut rest = values.as_slice();
+        if signature.has_margin(self.description.orientation)
+            && let Some((margin, results)) = values.split_last()
+        {
+            checks::margin(*margin)?;
+            rest = results;
+        }
+        for array in signature.results {
+            let (result, others) = rest.split_at(array.len(&self.description));
+            checks::finite(array.quantity, result)?;
+            rest = others;
+        }
+        Ok(values)
     }
 
-    fn jacobian(&self, tape: &Tape, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        let margin = usize::from(self.euler);
-        count(Quantity::Jacobian, (tape.outputs.len() - POSE - margin) / 6, columns.len())?;
-        let values = self.run(tape, q, s, &self.nominal_inputs())?;
-        self.finish_jacobian(values.into_iter(), columns)
-    }
-
-    /// Takes apart and checks a pose, the columns of a Jacobian and the margin, if there is one.
-    fn finish_jacobian(
+    fn jacobian(
         &self,
-        mut values: impl Iterator<Item = f64>,
+        function: Function,
+        expected: usize,
+        q: &[f64],
+        s: &[f64],
         columns: &mut [[f64; 6]],
     ) -> Result<Pose, Error> {
-        let mut pose = Pose::IDENTITY;
-        for (entry, value) in pose.0.as_flattened_mut().iter_mut().zip(&mut values) {
-            *entry = value;
-        }
-        for (entry, value) in columns.as_flattened_mut().iter_mut().zip(&mut values) {
-            *entry = value;
-        }
-        checks::margin(values.next().unwrap_or(1.0))?;
-        checks::finite(Quantity::Pose, pose.0.as_flattened())?;
-        checks::finite(Quantity::Jacobian, columns.as_flattened())?;
-        Ok(pose)
+        count(Quantity::Jacobian, expected, columns.len())?;
+        let values = self.run(function, &[q, s])?;
+        let (pose, rest) = values.split_at(POSE);
+        columns.as_flattened_mut().copy_from_slice(&rest[..6 * expected]);
+        Ok(pose_of(pose))
     }
 }
 
@@ -129,9 +110,8 @@ impl Manipulator for Interpreter {
     }
 
     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        count(Quantity::Pose, self.transforms.outputs.len() / POSE, transforms.len())?;
-        let values = self.run(&self.transforms, q, s, &self.nominal_inputs())?;
-        checks::finite(Quantity::Pose, &values)?;
+        count(Quantity::Pose, self.description.frames.len() + 1, transforms.len())?;
+        let values = self.run(Function::Transforms, &[q, s])?;
         for (transform, values) in transforms.iter_mut().zip(values.chunks_exact(POSE)) {
             *transform = pose_of(values);
         }
@@ -139,28 +119,24 @@ impl Manipulator for Interpreter {
     }
 
     fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        let values = self.run(&self.pose, q, s, &self.nominal_inputs())?;
-        checks::finite(Quantity::Pose, &values)?;
-        Ok(pose_of(&values))
+        Ok(pose_of(&self.run(Function::Pose, &[q, s])?))
     }
 
     fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(&self.error_jacobian, q, s, columns)
+        self.jacobian(Function::ErrorJacobian, 6 * self.description.frames.len(), q, s, columns)
     }
 
     fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(&self.joint_jacobian, q, s, columns)
+        self.jacobian(Function::JointJacobian, self.description.variables.len(), q, s, columns)
     }
 
     fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(&self.parameter_jacobian, q, s, columns)
+        self.jacobian(Function::ParameterJacobian, self.description.parameters.len(), q, s, columns)
     }
 
     fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        count(Quantity::Errors, self.effects.outputs.len(), effects.len())?;
-        let values = self.run(&self.effects, q, s, u)?;
-        checks::finite(Quantity::Errors, &values)?;
-        effects.copy_from_slice(&values);
+        count(Quantity::Errors, self.description.effects.len(), effects.len())?;
+        effects.copy_from_slice(&self.run(Function::Effects, &[q, s, u])?);
         Ok(())
     }
 
@@ -171,31 +147,27 @@ impl Manipulator for Interpreter {
         u: &[f64],
         errors: &mut [[f64; 6]],
     ) -> Result<(), Error> {
-        count(Quantity::Errors, self.generalized_errors.outputs.len() / 6, errors.len())?;
-        let values = self.run(&self.generalized_errors, q, s, u)?;
-        checks::finite(Quantity::Errors, &values)?;
-        errors.as_flattened_mut().copy_from_slice(&values);
-        Ok(())
-    }
-
-    fn batch(&self, path: Path, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
-        path.check(self.description(), arguments, results)?;
-        let tape = &self.batches[path as usize];
-        arguments.instruction_set().run(Batch { tape, arguments, results });
+        count(Quantity::Errors, self.description.frames.len(), errors.len())?;
+        errors.as_flattened_mut().copy_from_slice(&self.run(Function::GeneralizedErrors, &[q, s, u])?);
         Ok(())
     }
 }
 
-/// The program of a batch function.
-fn kind(path: Path) -> FunctionKind {
-    match path {
-        Path::Pose => FunctionKind::Pose,
-        Path::ErrorJacobian => FunctionKind::ErrorJacobian,
-        Path::DistinctErrorJacobian => FunctionKind::ErrorJacobianDistinct,
-        Path::Displacement => FunctionKind::Displacement,
-        Path::PredictedDisplacement => FunctionKind::PredictedDisplacement,
-        Path::SourceDisplacements => FunctionKind::SourceDisplacements,
-        Path::Covariance => FunctionKind::Covariance,
+impl Batches for Interpreter {
+    fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
+        lanes::check(function, &self.description, arguments, results)?;
+        arguments.instruction_set().run(Batch { tape: self.tape(function), arguments, results });
+        Ok(())
+    }
+}
+
+impl Sweepable for Interpreter {
+    fn poses(&self, arguments: &Tiles, poses: &mut Tiles) -> Result<(), Error> {
+        self.batch(Function::Pose, arguments, poses)
+    }
+
+    fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<(), Error> {
+        self.batch(Function::SourceDisplacements, arguments, displacements)
     }
 }
 

@@ -14,22 +14,22 @@
 //! Many configurations at once, in the widest registers of the machine:
 //!
 //! ```
-//! use abbe::Manipulator;
-//! use abbe::lanes::{InstructionSet, Path, Tiles};
-//! use abbe_manipulators::pps::{self, Pps};
+//! use abbe::Function;
+//! use abbe::lanes::{self, InstructionSet, PredictedDisplacement, Tiles};
+//! use abbe_manipulators::pps::{self, DESCRIPTION, Pps};
 //!
 //! let (set, count) = (InstructionSet::best(), 1000);
-//! let path = Path::PredictedDisplacement;
-//! let mut arguments = Tiles::new(set, path.arguments(&pps::DESCRIPTION), count); // rows q, s, u
-//! let home = pps::DESCRIPTION.variables.iter().map(|variable| variable.home);
+//! let signature = Function::PredictedDisplacement.signature(); // takes q, s, u
+//! let mut arguments = Tiles::new(set, signature.arguments_len(&DESCRIPTION), count);
+//! let home = DESCRIPTION.variables.iter().map(|variable| variable.home);
 //! for (row, value) in home.chain(pps::Parameters::NOMINAL.to_array()).enumerate() {
 //!     arguments.fill_row(row, value);
 //! }
 //! for i in 0..count {
 //!     arguments.set_value(0, i, 2.256 * i as f64); // along the rail
 //! }
-//! let mut results = Tiles::new(set, path.results(&pps::DESCRIPTION), count);
-//! Pps.batch(path, &arguments, &mut results)?;
+//! let mut results = Tiles::new(set, signature.results_len(&DESCRIPTION), count);
+//! lanes::run(&Pps, PredictedDisplacement, &arguments, &mut results)?;
 //!
 //! let q = [1128.0, 280.0, 0.0, 0.0, 0.0, 0.0];
 //! let one = pps::predicted_displacement(&q, &pps::Parameters::NOMINAL, &pps::Inputs::NOMINAL)?;

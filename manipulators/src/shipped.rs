@@ -1,6 +1,6 @@
 //! The files themselves, for programs that read specs at run time.
 
-use abbe::Manipulator;
+use abbe::analysis::Sweepable;
 
 /// A shipped manipulator.
 #[derive(Clone, Copy)]
@@ -11,8 +11,8 @@ pub struct Shipped {
     pub spec: &'static str,
     /// The text of `studies/NAME.toml`, if it has a study of its own.
     pub study: Option<&'static str>,
-    /// Its generated code.
-    pub compiled: &'static (dyn Manipulator + Sync),
+    /// Its generated code, with the lanes that sweeps need.
+    pub compiled: &'static dyn Sweepable,
 }
 
 macro_rules! shipped {

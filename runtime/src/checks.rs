@@ -1,6 +1,6 @@
 //! What every manipulator checks, generated or interpreted, before and after its arithmetic.
 
-use crate::{Error, Input, MINIMUM_MARGIN, Quantity};
+use crate::{Error, Input, MINIMUM_MARGIN, Quantity, Scalar};
 
 /// The values of an argument as an array, if there are exactly `N` and all are finite.
 pub fn argument<const N: usize>(quantity: Quantity, values: &[f64]) -> Result<&[f64; N], Error> {
@@ -25,27 +25,31 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
     Err(Error::NotFinite { quantity, index })
 }
 
-/// Whether Euler rows exist at the margin `cos ρ` that a raw function returned.
-pub fn margin(margin: impl Margin) -> Result<(), Error> {
-    let margin = margin.cosine();
-    if margin >= MINIMUM_MARGIN { Ok(()) } else { Err(Error::EulerSingularity { margin }) }
-}
-
-/// How far rows 4–6 are from a singularity: raw functions return `cos ρ`, or nothing where there is none.
-pub trait Margin {
-    /// The margin, 1 where there is no singularity.
-    fn cosine(self) -> f64;
-}
-
-impl Margin for f64 {
-    fn cosine(self) -> f64 {
-        self
+/// Whether Euler rows exist at the margin `cos ρ` that a generated function returned.
+pub fn margin(margin: impl Margin<f64>) -> Result<(), Error> {
+    match margin.cosine() {
+        Some(margin) if !(margin >= MINIMUM_MARGIN) => Err(Error::EulerSingularity { margin }),
+        _ => Ok(()),
     }
 }
 
-impl Margin for () {
-    fn cosine(self) -> f64 {
-        1.0
+/// How far rows 4–6 are from a singularity: generated functions return `cos ρ`, or nothing where there is none.
+pub trait Margin<T> {
+    /// `cos ρ`, where there is one.
+    fn cosine(self) -> Option<T>;
+}
+
+impl<T: Scalar> Margin<T> for T {
+    #[inline(always)]
+    fn cosine(self) -> Option<T> {
+        Some(self)
+    }
+}
+
+impl<T> Margin<T> for () {
+    #[inline(always)]
+    fn cosine(self) -> Option<T> {
+        None
     }
 }
 
@@ -74,7 +78,7 @@ pub fn use_case(description: &[Input], q: &[f64], s: &[f64], u: &[f64]) -> Resul
 }
 
 /// Whether a displacement or covariance exists at the margin that a raw function returned, and is finite.
-pub fn displacement(cosine: impl Margin, values: &[f64]) -> Result<(), Error> {
+pub fn displacement(cosine: impl Margin<f64>, values: &[f64]) -> Result<(), Error> {
     margin(cosine)?;
     finite(Quantity::Displacement, values)
 }

@@ -182,6 +182,8 @@ macro_rules! checked_face {
             })
         }
 
+        $crate::lane_functions!($crate::evaluate_functions, $name);
+
         impl $crate::Manipulator for $name {
             fn description(&self) -> &$crate::Description {
                 &DESCRIPTION
@@ -202,8 +204,6 @@ macro_rules! checked_face {
                 *transforms = columns.map($crate::Pose);
                 Ok(())
             }
-
-            $crate::batch_face!();
 
             fn pose(&self, q: &[f64], s: &[f64]) -> Result<$crate::Pose, $crate::Error> {
                 let q = $crate::checks::argument($crate::Quantity::Variables, q)?;

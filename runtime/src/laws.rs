@@ -38,13 +38,13 @@
 //! #     fn generalized_errors(&self, q: &[f64], s: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<(), Error> { self.pose(q, s).map(|_| ()) }
 //! # }
 //! // One line in your tests:
-//! abbe::test_manipulator!(Slide);
+//! abbe::test_manipulator!(abbe::lanes::OneByOne(Slide));
 //! # use abbe::laws;
 //! # fn main() -> Result<(), laws::Failure> {
 //! // Or ask for the figures:
 //! assert!(laws::error_jacobian(&Slide, laws::SAMPLES)?.relative < laws::DERIVATIVE_TOLERANCE);
 //! assert!((laws::remainder_slope(&Slide, laws::SAMPLES)?.slope - 2.0).abs() < laws::SLOPE_TOLERANCE);
-//! laws::all(&Slide, laws::SAMPLES)
+//! laws::all(&abbe::lanes::OneByOne(Slide), laws::SAMPLES)
 //! # }
 //! ```
 
@@ -58,13 +58,13 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
-pub use batches::batches;
+pub use batches::{batches, sweeps};
 pub use contract::{contract, pose};
 pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian};
 pub use failure::{Discrepancy, Failure};
 pub use remainder::{Slope, remainder_slope};
 
-use crate::Manipulator;
+use crate::analysis::Sweepable;
 
 /// How many configurations [`test_manipulator!`](crate::test_manipulator) looks at.
 pub const SAMPLES: usize = 200;
@@ -75,10 +75,10 @@ pub const ROUNDING_TOLERANCE: f64 = 1e-11;
 /// How far from 2 the slope of the first-order remainder may be.
 pub const SLOPE_TOLERANCE: f64 = 0.05;
 
-/// All laws, each to its tolerance.
-pub fn all(manipulator: &dyn Manipulator, samples: usize) -> Result<(), Failure> {
+/// All laws, each to its tolerance; of batches those that sweeps need.
+pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
     contract(manipulator, samples)?.within("outputs", ROUNDING_TOLERANCE)?;
-    batches(manipulator, samples)?.within("batches", ROUNDING_TOLERANCE)?;
+    sweeps(manipulator, samples)?.within("batches", ROUNDING_TOLERANCE)?;
     pose(manipulator, samples)?.within("pose", ROUNDING_TOLERANCE)?;
     error_jacobian(manipulator, samples)?.within("error Jacobian", DERIVATIVE_TOLERANCE)?;
     joint_jacobian(manipulator, samples)?.within("joint Jacobian", DERIVATIVE_TOLERANCE)?;
@@ -87,6 +87,9 @@ pub fn all(manipulator: &dyn Manipulator, samples: usize) -> Result<(), Failure>
 }
 
 /// Tests of all [`laws`](crate::laws) for one manipulator, at 200 configurations within its limits.
+///
+/// All its functions are compiled for lanes and held against single configurations; a manipulator without lanes is tested as
+/// [`OneByOne`](crate::lanes::OneByOne).
 ///
 /// `test_manipulator!(EXPR)` makes a module `manipulator_laws` of tests; `test_manipulator!(name: EXPR)` names
 /// the module, so that there can be several. The expression sees what is in scope outside.

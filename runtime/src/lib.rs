@@ -5,10 +5,17 @@
 //! pose and of its error Jacobian `J_e = ∂X_T/∂ε`, so that `ΔX ≈ J_e ε`; this crate gives them their types,
 //! the exact chain to check them against, and the analysis of a machine's errors over its workspace.
 //!
-//! The core is `no_std` and never allocates. Features, all on by default: `std` (the platform's own functions, and
-//! `mul_add`), `nalgebra` (views without copying), `analysis` (the modules [`analysis`] and [`laws`]), `identify` (the
-//! module [`identify`]: errors from measurements), `lanes` (the module [`lanes`]: many configurations at once), `parallel`
-//! (sweeps on all cores).
+//! The core is `no_std`, never allocates, and is all that poses, Jacobians and compensated commands need. Only `std` is on
+//! by default:
+//!
+//! | feature | brings | and builds |
+//! |---|---|---|
+//! | `std` | the platform's own functions in place of `libm`'s | |
+//! | `nalgebra` | poses and Jacobians as nalgebra types, without copying | nalgebra |
+//! | `lanes` | the module `lanes`: many configurations at once | bytemuck, pulp |
+//! | `analysis` | the modules `analysis` (errors over a workspace) and `laws` (tests of your manipulator) | those of `lanes` and `nalgebra`, rand |
+//! | `identify` | the module `identify`: errors from measurements | those of `analysis` |
+//! | `parallel` | sweeps on all cores: the same results, sooner | those of `analysis`, rayon |
 //!
 //! | convention | here |
 //! |---|---|
@@ -37,6 +44,8 @@ mod pose;
 mod scalar;
 mod shared;
 mod sin_cos;
+#[cfg(feature = "lanes")]
+mod twist;
 
 #[cfg(feature = "analysis")]
 pub mod analysis;
@@ -47,8 +56,8 @@ pub mod lanes;
 #[cfg(not(feature = "lanes"))]
 #[doc(hidden)]
 #[macro_export]
-macro_rules! batch_face {
-    () => {};
+macro_rules! lane_functions {
+    ($($any:tt)*) => {};
 }
 #[cfg(feature = "analysis")]
 pub mod laws;

@@ -43,18 +43,4 @@ pub trait Manipulator: Sync {
         u: &[f64],
         errors: &mut [[f64; 6]],
     ) -> Result<(), Error>;
-
-    /// A function of many configurations at once, see [`Path`](crate::lanes::Path) for what it takes and gives.
-    ///
-    /// Nothing but counts is checked: what is not finite, or not defined, stays so in its configuration. By default
-    /// one configuration after the other; generated and interpreted manipulators fill the lanes of the machine.
-    #[cfg(feature = "lanes")]
-    fn batch(
-        &self,
-        path: crate::lanes::Path,
-        arguments: &crate::lanes::Tiles,
-        results: &mut crate::lanes::Tiles,
-    ) -> Result<(), Error> {
-        crate::lanes::one_by_one(self, path, arguments, results)
-    }
 }

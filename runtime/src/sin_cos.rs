@@ -4,9 +4,11 @@
 //! `cos r = 1 + r² (−1/2 + r² C(r²))` with the minimax polynomials of fdlibm (below 2⁻⁵⁸), then the quadrant `n`.
 //! Below 1.7 ulp for `|x| ≤` [`REACH`].
 
-use crate::Scalar;
-#[cfg(feature = "lanes")]
-use crate::lanes::{Lanes, Pair};
+mod pair;
+
+use core::ops::{Add, Mul, Sub};
+
+use pair::Pair;
 
 /// How far from zero [`near`] holds: beyond it `n` has more bits than its products with π/2 leave free.
 pub(crate) const REACH: f64 = 1e5;
@@ -47,9 +49,15 @@ const COSINE: [f64; 7] = [
 ];
 
 /// What can be computed with as numbers and as bits.
-pub(crate) trait Real: Scalar {
+pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// Whether `a · b + c` is rounded once.
     const FUSED: bool;
+    /// A number.
+    fn number(value: f64) -> Self;
+    /// `self · b + c`.
+    fn times_plus(self, b: Self, c: Self) -> Self;
+    /// `c − self · b`.
+    fn times_from(self, b: Self, c: Self) -> Self;
     /// Exclusive or of the bits.
     fn xor(self, other: Self) -> Self;
     /// And of the bits.
@@ -62,6 +70,21 @@ pub(crate) trait Real: Scalar {
 
 impl Real for f64 {
     const FUSED: bool = false;
+
+    #[inline(always)]
+    fn number(value: f64) -> f64 {
+        value
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: f64, c: f64) -> f64 {
+        self * b + c
+    }
+
+    #[inline(always)]
+    fn times_from(self, b: f64, c: f64) -> f64 {
+        c - self * b
+    }
 
     #[inline(always)]
     fn xor(self, other: f64) -> f64 {
@@ -92,7 +115,7 @@ pub(crate) fn near<T: Real>(x: T) -> (T, T) {
     let (z, r) = (r * r, turn(r, n));
     let (sine, cosine) = polynomials(r, z);
     // −0 + 0 is 0.
-    let (sign, zero) = (T::constant(-0.0), sine.and(r).and(T::constant(-0.0)));
+    let (sign, zero) = (T::number(-0.0), sine.and(r).and(T::number(-0.0)));
     let sine = sine.xor(r.and(sign)).xor(zero);
     swap(sine, cosine, n)
 }
@@ -111,7 +134,7 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
     }
 }
 
-/// Sine and cosine of several `f64`, with the bits of [`scalar`]: pairs of angles share SSE2 instructions.
+/// Sine and cosine of several `f64`, with the bits of [`scalar`]: pairs of angles share instructions.
 #[inline(always)]
 pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
     let mut all = true;
@@ -122,18 +145,12 @@ pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
         return angles.map(scalar);
     }
     let mut results = [(0.0, 0.0); N];
-    #[cfg(feature = "lanes")]
     for i in (0..N).step_by(2) {
         // Two at a time, the last one twice if their number is odd.
         let j = (i + 1).min(N - 1);
-        let (sines, cosines) = near(Lanes::<Pair>::from_fn(|lane| angles[if lane == 0 { i } else { j }]));
-        for (lane, place) in [(1, j), (0, i)] {
-            results[place] = (sines.to_slice()[lane], cosines.to_slice()[lane]);
-        }
-    }
-    #[cfg(not(feature = "lanes"))]
-    for i in 0..N {
-        results[i] = near(angles[i]);
+        let (Pair(sines), Pair(cosines)) = near(Pair([angles[i], angles[j]]));
+        results[j] = (sines[1], cosines[1]);
+        results[i] = (sines[0], cosines[0]);
     }
     results
 }
@@ -156,13 +173,13 @@ pub(crate) fn beyond(x: f64) -> (f64, f64) {
 /// and what has `n` in its lowest bits.
 #[inline(always)]
 fn reduce<T: Real>(x: T) -> (T, T) {
-    let round = T::constant(ROUND);
-    let rounded = x.mul_add(T::constant(FRAC_2_PI), round);
+    let round = T::number(ROUND);
+    let rounded = x.times_plus(T::number(FRAC_2_PI), round);
     let n = rounded - round;
     let parts: &[f64] = if T::FUSED { &FUSED_PARTS } else { &EXACT_PARTS };
     let mut r = x;
     for part in parts {
-        r = n.neg_mul_add(T::constant(*part), r);
+        r = n.times_from(T::number(*part), r);
     }
     (r, rounded)
 }
@@ -176,19 +193,19 @@ fn turn<T: Real>(r: T, n: T) -> T {
 /// `sin r` and `cos r` for `|r| ≤ π/4`, `z = r²`, step by step together: in scalar code they are one SSE2 vector.
 #[inline(always)]
 fn polynomials<T: Real>(r: T, z: T) -> (T, T) {
-    let mut s = T::constant(SINE[5]);
-    let mut c = z.mul_add(T::constant(COSINE[6]), T::constant(COSINE[5]));
+    let mut s = T::number(SINE[5]);
+    let mut c = z.times_plus(T::number(COSINE[6]), T::number(COSINE[5]));
     for i in (0..5).rev() {
-        s = z.mul_add(s, T::constant(SINE[i]));
-        c = z.mul_add(c, T::constant(COSINE[i]));
+        s = z.times_plus(s, T::number(SINE[i]));
+        c = z.times_plus(c, T::number(COSINE[i]));
     }
-    ((r * z).mul_add(s, r), z.mul_add(c, T::constant(1.0)))
+    ((r * z).times_plus(s, r), z.times_plus(c, T::number(1.0)))
 }
 
 /// In odd quadrants sine and cosine change places; in the second and third both change sign ([`turn`] did the rest).
 #[inline(always)]
 fn swap<T: Real>(sine: T, cosine: T, n: T) -> (T, T) {
-    let sign = n.shifted::<62>().and(T::constant(-0.0));
+    let sign = n.shifted::<62>().and(T::number(-0.0));
     let change = sine.xor(cosine).and(n.odd()).xor(sign);
     (sine.xor(change), cosine.xor(change))
 }

@@ -4,7 +4,7 @@ use std::ops::Deref;
 use std::path::Path;
 use std::sync::Arc;
 
-use abbe::Manipulator;
+use abbe::analysis::Sweepable;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::Document;
 use abbe_codegen::expr::find_name;
@@ -85,13 +85,13 @@ impl Machine {
 /// A manipulator that can be evaluated, one way or the other.
 pub enum Evaluator {
     /// By its generated code.
-    Compiled(&'static dyn Manipulator),
+    Compiled(&'static dyn Sweepable),
     /// By its spec.
     Interpreted(Box<Interpreter>),
 }
 
 impl Deref for Evaluator {
-    type Target = dyn Manipulator;
+    type Target = dyn Sweepable;
 
     fn deref(&self) -> &Self::Target {
         match self {

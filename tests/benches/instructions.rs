@@ -6,8 +6,8 @@
 
 use std::hint::black_box;
 
-use abbe::Manipulator;
-use abbe::lanes::{InstructionSet, Path, Tiles};
+use abbe::lanes::{Batches, InstructionSet, Tiles};
+use abbe::{Function, Manipulator};
 use abbe_codegen::emit;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
@@ -24,8 +24,8 @@ macro_rules! functions {
     ($($module:ident),+) => {
         /// A function of a generated module at one configuration.
         mod functions {
-            use super::{Path, Work, black_box};
-            $(pub(super) fn $module(path: Path) -> Work {
+            use super::{Function, Work, black_box};
+            $(pub(super) fn $module(function: Function) -> Work {
                 use abbe_manipulators::$module::{
                     DESCRIPTION, DISTINCT, ERRORS, FRAMES, Parameters, VARIABLES, raw,
                 };
@@ -35,24 +35,24 @@ macro_rules! functions {
                 let (mut pose, mut columns) = ([[0.0; 3]; 4], [[0.0; 6]; ERRORS]);
                 let mut distinct = [[[0.0; 3]; DISTINCT]; FRAMES];
                 let (mut shift, mut covariance) = ([0.0; 6], [[0.0; 6]; 6]);
-                match path {
-                    Path::Pose => Box::new(move || {
+                match function {
+                    Function::Pose => Box::new(move || {
                         raw::pose(black_box(&q), &s, &mut pose);
                         black_box(&mut pose);
                     }),
-                    Path::ErrorJacobian => Box::new(move || {
+                    Function::ErrorJacobian => Box::new(move || {
                         let _ = black_box(raw::error_jacobian(black_box(&q), &s, &mut pose, &mut columns));
                         black_box((&mut pose, &mut columns));
                     }),
-                    Path::DistinctErrorJacobian => Box::new(move || {
+                    Function::ErrorJacobianDistinct => Box::new(move || {
                         let _ = black_box(raw::error_jacobian_distinct(black_box(&q), &s, &mut pose, &mut distinct));
                         black_box((&mut pose, &mut distinct));
                     }),
-                    Path::Displacement => Box::new(move || {
+                    Function::Displacement => Box::new(move || {
                         let _ = black_box(raw::displacement(black_box(&q), &s, black_box(&errors), &mut shift));
                         black_box(&mut shift);
                     }),
-                    Path::Covariance => Box::new(move || {
+                    Function::Covariance => Box::new(move || {
                         let _ = black_box(raw::covariance(black_box(&q), &s, black_box(&errors), &mut covariance));
                         black_box(&mut covariance);
                     }),
@@ -70,13 +70,13 @@ fn spec(name: &str) -> Spec {
 }
 
 /// A batch by the interpreter, on what every machine has.
-fn interpreter(name: &str, path: Path) -> Work {
+fn interpreter(name: &str, function: Function) -> Work {
     let robot = Interpreter::new(spec(name));
     let (description, set) = (robot.description(), InstructionSet::BASELINE);
-    let mut arguments = Tiles::new(set, path.arguments(&description), COUNT);
-    let mut results = Tiles::new(set, path.results(&description), COUNT);
+    let mut arguments = Tiles::new(set, function.signature().arguments_len(description), COUNT);
+    let mut results = Tiles::new(set, function.signature().results_len(description), COUNT);
     (0..arguments.rows()).for_each(|row| arguments.fill_row(row, 0.1));
-    Box::new(move || robot.batch(path, black_box(&arguments), &mut results).expect("the right counts"))
+    Box::new(move || robot.batch(function, black_box(&arguments), &mut results).expect("the right counts"))
 }
 
 /// The file of a spec.
@@ -88,11 +88,11 @@ fn generation(name: &str) -> Work {
 macro_rules! counted {
     ($($module:ident),+) => {$(
         #[library_benchmark]
-        #[bench::pose(functions::$module(Path::Pose))]
-        #[bench::error_jacobian(functions::$module(Path::ErrorJacobian))]
-        #[bench::error_jacobian_distinct(functions::$module(Path::DistinctErrorJacobian))]
-        #[bench::displacement(functions::$module(Path::Displacement))]
-        #[bench::covariance(functions::$module(Path::Covariance))]
+        #[bench::pose(functions::$module(Function::Pose))]
+        #[bench::error_jacobian(functions::$module(Function::ErrorJacobian))]
+        #[bench::error_jacobian_distinct(functions::$module(Function::ErrorJacobianDistinct))]
+        #[bench::displacement(functions::$module(Function::Displacement))]
+        #[bench::covariance(functions::$module(Function::Covariance))]
         fn $module(mut work: Work) -> Work {
             work();
             work
@@ -102,8 +102,8 @@ macro_rules! counted {
 counted!(iiwa, machine3, pps, puma560);
 
 #[library_benchmark]
-#[bench::interpreted_error_jacobian_distinct(interpreter("puma560", Path::DistinctErrorJacobian))]
-#[bench::interpreted_displacement(interpreter("puma560", Path::Displacement))]
+#[bench::interpreted_error_jacobian_distinct(interpreter("puma560", Function::ErrorJacobianDistinct))]
+#[bench::interpreted_displacement(interpreter("puma560", Function::Displacement))]
 #[bench::generation(generation("puma560"))]
 #[bench::generation_general6r(generation("general6r"))]
 fn whole(mut work: Work) -> Work {

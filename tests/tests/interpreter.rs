@@ -1,7 +1,6 @@
 //! The interpreter and the compiled code give the same numbers.
 
-use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_inputs, nominal_parameters};
-use abbe::lanes::{InstructionSet, Path, Tiles};
+use abbe::analysis::sampling::{arm_length, joint_sample, nominal_inputs, nominal_parameters};
 use abbe::{Error, Manipulator, Pose};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
@@ -77,76 +76,5 @@ fn equal_to_compiled_code_on_a_thousand_configurations() {
         }
         println!("{}: {worst} ulp, {refused} of 1000 refused", shipped.name);
         assert!(worst <= 4.0 && refused < 100, "{}: {worst} ulp, {refused} refused", shipped.name);
-    }
-}
-
-/// The arguments of a batch function at spread configurations.
-fn arguments(robot: &dyn Manipulator, path: Path, set: InstructionSet, count: usize) -> Tiles {
-    let description = robot.description();
-    let (s, u) = (nominal_parameters(description), nominal_inputs(description));
-    let moved: Vec<usize> = (0..description.variables.len()).collect();
-    let mut arguments = Tiles::new(set, path.arguments(description), count);
-    for i in 0..count {
-        let q = joint_sample(description, 1.0, &moved, i);
-        let errors = (0..6 * description.frames.len()).map(|k| 1e-3 * halton(i + 1, k % 30));
-        let given = q.iter().chain(&s).chain(&u).copied().chain(errors);
-        for (row, value) in given.take(arguments.rows()).enumerate() {
-            arguments.set_value(row, i, value);
-        }
-    }
-    arguments.pad();
-    arguments
-}
-
-fn results(robot: &dyn Manipulator, path: Path, arguments: &Tiles) -> Tiles {
-    let rows = path.results(robot.description());
-    let mut results = Tiles::new(arguments.instruction_set(), rows, arguments.count());
-    robot.batch(path, arguments, &mut results).unwrap();
-    results
-}
-
-/// To the last bit.
-#[test]
-fn batches_are_those_of_compiled_code_on_every_instruction_set() {
-    // More than two blocks of lanes, and a tail.
-    let count = 150;
-    for shipped in SHIPPED {
-        let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
-        let robot = Interpreter::new(spec.clone());
-        for set in InstructionSet::all() {
-            for path in Path::ALL {
-                let arguments = arguments(&robot, path, set, count);
-                let compiled = results(shipped.compiled, path, &arguments);
-                let interpreted = results(&robot, path, &arguments);
-                for i in 0..count {
-                    for row in 0..compiled.rows() {
-                        let (a, b) = (compiled.get(row, i), interpreted.get(row, i));
-                        assert!(a == b, "{} {path:?} {set:?}: {a} and {b}", shipped.name);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// A configuration's results do not depend on what stands beside it.
-#[test]
-fn any_split_of_a_batch_gives_the_same_to_the_last_bit() {
-    for shipped in SHIPPED {
-        let robot = shipped.compiled;
-        for set in InstructionSet::all() {
-            for path in Path::ALL {
-                let whole = results(robot, path, &arguments(robot, path, set, 37));
-                for count in [1, 2, 7, 19] {
-                    let part = results(robot, path, &arguments(robot, path, set, count));
-                    for i in 0..count {
-                        for row in 0..part.rows() {
-                            let (a, b) = (whole.get(row, i), part.get(row, i));
-                            assert_eq!(a.to_bits(), b.to_bits(), "{} {path:?} {set:?}", shipped.name);
-                        }
-                    }
-                }
-            }
-        }
     }
 }

@@ -1,8 +1,8 @@
 //! Long chains are generated as loops over their frames: they give what the straight-line programs give, alone and in
 //! batches, and obey the laws.
 
-use abbe::lanes::{InstructionSet, Path, Tiles};
-use abbe::{Manipulator, Pose};
+use abbe::lanes::{Batches, InstructionSet, Tiles};
+use abbe::{Function, Manipulator, Pose};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_tests::chains::long_chain;
@@ -36,8 +36,9 @@ fn batches_are_those_of_the_straight_line_program() {
     let description = straight.description();
     assert_eq!(description, Long.description());
     for set in InstructionSet::all() {
-        for path in Path::ALL {
-            let mut arguments = Tiles::new(set, path.arguments(description), COUNT);
+        for function in Function::ALL {
+            let signature = function.signature();
+            let mut arguments = Tiles::new(set, signature.arguments_len(description), COUNT);
             for configuration in 0..COUNT {
                 for row in 0..arguments.rows() {
                     // Parameters and inputs are positive, and so are variances.
@@ -46,17 +47,17 @@ fn batches_are_those_of_the_straight_line_program() {
                     arguments.set_value(row, configuration, value);
                 }
             }
-            let mut results = [(); 2].map(|()| Tiles::new(set, path.results(description), COUNT));
+            let mut results = [(); 2].map(|()| Tiles::new(set, signature.results_len(description), COUNT));
             let [looped, straight_line] = &mut results;
-            Long.batch(path, &arguments, looped).unwrap();
-            straight.batch(path, &arguments, straight_line).unwrap();
+            Long.batch(function, &arguments, looped).unwrap();
+            straight.batch(function, &arguments, straight_line).unwrap();
             for configuration in 0..COUNT {
                 let [found, expected] = results.each_ref().map(|results| {
                     let mut values = vec![0.0; results.rows()];
                     results.copy_rows(0..results.rows(), configuration, &mut values);
                     values
                 });
-                let what = format!("{set:?}, {}", path.name());
+                let what = format!("{set:?}, {}", function.name());
                 assert!(expected.iter().any(|value| *value != 0.0), "{what}: nothing to compare");
                 assert_close(&what, &found, &expected);
             }

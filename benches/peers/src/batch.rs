@@ -1,10 +1,10 @@
-//! Many configurations at once: `Manipulator::batch`, as users call it.
+//! Many configurations at once, in lanes.
 
 use std::hint::black_box;
 use std::ops::Range;
 
-use abbe::Manipulator;
-use abbe::lanes::{InstructionSet, Path, Tiles};
+use abbe::Function;
+use abbe::lanes::{Batches, InstructionSet, Tiles};
 
 use crate::row::{Inputs, Kind, Output, Row, Run, Side};
 
@@ -15,13 +15,7 @@ pub const FEW: usize = 16;
 pub const MANY: usize = 64;
 
 /// A row for every kind and every instruction set of this machine, for calls with `block` configurations.
-pub fn rows(
-    name: &str,
-    side: Side,
-    robot: &'static dyn Manipulator,
-    block: usize,
-    inputs: &Inputs,
-) -> Vec<Row> {
+pub fn rows(name: &str, side: Side, robot: &'static dyn Batches, block: usize, inputs: &Inputs) -> Vec<Row> {
     InstructionSet::all()
         .flat_map(|set| Kind::ALL.map(|kind| (set, kind)))
         .map(|(set, kind)| Row {
@@ -36,8 +30,8 @@ pub fn rows(
 
 /// The arguments of all blocks, made beforehand, and the results of one.
 struct Batch {
-    robot: &'static dyn Manipulator,
-    path: Path,
+    robot: &'static dyn Batches,
+    function: Function,
     has_pose: bool,
     size: usize,
     blocks: Vec<Tiles>,
@@ -46,23 +40,23 @@ struct Batch {
 
 impl Batch {
     fn new(
-        robot: &'static dyn Manipulator,
+        robot: &'static dyn Batches,
         set: InstructionSet,
         kind: Kind,
         size: usize,
         inputs: &Inputs,
     ) -> Self {
-        let path = match kind {
-            Kind::Dense => Path::ErrorJacobian,
-            Kind::Distinct => Path::DistinctErrorJacobian,
-            Kind::Displacement => Path::Displacement,
-            Kind::Covariance => Path::Covariance,
+        let function = match kind {
+            Kind::Dense => Function::ErrorJacobian,
+            Kind::Distinct => Function::ErrorJacobianDistinct,
+            Kind::Displacement => Function::Displacement,
+            Kind::Covariance => Function::Covariance,
         };
         let description = robot.description();
         assert!(description.parameters.is_empty() && description.inputs.is_empty(), "q and what is given");
         let indices: Vec<usize> = (0..inputs.q.len() / inputs.variables).collect();
         let block = |indices: &[usize]| {
-            let mut tiles = Tiles::new(set, path.arguments(&description), indices.len());
+            let mut tiles = Tiles::new(set, function.signature().arguments_len(description), indices.len());
             for (configuration, index) in indices.iter().enumerate() {
                 let values = inputs.q(*index).iter().chain(inputs.given(kind, *index));
                 values.enumerate().for_each(|(row, value)| tiles.set_value(row, configuration, *value));
@@ -71,9 +65,9 @@ impl Batch {
             tiles
         };
         let blocks = indices.chunks(size).map(block).collect();
-        let mut results = Tiles::new(set, path.results(&description), size);
+        let mut results = Tiles::new(set, function.signature().results_len(description), size);
         (0..results.rows()).for_each(|row| results.fill_row(row, f64::NAN));
-        Self { robot, path, has_pose: kind.has_pose(), size, blocks, results }
+        Self { robot, function, has_pose: kind.has_pose(), size, blocks, results }
     }
 }
 
@@ -82,7 +76,9 @@ impl Run for Batch {
     fn run(&mut self, _: &Inputs, range: Range<usize>, _: &mut Output) {
         let arguments = &self.blocks[range.start / self.size];
         for _ in 0..range.len().div_ceil(self.size) {
-            self.robot.batch(self.path, black_box(arguments), &mut self.results).expect("the right counts");
+            self.robot
+                .batch(self.function, black_box(arguments), &mut self.results)
+                .expect("the right counts");
             black_box(&mut self.results);
         }
     }

@@ -13,7 +13,7 @@ mod report;
 mod row;
 mod span;
 
-use abbe::Manipulator;
+use abbe::lanes::Batches;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 
@@ -32,7 +32,7 @@ fn main() {
         std::process::exit(2);
     };
     let mut report = Report::new(rounds, angles);
-    let mut compare = |name: &str, spec: &str, robot: &'static dyn Manipulator, mut rows: Vec<Row>| {
+    let mut compare = |name: &str, spec: &str, robot: &'static dyn Batches, mut rows: Vec<Row>| {
         let answers = Answers::new(robot, angles);
         for block in [batch::FEW, batch::MANY] {
             rows.extend(batch::rows("abbe", Side::Ours, robot, block, &answers.inputs));
@@ -71,7 +71,7 @@ fn main() {
 }
 
 /// The interpreter of a spec, as long as the process.
-fn interpreter(name: &str, spec: &str) -> &'static dyn Manipulator {
+fn interpreter(name: &str, spec: &str) -> &'static dyn Batches {
     let spec = Box::leak(Box::new(Spec::parse(name, spec).expect("it was compiled")));
     Box::leak(Box::new(Interpreter::new(spec.clone())))
 }

@@ -1,7 +1,7 @@
 //! What `ΔX ≈ J_e ε` neglects: first order against the exact chain.
 
-use abbe::analysis::{Row, Scattered, Unevaluated, Workspace, sweep};
-use abbe::{Class, Error, Manipulator, Pose, deviation, real_pose};
+use abbe::analysis::{Row, Scattered, Sweepable, Unevaluated, Workspace, sweep};
+use abbe::{Class, Error, Pose, deviation, real_pose};
 
 /// The most configurations at which the exact chain is run.
 const CHECKED: usize = 2000;
@@ -11,7 +11,7 @@ const CHECKED: usize = 2000;
 ///
 /// Compared are the repeatable sources; if there are none, the random ones at their bounds, all with the same sign.
 pub(super) struct FirstOrder<'a> {
-    pub(super) manipulator: &'a dyn Manipulator,
+    pub(super) manipulator: &'a dyn Sweepable,
     u: &'a [f64],
     /// What the value of every effect is multiplied with.
     factors: Vec<f64>,
@@ -27,7 +27,7 @@ pub(super) struct FirstOrder<'a> {
 impl<'a> FirstOrder<'a> {
     /// Compares over a workspace with inputs `u`. Where the exact chain cannot be had there is nothing to compare.
     pub(super) fn over(
-        manipulator: &'a dyn Manipulator,
+        manipulator: &'a dyn Sweepable,
         workspace: &dyn Workspace,
         u: &'a [f64],
     ) -> Result<Self, Unevaluated> {

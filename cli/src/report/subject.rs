@@ -1,7 +1,7 @@
 //! What a report is about.
 
-use abbe::analysis::{Budget, Configuration};
-use abbe::{Description, Manipulator};
+use abbe::Description;
+use abbe::analysis::{Budget, Configuration, Sweepable};
 use abbe_codegen::spec::Spec;
 
 use crate::table::Listing;
@@ -11,7 +11,7 @@ use abbe_study::study_file::{self, Published, Study};
 /// What was analyzed, and what was found.
 pub(crate) struct Subject<'a> {
     pub(crate) spec: &'a Spec,
-    pub(crate) manipulator: &'a dyn Manipulator,
+    pub(crate) manipulator: &'a dyn Sweepable,
     pub(crate) description: &'a Description,
     pub(crate) study: &'a Study,
     /// The workspace in a sentence.

@@ -3,7 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::{Configuration, Unevaluated, sampling};
-use crate::{Component, Error, Manipulator, Orientation, Pose, Quantity};
+use crate::twist::twist;
+use crate::{Component, Error, Manipulator, Pose, Quantity};
 
 /// Singular values at or below this share of the largest count as zero.
 pub const RANK_THRESHOLD: f64 = 1e-9;
@@ -100,24 +101,6 @@ pub fn identifiable(
     let threshold = singular_values.first().map_or(0.0, |largest| largest * RANK_THRESHOLD);
     let rank = singular_values.iter().filter(|&&value| value > threshold).count();
     Ok(Identifiability { rank, unknowns, singular_values })
-}
-
-/// A column with its rows 4–6 as the small rotation ω in `F_0` axes.
-///
-/// For Euler rows: `R_yᵀ(σ) ω = (cos ρ dπ, dσ + sin ρ dπ, dρ)`.
-fn twist(orientation: Orientation, pose: &Pose, column: &[f64; 6]) -> [f64; 6] {
-    match orientation {
-        Orientation::RotationVector => *column,
-        Orientation::EulerYzx => {
-            // The x axis of the tool is (cos σ cos ρ, sin ρ, −sin σ cos ρ).
-            let [x, sin_roll, z] = pose.0[0];
-            let cos_roll = x.hypot(z);
-            let (sin_spin, cos_spin) = (-z / cos_roll, x / cos_roll);
-            let [p_x, p_y, p_z, spin, roll, pitch] = *column;
-            let (x, y, z) = (cos_roll * pitch, spin + sin_roll * pitch, roll);
-            [p_x, p_y, p_z, cos_spin * x + sin_spin * z, y, cos_spin * z - sin_spin * x]
-        }
-    }
 }
 
 /// The column of an error of `E_0`: `(e; 0)` for a translation, `(a × p_T; a)` for a rotation.

@@ -4,7 +4,7 @@ use rand::RngExt;
 use rand_distr::{Normal, StandardNormal};
 
 use super::{Failure, Measurement, Model, Observation, Unknown};
-use crate::analysis::stream;
+use crate::analysis::sampling::stream;
 use crate::chain::displacement;
 use crate::{Class, Distribution};
 

@@ -4,8 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
-use crate::analysis::pps_by_hand::Pps;
-use crate::analysis::puma_by_hand::Puma;
+use crate::analysis::by_hand::{Pps, Puma};
 use crate::analysis::{Workspace, joint_samples};
 use crate::chain::real_pose;
 use crate::{Manipulator, Pose};

@@ -6,7 +6,13 @@ use pulp::NullaryFnOnce;
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
 
-use super::{Pair, Register};
+use super::Register;
+
+/// The two lanes that every machine has.
+#[cfg(target_arch = "x86_64")]
+type Pair = super::x86::Sse2;
+#[cfg(not(target_arch = "x86_64"))]
+type Pair = [f64; 2];
 
 /// Work on lanes, to be compiled for every instruction set.
 ///

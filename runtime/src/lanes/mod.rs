@@ -11,31 +11,27 @@
 //! | AVX2 and FMA | 4 | rounded once |
 //! | any other: SSE2, NEON | 2 | rounded twice, as in scalar code |
 
-mod face;
-mod function;
+mod functions;
 mod instruction_set;
 mod one_by_one;
-mod path;
 #[cfg(any(test, not(target_arch = "x86_64")))]
 mod portable;
 mod register;
+mod rows;
+mod run;
 #[cfg(test)]
 mod tests;
 mod tiles;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-/// The two lanes that every machine has.
-#[cfg(target_arch = "x86_64")]
-pub(crate) type Pair = x86::Sse2;
-#[cfg(not(target_arch = "x86_64"))]
-pub(crate) type Pair = [f64; 2];
-
-pub use function::{Function, run};
-#[doc(hidden)]
-pub use function::{Margin, fill, fill_columns, fill_vectors};
+pub use functions::*;
 pub use instruction_set::{InstructionSet, Kernel};
+pub use one_by_one::OneByOne;
+#[cfg(feature = "analysis")]
 pub(crate) use one_by_one::one_by_one;
-pub use path::Path;
 pub use register::{Lanes, Mask, Register};
+#[doc(hidden)]
+pub use rows::{Rows, put_margin};
+pub use run::{Evaluate, check, run};
 pub use tiles::Tiles;

@@ -13,6 +13,21 @@ impl<R: Register> Real for Lanes<R> {
     const FUSED: bool = R::FUSED;
 
     #[inline(always)]
+    fn number(value: f64) -> Self {
+        Self(R::splat(value))
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        Self(R::mul_add(self.0, b.0, c.0))
+    }
+
+    #[inline(always)]
+    fn times_from(self, b: Self, c: Self) -> Self {
+        Self(R::neg_mul_add(self.0, b.0, c.0))
+    }
+
+    #[inline(always)]
     fn xor(self, other: Self) -> Self {
         Self(R::xor(self.0, other.0))
     }

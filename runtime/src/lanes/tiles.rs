@@ -145,6 +145,21 @@ impl Tiles {
         }
     }
 
+    /// The first rows of all configurations, as tiles of their own.
+    ///
+    /// # Panics
+    ///
+    /// If there are not so many rows, as for a slice.
+    pub fn first_rows(&self, rows: usize) -> Self {
+        let mut first = Self::new(self.set, rows, self.count);
+        let size = rows * self.set.width();
+        for tile in 0..self.tiles() {
+            let numbers = &self.numbers()[tile * self.rows * self.set.width()..][..size];
+            first.numbers_mut()[tile * size..][..size].copy_from_slice(numbers);
+        }
+        first
+    }
+
     /// Copies some rows of a configuration out.
     pub fn copy_rows(&self, rows: Range<usize>, configuration: usize, values: &mut [f64]) {
         for (row, value) in rows.zip(values) {

@@ -2,47 +2,77 @@
 
 use super::samples::Subject;
 use super::{Discrepancy, Failure};
-use crate::analysis::sampling;
-use crate::lanes::{InstructionSet, Path, Tiles, one_by_one};
-use crate::{Manipulator, Orientation};
+use crate::analysis::{Sweepable, sampling};
+use crate::function::{Array, Count};
+use crate::lanes::{Batches, InstructionSet, Tiles, one_by_one};
+use crate::{Error, Function, Manipulator, Quantity};
 
-/// Everything that is computed in batches against the same from the methods for one configuration, on every
-/// instruction set that the machine has. Lengths in arm lengths.
-pub fn batches(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
+/// Every function in batches against the same from the methods for one configuration, on every instruction set that
+/// the machine has. Lengths in arm lengths.
+pub fn batches(manipulator: &dyn Batches, samples: usize) -> Result<Discrepancy, Failure> {
+    compare(manipulator, &Function::ALL, samples, &|function, arguments, results| {
+        manipulator.batch(function, arguments, results)
+    })
+}
+
+/// The same for the two functions that sweeps need.
+pub fn sweeps(manipulator: &dyn Sweepable, samples: usize) -> Result<Discrepancy, Failure> {
+    let functions = [Function::Pose, Function::SourceDisplacements];
+    compare(manipulator, &functions, samples, &|function, arguments, results| match function {
+        Function::Pose => manipulator.poses(arguments, results),
+        _ => manipulator.source_displacements(arguments, results),
+    })
+}
+
+type Batch<'a> = dyn Fn(Function, &Tiles, &mut Tiles) -> Result<(), Error> + 'a;
+
+fn compare(
+    manipulator: &dyn Manipulator,
+    functions: &[Function],
+    samples: usize,
+    batch: &Batch,
+) -> Result<Discrepancy, Failure> {
     let subject = Subject::new(manipulator)?;
     let description = manipulator.description();
     let (samples, skipped) = subject.samples(samples)?;
     let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Default::default() };
-    for path in Path::ALL {
-        let scales = scales(path, &subject);
+    for function in functions {
+        let signature = function.signature();
+        let scales: Vec<f64> =
+            signature.results.iter().flat_map(|array| scales(array, &subject)).chain([1.0]).collect();
         let mut expected: Option<Tiles> = None;
         for set in InstructionSet::all() {
-            let mut arguments = Tiles::new(set, path.arguments(description), samples.len());
-            for (i, at) in samples.iter().enumerate() {
-                let given = at.q.iter().chain(&subject.s).chain(&subject.u).copied();
-                // Errors or variances, if the function takes any.
-                let errors =
-                    (0..6 * description.frames.len()).map(|k| 1e-3 * sampling::halton(i + 1, k % 30));
-                for (row, value) in given.chain(errors).take(arguments.rows()).enumerate() {
-                    arguments.set_value(row, i, value);
-                }
+            let mut arguments = Tiles::new(set, signature.arguments_len(description), samples.len());
+            for (i, sample) in samples.iter().enumerate() {
+                let given = signature.arguments.iter().flat_map(|array| -> Vec<f64> {
+                    match array.quantity {
+                        Quantity::Variables => sample.q.clone(),
+                        Quantity::Parameters => subject.s.clone(),
+                        Quantity::Inputs => subject.u.clone(),
+                        // Errors or variances.
+                        _ => (0..array.len(description))
+                            .map(|k| 1e-3 * sampling::halton(i + 1, k % 30))
+                            .collect(),
+                    }
+                });
+                given.enumerate().for_each(|(row, value)| arguments.set_value(row, i, value));
             }
             arguments.pad();
-            let mut results = Tiles::new(set, path.results(description), samples.len());
+            let mut results = Tiles::new(set, signature.results_len(description), samples.len());
             let at_first = |error| Failure::Evaluation { q: samples[0].q.clone(), error };
             if expected.is_none() {
-                one_by_one(manipulator, path, &arguments, &mut results).map_err(at_first)?;
+                one_by_one(manipulator, *function, &arguments, &mut results).map_err(at_first)?;
                 expected = Some(results.clone());
             }
-            manipulator.batch(path, &arguments, &mut results).map_err(at_first)?;
+            batch(*function, &arguments, &mut results).map_err(at_first)?;
             let Some(expected) = &expected else { continue };
-            for (i, at) in samples.iter().enumerate() {
-                for (row, scale) in scales.iter().enumerate() {
+            for (i, sample) in samples.iter().enumerate() {
+                for (row, scale) in (0..results.rows()).zip(&scales) {
                     let (found, expected) = (results.get(row, i), expected.get(row, i));
                     if !found.is_finite() {
-                        return Err(Failure::NotFinite { method: path.name(), q: at.q.clone() });
+                        return Err(Failure::NotFinite { method: function.name(), q: sample.q.clone() });
                     }
-                    discrepancy.add((found - expected).abs() / scale.max(expected.abs()), &at.q);
+                    discrepancy.add((found - expected).abs() / scale.max(expected.abs()), &sample.q);
                 }
             }
         }
@@ -50,24 +80,24 @@ pub fn batches(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepa
     Ok(discrepancy)
 }
 
-/// What the rows of a function are measured in.
-fn scales(path: Path, subject: &Subject) -> Vec<f64> {
+/// What the rows of a result are measured in.
+fn scales(array: &Array, subject: &Subject) -> Vec<f64> {
     let description = subject.manipulator.description();
-    let (arm, frames) = (subject.arm, description.frames.len());
-    let pose = [vec![1.0; 9], vec![arm; 3]].concat();
+    let arm = subject.arm;
     let column = [arm, arm, arm, 1.0, 1.0, 1.0];
-    let columns = |count: usize| column.repeat(count);
-    let euler = usize::from(description.orientation == Orientation::EulerYzx);
-    let mut scales = match path {
-        Path::Pose => pose,
-        Path::ErrorJacobian => [pose, columns(6 * frames)].concat(),
-        Path::DistinctErrorJacobian => {
-            [pose, [vec![1.0; 9], vec![arm; 9], vec![1.0; 9 * euler]].concat().repeat(frames)].concat()
+    let unit = match *array.shape {
+        [.., Count::Exactly(4), Count::Exactly(3)] => [[1.0; 9].as_slice(), &[arm; 3]].concat(),
+        [Count::Frames, Count::Distinct, Count::Exactly(3)] => {
+            let numbers = [[1.0; 9], [arm; 9], [1.0; 9]].concat();
+            numbers[..3 * Count::Distinct.value(description)].to_vec()
         }
-        Path::Displacement | Path::PredictedDisplacement => columns(1),
-        Path::SourceDisplacements => columns(description.sources.len()),
-        Path::Covariance => column.iter().flat_map(|a| column.map(|b| a * b)).collect(),
+        [Count::Exactly(6), Count::Exactly(6)] => column.iter().flat_map(|a| column.map(|b| a * b)).collect(),
+        [.., Count::Exactly(6)] => column.to_vec(),
+        [Count::Effects] => {
+            let unit = |effect: &crate::Effect| column[effect.component.index()];
+            description.effects.iter().map(unit).collect()
+        }
+        _ => vec![1.0],
     };
-    scales.resize(path.results(description), 1.0);
-    scales
+    unit.into_iter().cycle().take(array.len(description)).collect()
 }

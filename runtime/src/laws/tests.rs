@@ -1,9 +1,9 @@
 //! Laws hold for robots that are right, by a wide margin, and break for ones that are not.
 
 use super::*;
-use crate::analysis::pps_by_hand::Pps;
-use crate::analysis::puma_by_hand::Puma;
-use crate::{Description, Error, Pose};
+use crate::analysis::by_hand::{Pps, Puma};
+use crate::lanes::OneByOne;
+use crate::{Description, Error, Manipulator, Pose};
 
 #[test]
 fn right_robots_pass_by_a_wide_margin() {
@@ -63,14 +63,14 @@ impl Manipulator for Wrong {
 #[test]
 fn wrong_robots_fail() {
     // Spin and pitch exchanged: the likeliest bug.
-    let exchanged = Wrong(|columns| columns.chunks_exact_mut(6).for_each(|frame| frame.swap(3, 5)));
+    let exchanged = OneByOne(Wrong(|columns| columns.chunks_exact_mut(6).for_each(|frame| frame.swap(3, 5))));
     assert!(matches!(all(&exchanged, 20), Err(Failure::Discrepant { law: "error Jacobian", .. })));
     // One entry in 10⁷, in the smallest rows.
-    let slightly = Wrong(|columns| columns[15][3] *= 1.0 + 1e-7);
+    let slightly = OneByOne(Wrong(|columns| columns[15][3] *= 1.0 + 1e-7));
     assert!(matches!(all(&slightly, 20), Err(Failure::Discrepant { law: "error Jacobian", .. })));
     let slope = remainder_slope(&exchanged, 20).unwrap();
     assert!((slope.slope - 1.0).abs() < 0.1, "{slope:?}");
-    let silent = Wrong(|columns| columns[7][1] = f64::NAN);
+    let silent = OneByOne(Wrong(|columns| columns[7][1] = f64::NAN));
     assert!(matches!(all(&silent, 20), Err(Failure::NotFinite { method: "error_jacobian", .. })));
     let nan = error_jacobian(&silent, 20).unwrap();
     assert_eq!(nan.relative, f64::INFINITY);

@@ -5,7 +5,6 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use dashu_float::{ConstCache, Context, FBig, round::mode::HalfEven};
 
 use super::{REACH, Real, beyond, each, near, scalar};
-use crate::Scalar;
 
 type Exact = FBig<HalfEven, 2>;
 type Function = fn(f64) -> (f64, f64);
@@ -32,59 +31,19 @@ macro_rules! fused {
     )+};
 }
 
-fused!(Add add, Sub sub, Mul mul, Div div);
-
-impl core::ops::Neg for Fused {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0)
-    }
-}
-
-impl Scalar for Fused {
-    fn constant(value: f64) -> Self {
-        Self(value)
-    }
-    fn mul_add(self, b: Self, c: Self) -> Self {
-        Self(f64::mul_add(self.0, b.0, c.0))
-    }
-    fn neg_mul_add(self, b: Self, c: Self) -> Self {
-        Self(f64::mul_add(-self.0, b.0, c.0))
-    }
-    fn sin_cos(self) -> (Self, Self) {
-        near(self)
-    }
-    fn tan(self) -> Self {
-        Self(self.0.tan())
-    }
-    fn asin(self) -> Self {
-        Self(self.0.asin())
-    }
-    fn acos(self) -> Self {
-        Self(self.0.acos())
-    }
-    fn atan(self) -> Self {
-        Self(self.0.atan())
-    }
-    fn atan2(self, x: Self) -> Self {
-        Self(self.0.atan2(x.0))
-    }
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
-    }
-    fn abs(self) -> Self {
-        Self(self.0.abs())
-    }
-    fn sign(self) -> Self {
-        Self(self.0.sign())
-    }
-    fn powf(self, exponent: Self) -> Self {
-        Self(self.0.powf(exponent.0))
-    }
-}
+fused!(Add add, Sub sub, Mul mul);
 
 impl Real for Fused {
     const FUSED: bool = true;
+    fn number(value: f64) -> Self {
+        Self(value)
+    }
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        Self(f64::mul_add(self.0, b.0, c.0))
+    }
+    fn times_from(self, b: Self, c: Self) -> Self {
+        Self(f64::mul_add(-self.0, b.0, c.0))
+    }
     fn xor(self, other: Self) -> Self {
         Self(Real::xor(self.0, other.0))
     }

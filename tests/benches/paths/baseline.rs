@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use abbe::lanes::Path;
+use abbe::Function;
 use abbe_tests::frame_loop::{Columns, Frame, error_jacobian};
 use criterion::Criterion;
 use nalgebra::{Matrix6, Vector6};
@@ -16,12 +16,12 @@ pub(crate) fn bench(criterion: &mut Criterion, subject: &Subject) {
     let transforms = subject.transforms();
     let nothing: Finish = |_, _| [[0.0; 6]; 6];
     let finishes = [
-        (Path::ErrorJacobian, nothing),
-        (Path::Displacement, displacement as Finish),
-        (Path::Covariance, covariance),
+        (Function::ErrorJacobian, nothing),
+        (Function::Displacement, displacement as Finish),
+        (Function::Covariance, covariance),
     ];
-    for (path, finish) in finishes {
-        let mut group = subject.group(criterion, path.name());
+    for (function, finish) in finishes {
+        let mut group = subject.group(criterion, function.name());
         let mut poses = vec![Frame::default(); subject.errors.len() / 6 + 1];
         let mut columns = vec![[0.0; 6]; subject.errors.len()];
         group.bench_function("nalgebra loop, matrices given", |bencher| {

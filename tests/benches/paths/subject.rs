@@ -1,7 +1,8 @@
 //! A manipulator, and the configurations at which it is measured.
 
+use abbe::Pose;
+use abbe::analysis::Sweepable;
 use abbe::analysis::sampling::{joint_sample, nominal_inputs, nominal_parameters};
-use abbe::{Manipulator, Pose};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::Shipped;
@@ -13,7 +14,7 @@ pub(crate) const COUNT: usize = 64;
 
 pub(crate) struct Subject {
     pub(crate) name: &'static str,
-    pub(crate) compiled: &'static dyn Manipulator,
+    pub(crate) compiled: &'static dyn Sweepable,
     pub(crate) interpreter: Interpreter,
     /// q of each configuration, within the limits.
     pub(crate) variables: Vec<Vec<f64>>,

@@ -1,0 +1,24 @@
+//! What every source does alone over a workspace, what they do together, and what a tolerance allows.
+//!
+//! [`error_budget`] gathers all of it in one sweep, in lanes: each kind of figure has its `Lane`, which takes in tile after
+//! tile, and what that comes to, which is merged chunk after chunk.
+
+mod admissible;
+mod combined;
+mod ellipsoid;
+mod enclosing_sphere;
+mod error_budget;
+mod gains;
+mod peak;
+mod remaining;
+mod source_errors;
+mod sums;
+
+pub use admissible::Admissible;
+pub use combined::{Combined, Extreme};
+pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
+pub use enclosing_sphere::Sphere;
+pub use error_budget::{Budget, Watch, error_budget};
+pub use remaining::{Compensation, Residual};
+pub(super) use source_errors::position;
+pub use source_errors::{Figures, SourceErrors};

@@ -1,0 +1,7 @@
+//! Errors drawn at random on the exact chain.
+
+mod monte_carlo;
+mod quantile;
+
+pub use monte_carlo::{MonteCarlo, monte_carlo};
+pub use quantile::Quantile;

@@ -1,0 +1,12 @@
+//! Evaluates a workspace block by block, in parallel, and shows every configuration in order; nothing is stored.
+
+mod block;
+mod in_order;
+mod rows;
+mod sweepable;
+
+pub(super) use block::Block;
+pub(super) use in_order::in_order;
+pub(super) use rows::ready;
+pub use rows::{BLOCK, Row, Unevaluated, sweep};
+pub use sweepable::Sweepable;

@@ -1,0 +1,43 @@
+//! What a sweep over a workspace asks of a manipulator.
+
+use crate::lanes::{Batches, Evaluate, OneByOne, Pose, SourceDisplacements, Tiles, run};
+use crate::{Error, Function, Manipulator};
+
+/// A manipulator that can be swept over a workspace: the two functions that sweeps need, in batches.
+///
+/// Generated manipulators are sweepable as they are, and only where somebody says `&dyn Sweepable` are these two
+/// compiled for lanes. Any other [`Manipulator`] is, [`OneByOne`].
+///
+/// Rows of arguments and results are as the [`Signature`](crate::Signature) of the function says; errors as for
+/// [`run`].
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no code for lanes",
+    note = "a manipulator that is not generated is swept as `abbe::lanes::OneByOne(manipulator)`"
+)]
+pub trait Sweepable: Manipulator {
+    /// The pose of the tool point: [`Function::Pose`].
+    fn poses(&self, arguments: &Tiles, poses: &mut Tiles) -> Result<(), Error>;
+
+    /// ΔX of every source by itself: [`Function::SourceDisplacements`].
+    fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<(), Error>;
+}
+
+impl<M: Evaluate<Pose> + Evaluate<SourceDisplacements>> Sweepable for M {
+    fn poses(&self, arguments: &Tiles, poses: &mut Tiles) -> Result<(), Error> {
+        run(self, Pose, arguments, poses)
+    }
+
+    fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<(), Error> {
+        run(self, SourceDisplacements, arguments, displacements)
+    }
+}
+
+impl<M: Manipulator> Sweepable for OneByOne<M> {
+    fn poses(&self, arguments: &Tiles, poses: &mut Tiles) -> Result<(), Error> {
+        self.batch(Function::Pose, arguments, poses)
+    }
+
+    fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<(), Error> {
+        self.batch(Function::SourceDisplacements, arguments, displacements)
+    }
+}

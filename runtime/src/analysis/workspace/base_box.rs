@@ -1,0 +1,85 @@
+//! A box of points in the base frame, each reached by inverse kinematics.
+
+use super::axis::{combinations, combine, in_range};
+use super::{Axis, Configuration, Workspace};
+use crate::analysis::{Target, Unreached, inverse};
+use crate::{Error, Manipulator, Pose, Quantity};
+
+/// What a tool that reaches a point of a [`BaseBox`] has to point at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolOrientation {
+    /// Nothing: only the point counts, and of all solutions the search from home finds one.
+    Free,
+    /// Where it points at home.
+    Home,
+}
+
+/// A grid of points in `F_0` and how they are reached.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BaseBox {
+    /// The coordinates along x, y and z of `F_0`, in the length unit.
+    pub points: [Vec<f64>; 3],
+    /// How the tool stands there.
+    pub orientation: ToolOrientation,
+    /// The variables that bring it there. All others stay at home.
+    pub solved: Vec<usize>,
+}
+
+/// A box of points in the base frame; see [`base_box`].
+pub struct ReachedBox<'a> {
+    manipulator: &'a dyn Manipulator,
+    axes: Vec<Axis>,
+    /// The pose at home, whose position is replaced.
+    pose: Pose,
+    orientation: ToolOrientation,
+    solved: Vec<usize>,
+    home: Configuration,
+}
+
+/// Every point of a grid in the base frame, z fastest, reached from home with nominal parameters.
+///
+/// [`Error::Count`] if `solved` names a variable that there is not; other errors as for [`Manipulator::pose`].
+pub fn base_box<'a>(manipulator: &'a dyn Manipulator, region: &BaseBox) -> Result<ReachedBox<'a>, Error> {
+    let description = manipulator.description();
+    in_range(region.solved.iter().copied(), Quantity::Variables, description.variables.len())?;
+    let home = Configuration::home(description);
+    let pose = manipulator.pose(&home.q, &home.s)?;
+    let axes = region.points.iter().enumerate().map(|(index, values)| Axis { index, values: values.clone() });
+    let BaseBox { orientation, ref solved, .. } = *region;
+    Ok(ReachedBox { manipulator, axes: axes.collect(), pose, orientation, solved: solved.clone(), home })
+}
+
+impl ReachedBox<'_> {
+    fn at(&self, index: usize) -> [f64; 3] {
+        let mut point = self.pose.position();
+        combine(index, &self.axes, &mut point);
+        point
+    }
+}
+
+impl Workspace for ReachedBox<'_> {
+    fn len(&self) -> usize {
+        combinations(&self.axes)
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        q.copy_from_slice(&self.home.q);
+        s.copy_from_slice(&self.home.s);
+        let mut pose = self.pose;
+        pose.0[3] = self.at(index);
+        let target = match self.orientation {
+            ToolOrientation::Free => Target::Point(pose.position()),
+            ToolOrientation::Home => Target::Pose(pose),
+        };
+        q.copy_from_slice(&inverse(self.manipulator, s, q, &self.solved, &target)?);
+        Ok(())
+    }
+
+    fn point(&self, index: usize) -> Option<[f64; 3]> {
+        Some(self.at(index))
+    }
+}

@@ -1,0 +1,70 @@
+//! The configurations over which errors are analyzed: made one by one when they are needed, never stored.
+
+use core::ops::Range;
+
+use super::Configuration;
+use crate::analysis::Unreached;
+use crate::lanes::Tiles;
+
+/// The configurations over which errors are analyzed, by index.
+///
+/// Each follows from its index alone, so that any part of the workspace can be made again, on any thread, and
+/// none need be stored.
+pub trait Workspace: Sync {
+    /// How many configurations are asked for, those that cannot be reached among them.
+    fn len(&self) -> usize;
+
+    /// Whether none is asked for.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The configuration that errors relative to home are relative to; it says how long `q` and `s` are.
+    fn home(&self) -> &Configuration;
+
+    /// Writes configuration `index`, less than [`len`](Self::len), over `q` and `s`, which are as long as those
+    /// of home. If it cannot be had they hold what was asked for.
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached>;
+
+    /// Writes what differs from home in the configurations of a range into rows q, s of `rows`, which hold those of
+    /// home, if all can be had and this is quicker than one by one; says whether it did.
+    fn fill_rows(&self, _range: Range<usize>, _rows: &mut Tiles) -> bool {
+        false
+    }
+
+    /// The point of `F_0` that the tool is brought to in configuration `index`, if that differs from one to the next.
+    fn point(&self, _index: usize) -> Option<[f64; 3]> {
+        None
+    }
+
+    /// Configuration `index`, or why it cannot be had.
+    fn configuration(&self, index: usize) -> Result<Configuration, Unreached> {
+        let mut configuration = self.home().clone();
+        self.fill(index, &mut configuration.q, &mut configuration.s)?;
+        Ok(configuration)
+    }
+
+    /// All configurations that can be reached, stored: for small workspaces.
+    fn reached(&self) -> Vec<Configuration> {
+        (0..self.len()).filter_map(|index| self.configuration(index).ok()).collect()
+    }
+}
+
+/// A workspace of one configuration.
+pub(in crate::analysis) struct One<'a>(pub(in crate::analysis) &'a Configuration);
+
+impl Workspace for One<'_> {
+    fn len(&self) -> usize {
+        1
+    }
+
+    fn home(&self) -> &Configuration {
+        self.0
+    }
+
+    fn fill(&self, _: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        q.copy_from_slice(&self.0.q);
+        s.copy_from_slice(&self.0.s);
+        Ok(())
+    }
+}

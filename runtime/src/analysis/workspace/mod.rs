@@ -1,0 +1,29 @@
+//! The configurations over which errors are analyzed.
+//!
+//! A [`Workspace`] makes configurations by index: grids and samples of joints, a volume of tool points presented at one
+//! point, a box of points, a list. What could not be reached is counted by reason.
+
+mod axis;
+mod base_box;
+mod configuration;
+mod configuration_list;
+mod configurations;
+mod joint_grid;
+mod joint_samples;
+mod presented_volume;
+mod subset;
+mod unreachable;
+
+pub use axis::Axis;
+pub(in crate::analysis) use axis::in_range;
+pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
+pub use configuration::Configuration;
+pub use configuration_list::{Listed, listed};
+pub(in crate::analysis) use configurations::One;
+pub use configurations::Workspace;
+pub use joint_grid::{JointGrid, joint_grid};
+pub(in crate::analysis) use joint_samples::STREAM;
+pub use joint_samples::{JointSamples, joint_samples, random_joint_samples};
+pub use presented_volume::{Presentation, PresentedVolume, presented_volume};
+pub use subset::Scattered;
+pub use unreachable::{Unreachable, Unreachables};

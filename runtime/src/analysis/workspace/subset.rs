@@ -1,0 +1,34 @@
+//! A few configurations from everywhere in a workspace.
+
+use super::{Configuration, Workspace};
+use crate::analysis::Unreached;
+
+/// `1/φ`: its multiples modulo 1 are spread evenly, and fall in step with no grid.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// At most `count` configurations of a workspace, spread over its indices; all of a smaller one.
+pub struct Scattered<'a> {
+    /// The workspace.
+    pub workspace: &'a dyn Workspace,
+    /// How many of its configurations at most.
+    pub count: usize,
+}
+
+impl Workspace for Scattered<'_> {
+    fn len(&self) -> usize {
+        self.workspace.len().min(self.count)
+    }
+
+    fn home(&self) -> &Configuration {
+        self.workspace.home()
+    }
+
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+        let all = self.workspace.len();
+        let place = match all <= self.count {
+            true => index,
+            false => ((index as f64 * GOLDEN).fract() * all as f64) as usize,
+        };
+        self.workspace.fill(place, q, s)
+    }
+}

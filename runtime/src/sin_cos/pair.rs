@@ -1,0 +1,82 @@
+//! Two numbers side by side: compilers find the instructions for pairs that every common machine has (SSE2, NEON).
+
+use core::ops::{Add, Mul, Sub};
+
+use super::Real;
+
+/// Two numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Pair(pub(super) [f64; 2]);
+
+impl Pair {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self([f(self.0[0], other.0[0]), f(self.0[1], other.0[1])])
+    }
+}
+
+impl Add for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl Sub for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl Mul for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl Real for Pair {
+    const FUSED: bool = false;
+
+    #[inline(always)]
+    fn number(value: f64) -> Self {
+        Self([value; 2])
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    #[inline(always)]
+    fn times_from(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
+
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        self.zip(other, Real::xor)
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self.zip(other, Real::and)
+    }
+
+    #[inline(always)]
+    fn odd(self) -> Self {
+        Self(self.0.map(Real::odd))
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(self) -> Self {
+        Self(self.0.map(Real::shifted::<PLACES>))
+    }
+}
