@@ -28,18 +28,18 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod chain;
+mod checked_functions;
 pub mod checks;
 pub mod compensator;
 mod component;
 mod description;
 pub mod distinct;
 mod error;
-mod face;
-#[cfg(feature = "nalgebra")]
-mod faces;
 pub mod function;
 pub mod long;
 mod manipulator;
+#[cfg(feature = "nalgebra")]
+mod nalgebra_views;
 mod pose;
 mod scalar;
 mod shared;
@@ -69,10 +69,10 @@ pub use description::{
     Variable, VariableKind,
 };
 pub use error::{Error, MINIMUM_MARGIN, Quantity};
-#[cfg(feature = "nalgebra")]
-pub use faces::{jacobian_view, jacobian_view_dynamic};
 pub use function::Function;
 pub use manipulator::Manipulator;
+#[cfg(feature = "nalgebra")]
+pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
 pub use pose::Pose;
 pub use scalar::Scalar;
 pub use shared::{List, Text};

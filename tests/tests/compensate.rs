@@ -1,6 +1,6 @@
 //! The compensator on the true model: corrected commands put the real tool where the ideal one is.
 
-use abbe::analysis::{Axis, Presentation, Workspace, corrected, presented_volume, sampling};
+use abbe::analysis::{Axis, Presentation, Workspace, compensated, presented_volume, sampling};
 use abbe::compensator::norms;
 use abbe::{Error, Manipulator, Orientation, Quantity, VariableKind, deviation};
 use abbe_codegen::spec::Spec;
@@ -138,7 +138,7 @@ fn compensates(name: &str, whole: bool, regular_above: f64) {
     let (s, u) = (sampling::nominal_parameters(description), sampling::nominal_inputs(description));
     let (mut regular, mut before, mut after, mut turned) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
     for q in samples(&robot, 300) {
-        let command = corrected(&robot, None, &q, &s, &u).unwrap();
+        let command = compensated(&robot, None, &q, &s, &u).unwrap();
         assert!(within(&robot, &command.q));
         let (was, is) = (norms(&command.before), norms(&command.after));
         let cost = |(length, angle): (f64, f64)| (length * metre).hypot(1e-3 * angle);
@@ -181,7 +181,7 @@ fn a_redundant_arm_stays_near_the_nominal() {
         if least_singular_value(&robot, &q, &s.to_array()) < 0.1 {
             continue;
         }
-        let command = corrected(&robot, None, &q, &s.to_array(), &u.to_array()).unwrap();
+        let command = compensated(&robot, None, &q, &s.to_array(), &u.to_array()).unwrap();
         let q: [f64; 7] = q.try_into().unwrap();
         let (_, columns) = iiwa::joint_jacobian(&q, &s).unwrap();
         let jacobian = abbe::jacobian_view(&columns).into_owned();

@@ -1,6 +1,6 @@
 //! The results in sentences: tolerance, spheres, compensation, first order.
 
-use abbe::analysis::Compensation;
+use abbe::analysis::RemainingErrors;
 
 use super::Analysis;
 use crate::table::wrapped;
@@ -96,7 +96,7 @@ fn published_residual(analysis: &Analysis) -> Option<String> {
     ))
 }
 
-fn residual(analysis: &Analysis, compensation: &Compensation) -> String {
+fn residual(analysis: &Analysis, compensation: &RemainingErrors) -> String {
     format!(
         "Compensated as the study says: {} remain of the repeatable sources (root sum of squares; {} if all added), \
          and with the random ones the total absolute accuracy is {}{}.",

@@ -1,6 +1,6 @@
 //! What `ΔX ≈ J_e ε` neglects: first order against the exact chain.
 
-use abbe::analysis::{Row, Scattered, Sweepable, Unevaluated, Workspace, sweep};
+use abbe::analysis::{Row, Subset, Sweepable, Unevaluated, Workspace, sweep};
 use abbe::{Class, Error, Pose, deviation, real_pose};
 
 /// The most configurations at which the exact chain is run.
@@ -50,7 +50,7 @@ impl<'a> FirstOrder<'a> {
             checked: 0,
             largest: 0.0,
         };
-        sweep(manipulator, &Scattered { workspace, count: CHECKED }, u, &mut |row| {
+        sweep(manipulator, &Subset { workspace, count: CHECKED }, u, &mut |row| {
             if let Ok(difference) = compared.difference(row) {
                 compared.checked += 1;
                 compared.largest = compared.largest.max(difference);

@@ -1,7 +1,7 @@
 //! What of the workspace could not be reached, and why.
 
 use abbe::Description;
-use abbe::analysis::{Configuration, Unreachable, Unreachables, Unreached};
+use abbe::analysis::{Configuration, ReachError, Unreachable, UnreachableSummary};
 use serde::Serialize;
 
 use abbe_study::number;
@@ -17,26 +17,26 @@ pub(super) struct Reason {
 }
 
 /// The reasons, the most frequent first.
-pub(super) fn reasons(unreachable: &Unreachables, description: &Description) -> Vec<Reason> {
-    let name = |reason: &Unreached| match reason {
-        Unreached::OutOfReach { .. } => "out of reach".to_owned(),
-        Unreached::OutsideLimits { variable, .. } => {
+pub(super) fn reasons(unreachable: &UnreachableSummary, description: &Description) -> Vec<Reason> {
+    let name = |reason: &ReachError| match reason {
+        ReachError::OutOfReach { .. } => "out of reach".to_owned(),
+        ReachError::OutsideLimits { variable, .. } => {
             format!("{} outside its limits", description.variables[*variable].name)
         }
-        Unreached::Evaluation(error) => error.to_string(),
+        ReachError::Evaluation(error) => error.to_string(),
     };
     unreachable.reasons.iter().map(|(reason, count)| Reason { reason: name(reason), count: *count }).collect()
 }
 
 /// The reasons in a sentence.
-pub(super) fn summary(unreachable: &Unreachables, description: &Description) -> String {
+pub(super) fn summary(unreachable: &UnreachableSummary, description: &Description) -> String {
     let reasons = reasons(unreachable, description);
     reasons.iter().map(|r| format!("{} ({})", r.reason, r.count)).collect::<Vec<_>>().join(", ")
 }
 
 /// The first few: what was asked for, and why it could not be had.
 pub(super) fn first_few(
-    unreachable: &Unreachables,
+    unreachable: &UnreachableSummary,
     home: &Configuration,
     description: &Description,
 ) -> Vec<String> {
@@ -56,10 +56,10 @@ pub(super) fn first_few(
 /// Why it could not be had, with names and units.
 pub(super) fn reason(unreachable: &Unreachable, description: &Description) -> String {
     match unreachable.reason {
-        Unreached::OutOfReach { residual, .. } => {
+        ReachError::OutOfReach { residual, .. } => {
             format!("out of reach, at best {} away", number::length(residual, description.length))
         }
-        Unreached::OutsideLimits { variable, value, limits: [lower, upper] } => {
+        ReachError::OutsideLimits { variable, value, limits: [lower, upper] } => {
             let variable = &description.variables[variable];
             let show = |value| number::of_variable(value, variable.kind, description.length);
             let name = &variable.name;
@@ -70,6 +70,6 @@ pub(super) fn reason(unreachable: &Unreachable, description: &Description) -> St
                 show(upper)
             )
         }
-        Unreached::Evaluation(error) => error.to_string(),
+        ReachError::Evaluation(error) => error.to_string(),
     }
 }

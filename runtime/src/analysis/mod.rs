@@ -1,10 +1,36 @@
 //! The errors of a machine over its workspace: section 5 of the paper, on any [`Manipulator`](crate::Manipulator).
 //!
-//! A [`Workspace`] makes configurations by index: joint grids and samples, a presented volume or a box solved by
-//! [`inverse()`], a list. [`sweep`] evaluates it block by block, in parallel, and shows every [`Row`] in order;
-//! nothing is stored. [`error_budget`] gathers what every source does alone ([`SourceErrors`]) and what they do
-//! together ([`Combined`]), [`Compensation`] what is left, [`Admissible`] what a tolerance allows. [`monte_carlo`]
-//! draws errors on the exact chain, [`corrected()`] commands compensate them. [`identifiable()`] counts which generalized errors measurements can tell apart.
+//! | folder | what |
+//! |---|---|
+//! | `workspace` | a [`Workspace`] makes configurations by index: grids and samples of joints, a presented volume, a box, a list |
+//! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool |
+//! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and shows every [`Row`] in order; nothing is stored |
+//! | `budget` | [`error_budget`]: what every source does alone ([`SourceErrors`]), all together ([`Combined`]), what is left after compensation ([`RemainingErrors`]), what a tolerance allows ([`Admissible`]) |
+//! | `random` | [`monte_carlo`] draws errors on the exact chain |
+//!
+//! [`identifiable()`] counts which generalized errors measurements can tell apart.
+//!
+//! An error budget over 10,000 random configurations:
+//!
+//! ```
+//! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
+//! # fn main() -> Result<(), Box<dyn core::error::Error>> {
+//! use abbe::analysis::{Admissible, error_budget, random_joint_samples};
+//! use pps::{DESCRIPTION, Inputs, Pps};
+//!
+//! let moved = [0, 1, 2, 3]; // the three slides and the spin; the other joints stay at home
+//! let workspace = random_joint_samples(&Pps, &moved, 10_000, 1)?;
+//! let budget = error_budget(&Pps, &workspace, &Inputs::NOMINAL.to_array(), None, &mut ())?;
+//! for errors in &budget.sources {
+//!     println!("{}: {:.4} mm", DESCRIPTION.sources[errors.source].name, errors.plain_max.norm);
+//! }
+//! let largest = budget.combined.radius;
+//! println!("all together: {:.3} mm in configuration {:?}", largest.value, largest.configuration);
+//! println!("all by this factor for 0.5 mm: {:?}", Admissible::new(&budget, 0.5).together);
+//! # assert!(budget.configurations == 10_000 && largest.value > 5.0);
+//! # Ok(())
+//! # }
+//! ```
 
 mod budget;
 mod identifiable;
@@ -20,15 +46,15 @@ pub(crate) mod by_hand;
 mod tests;
 
 pub use budget::{
-    Admissible, Budget, CHI_SQUARED_95, Combined, Compensation, Ellipsoid, Extreme, Figures, Residual,
+    Admissible, Budget, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, RemainingErrors, Residual,
     SourceErrors, Sphere, Watch, covariance, error_budget, variance,
 };
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
-pub use reach::{Target, Unreached, corrected, inverse};
+pub use reach::{ReachError, Target, compensated, inverse};
 pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, sweep};
 pub use workspace::{
     Axis, BaseBox, Configuration, JointGrid, JointSamples, Listed, Presentation, PresentedVolume, ReachedBox,
-    Scattered, ToolOrientation, Unreachable, Unreachables, Workspace, base_box, joint_grid, joint_samples,
+    Subset, ToolOrientation, Unreachable, UnreachableSummary, Workspace, base_box, joint_grid, joint_samples,
     listed, presented_volume, random_joint_samples,
 };

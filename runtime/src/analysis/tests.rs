@@ -130,7 +130,7 @@ fn a_6r_arm_reaches_what_it_can() {
         }
     }
     let far = Target::Point([5.0, 0.0, 0.0]);
-    let Err(Unreached::OutOfReach { residual, .. }) = inverse(&Puma, &s, &start, &all, &far) else {
+    let Err(ReachError::OutOfReach { residual, .. }) = inverse(&Puma, &s, &start, &all, &far) else {
         panic!("out of reach")
     };
     assert!(residual > 3.5 && residual < 4.2, "{residual}");
@@ -176,7 +176,7 @@ fn a_variable_that_stops_is_named() {
     let Configuration { q, s } = home();
     // d1 = 2300 would do.
     let target = Target::Point([2300.0, 1626.0, 1846.0]);
-    let Err(Unreached::OutsideLimits { variable: 0, value, limits }) =
+    let Err(ReachError::OutsideLimits { variable: 0, value, limits }) =
         inverse(&Pps, &s, &q, &[0, 1, 2], &target)
     else {
         panic!("d1 is outside its limits")
@@ -188,7 +188,7 @@ fn a_variable_that_stops_is_named() {
     // A held variable outside its limits is no solution either.
     let held = [1128.0, 280.0, 0.0, 1.6, 0.0, 0.0];
     let refused = inverse(&Pps, &s, &held, &[0, 1, 2], &Target::Point([1128.0, 1626.0, 1846.0]));
-    assert!(matches!(refused, Err(Unreached::OutsideLimits { variable: 3, value: 1.6, .. })));
+    assert!(matches!(refused, Err(ReachError::OutsideLimits { variable: 3, value: 1.6, .. })));
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn what_no_variable_reaches_is_out_of_reach() {
     // The lateral axis alone cannot leave its line.
     let point = Pps.pose(&q, &s).unwrap().position();
     let target = Target::Point([point[0] + 10.0, point[1] + 3.0, point[2] + 4.0]);
-    let Err(Unreached::OutOfReach { residual, turn }) = inverse(&Pps, &s, &q, &[0], &target) else {
+    let Err(ReachError::OutOfReach { residual, turn }) = inverse(&Pps, &s, &q, &[0], &target) else {
         panic!("out of reach")
     };
     assert!((residual - 5.0).abs() < 1e-6 && turn == 0.0);
@@ -207,7 +207,7 @@ fn what_no_variable_reaches_is_out_of_reach() {
     // Spin alone: the circle about the spin axis, 1000 mm beyond it.
     let axis = [q[0], point[1], 718.0 + q[2]];
     let target = Target::Point([axis[0] + 1850.0 * 0.6, axis[1], axis[2] + 1850.0 * 0.8]);
-    let Err(Unreached::OutOfReach { residual, .. }) = inverse(&Pps, &s, &q, &[3], &target) else {
+    let Err(ReachError::OutOfReach { residual, .. }) = inverse(&Pps, &s, &q, &[3], &target) else {
         panic!("out of reach")
     };
     assert!((residual - 1000.0).abs() < 1e-3, "{residual}");
@@ -217,10 +217,10 @@ fn what_no_variable_reaches_is_out_of_reach() {
 fn bad_arguments_are_refused() {
     let Configuration { q, s } = home();
     let target = Target::Point([f64::NAN, 0.0, 0.0]);
-    assert!(matches!(inverse(&Pps, &s, &q, &[0], &target), Err(Unreached::Evaluation(_))));
+    assert!(matches!(inverse(&Pps, &s, &q, &[0], &target), Err(ReachError::Evaluation(_))));
     let target = Target::Point([0.0; 3]);
     for (q, s, free) in [(&q[..5], &s[..], 0), (&q[..], &s[..2], 0), (&q[..], &s[..], 6)] {
-        assert!(matches!(inverse(&Pps, s, q, &[free], &target), Err(Unreached::Evaluation(_))));
+        assert!(matches!(inverse(&Pps, s, q, &[free], &target), Err(ReachError::Evaluation(_))));
     }
     assert!(joint_samples(&Pps, &[6], 1).is_err());
     assert!(joint_grid(&Pps, &[Axis { index: 9, values: vec![] }]).is_err());

@@ -1,6 +1,6 @@
 //! Row by row.
 
-use abbe::analysis::{Target, Unreached, corrected, inverse, sampling};
+use abbe::analysis::{ReachError, Target, compensated, inverse, sampling};
 use abbe::compensator::{Compensated, norms};
 use abbe::identify::{Measurement, Observation};
 use abbe::{Description, Error, Manipulator, Variable};
@@ -93,7 +93,7 @@ fn row(
     let evaluation = |error: Error| evaluation(description, &error);
     let (Measurement::Pose(wanted), true) = (measured, poses) else {
         within_limits(description, q)?;
-        return corrected(manipulator, None, q, s, u).map_err(evaluation);
+        return compensated(manipulator, None, q, s, u).map_err(evaluation);
     };
     let all: Vec<usize> = (0..q.len()).collect();
     let target = match q.len() {
@@ -102,7 +102,7 @@ fn row(
     };
     let ideal =
         inverse(manipulator, s, q, &all, &target).map_err(|reason| unreached(description, &reason))?;
-    corrected(manipulator, Some(wanted), &ideal, s, u).map_err(evaluation)
+    compensated(manipulator, Some(wanted), &ideal, s, u).map_err(evaluation)
 }
 
 /// A command that the machine would refuse is not one to be corrected.
@@ -128,9 +128,9 @@ fn evaluation(description: &Description, error: &Error) -> String {
     }
 }
 
-fn unreached(description: &Description, reason: &Unreached) -> String {
+fn unreached(description: &Description, reason: &ReachError) -> String {
     match reason {
-        Unreached::OutsideLimits { variable, value, .. } => {
+        ReachError::OutsideLimits { variable, value, .. } => {
             let variable = &description.variables[*variable];
             let value = of_variable(*value, variable.kind, description.length);
             format!("not even the ideal tool gets there: {} would have to be {value}", variable.name)

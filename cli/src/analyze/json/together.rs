@@ -1,6 +1,6 @@
 //! What all sources do together, and what compensation leaves of it, for machines.
 
-use abbe::analysis::Compensation;
+use abbe::analysis::RemainingErrors;
 use serde::Serialize;
 
 use super::super::Analysis;
@@ -72,7 +72,7 @@ pub(super) fn of(analysis: &Analysis) -> Together {
     }
 }
 
-pub(super) fn compensated(compensation: &Compensation) -> Compensated {
+pub(super) fn compensated(compensation: &RemainingErrors) -> Compensated {
     Compensated {
         residual: compensation.residual.value,
         residual_sum: compensation.residual_sum.value,

@@ -5,13 +5,13 @@ use core::ops::Range;
 use super::combined::{self, Gathered};
 use super::enclosing_sphere::{Enclosing, Shell};
 use super::gains::{self, Gains};
-use super::remaining;
+use super::remaining_errors;
 use super::source_errors::{self, Tally, position};
 use super::sums::Sums;
-use super::{Combined, Compensation, Ellipsoid, Residual, SourceErrors, covariance};
+use super::{Combined, Ellipsoid, RemainingErrors, Residual, SourceErrors, covariance};
 use crate::analysis::sweep::{BLOCK, Block, Row, Sweepable, Unevaluated, in_order, ready, sweep};
 use crate::analysis::workspace::One;
-use crate::analysis::{Scattered, Unreachable, Unreachables, Workspace};
+use crate::analysis::{Subset, Unreachable, UnreachableSummary, Workspace};
 use crate::lanes::{InstructionSet, Kernel, Lanes, Register};
 use crate::{Class, Scalar};
 
@@ -32,11 +32,11 @@ pub struct Budget {
     /// nothing where it counteracts the others.
     pub gains: Vec<f64>,
     /// What is left after compensation, if it was asked for.
-    pub compensation: Option<Compensation>,
+    pub compensation: Option<RemainingErrors>,
     /// How many configurations were reached and evaluated.
     pub configurations: usize,
     /// Those that could not be reached.
-    pub unreachable: Unreachables,
+    pub unreachable: UnreachableSummary,
 }
 
 /// Who looks on while a budget is made. `()` does not.
@@ -84,7 +84,7 @@ pub fn error_budget(
 
     // If one of these cannot be evaluated, the sweep over all of them will say which.
     let (mut points, mut ellipsoid) = (Vec::new(), Ellipsoid::default());
-    let scattered = Scattered { workspace, count: SCATTERED };
+    let scattered = Subset { workspace, count: SCATTERED };
     let _ = sweep(manipulator, &scattered, u, &mut |row| {
         points.push(position(&row.repeatable));
         let other = Ellipsoid::new(covariance(&description.sources, row.sources), row.index);
@@ -111,7 +111,7 @@ pub fn error_budget(
     let blocks = (count / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK);
     let range = |chunk: usize| chunk * blocks * BLOCK..count.min((chunk + 1) * blocks * BLOCK);
     let mut total = Part::new(&start);
-    let mut unreachables = Unreachables::default();
+    let mut unreachables = UnreachableSummary::default();
     let (rows, mut here) = (watch.rows(), workspace.home().clone());
     in_order(
         count.div_ceil(blocks * BLOCK),
@@ -158,7 +158,7 @@ struct Part<'a> {
     tallies: Vec<Tally>,
     gathered: Gathered,
     gains: Gains,
-    compensation: Option<Compensation>,
+    compensation: Option<RemainingErrors>,
     count: usize,
     unreachable: Vec<Unreachable>,
     /// The blocks themselves, if they are to be shown.
@@ -172,7 +172,7 @@ impl<'a> Part<'a> {
             tallies: vec![Tally::new(); start.classes.len()],
             gathered: Gathered::new(Ellipsoid::default()),
             gains: Gains::new(start.classes.len()),
-            compensation: start.residuals.map(|_| Compensation::none()),
+            compensation: start.residuals.map(|_| RemainingErrors::none()),
             count: 0,
             unreachable: Vec::new(),
             blocks: Vec::new(),
@@ -212,7 +212,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
             of_sources.map(|(class, home)| source_errors::Lane::<R>::new(*class, *home)).collect();
         let mut all = combined::Lane::<R>::new(ellipsoid, shell);
         let mut shrunk = gains::Lane::<R>::new(classes.len());
-        let mut compensated = remaining::Lane::<R>::new();
+        let mut compensated = remaining_errors::Lane::<R>::new();
         let mut norm_of = vec![Lanes::constant(0.0); classes.len()];
         let mut indices = Vec::with_capacity(self.range.len());
         let mut block = Block::new(manipulator, workspace, u, BLOCK.min(self.range.len()));

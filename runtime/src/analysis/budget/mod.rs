@@ -10,7 +10,7 @@ mod enclosing_sphere;
 mod error_budget;
 mod gains;
 mod peak;
-mod remaining;
+mod remaining_errors;
 mod source_errors;
 mod sums;
 
@@ -19,6 +19,6 @@ pub use combined::{Combined, Extreme};
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use enclosing_sphere::Sphere;
 pub use error_budget::{Budget, Watch, error_budget};
-pub use remaining::{Compensation, Residual};
+pub use remaining_errors::{RemainingErrors, Residual};
 pub(super) use source_errors::position;
 pub use source_errors::{Figures, SourceErrors};

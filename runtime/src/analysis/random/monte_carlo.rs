@@ -100,7 +100,7 @@ pub fn monte_carlo(
     let (mean, covariance, standard_error) = sums.moments();
     Ok(MonteCarlo {
         draws,
-        quantiles: [0.5, 0.95, 0.99].map(|probability| Quantile::of(&norms, probability)),
+        quantiles: [0.5, 0.95, 0.99].map(|probability| Quantile::from_sorted(&norms, probability)),
         largest: norms.last().copied().unwrap_or_default(),
         mean: core::array::from_fn(|i| without_random[i] + mean[i]),
         covariance,

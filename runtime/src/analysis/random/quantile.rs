@@ -15,7 +15,7 @@ impl Quantile {
     /// Of N sorted values, `x_⌈pN⌉`. How many of them lie below the true quantile is binomial with the standard
     /// deviation `d = √(N p (1 − p))`; the standard error is what the values vary by over that many ranks,
     /// `(x_{pN+d} − x_{pN−d}) / 2`, whatever the distribution.
-    pub(super) fn of(sorted: &[f64], probability: f64) -> Self {
+    pub(super) fn from_sorted(sorted: &[f64], probability: f64) -> Self {
         let count = sorted.len() as f64;
         let at = |rank: f64| {
             let index = (rank.ceil().max(1.0) as usize - 1).min(sorted.len().saturating_sub(1));
@@ -35,11 +35,11 @@ mod tests {
     #[test]
     fn of_equally_spaced_values() {
         let sorted = (1..=10_000).map(|i| f64::from(i) / 10_000.0).collect::<Vec<_>>();
-        let Quantile { value, standard_error, .. } = Quantile::of(&sorted, 0.5);
+        let Quantile { value, standard_error, .. } = Quantile::from_sorted(&sorted, 0.5);
         assert!((value - 0.5).abs() < 1e-12);
         // √(p (1 − p) / N) over a density of 1.
         assert!((standard_error - 0.005).abs() < 1e-4);
-        assert_eq!(Quantile::of(&[], 0.5).value, 0.0);
-        assert_eq!(Quantile::of(&[3.0], 0.99).value, 3.0);
+        assert_eq!(Quantile::from_sorted(&[], 0.5).value, 0.0);
+        assert_eq!(Quantile::from_sorted(&[3.0], 0.99).value, 3.0);
     }
 }

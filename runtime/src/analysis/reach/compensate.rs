@@ -7,7 +7,7 @@ use crate::{Error, Manipulator, Pose, Quantity, checks, real_pose};
 /// Commands that bring the real tool to `target`, from `q` on, or to where the ideal tool is at `q` if none is given.
 ///
 /// See [`compensate`]. Errors as for [`Manipulator::generalized_errors`] and [`Manipulator::joint_jacobian`].
-pub fn corrected(
+pub fn compensated(
     manipulator: &dyn Manipulator,
     target: Option<&Pose>,
     q: &[f64],

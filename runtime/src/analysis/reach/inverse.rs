@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector, SVD};
 
-use super::Unreached;
+use super::ReachError;
 use crate::analysis::sampling;
 use crate::analysis::workspace::in_range;
 use crate::{Error, Manipulator, Pose, Quantity, Variable, VariableKind, deviation};
@@ -46,7 +46,7 @@ pub fn inverse(
     start: &[f64],
     free: &[usize],
     target: &Target,
-) -> Result<Vec<f64>, Unreached> {
+) -> Result<Vec<f64>, ReachError> {
     let description = manipulator.description();
     let variables = &description.variables;
     in_range(free.iter().copied(), Quantity::Variables, variables.len())?;
@@ -89,8 +89,8 @@ fn beyond(variable: &Variable, value: f64) -> f64 {
     (lower - value).max(value - upper).max(0.0) / share
 }
 
-fn outside(variables: &[Variable], variable: usize, value: f64) -> Unreached {
-    Unreached::OutsideLimits { variable, value, limits: variables[variable].limits }
+fn outside(variables: &[Variable], variable: usize, value: f64) -> ReachError {
+    ReachError::OutsideLimits { variable, value, limits: variables[variable].limits }
 }
 
 /// One problem. Its residuals are the rows of the target, lengths in arm lengths; its steps are in rad and in
@@ -221,7 +221,7 @@ impl Search<'_> {
     }
 
     /// Looks for the target without limits, to say what stops it.
-    fn beyond_limits(&self, starts: &[Vec<f64>]) -> Result<Vec<f64>, Unreached> {
+    fn beyond_limits(&self, starts: &[Vec<f64>]) -> Result<Vec<f64>, ReachError> {
         // Of all solutions, the one that is least beyond: its worst variable, how far, its value.
         let mut least: Option<(usize, f64, f64)> = None;
         let mut nearest: Option<Point> = None;
@@ -261,7 +261,7 @@ impl Search<'_> {
         let rows = nearest.residual.as_slice();
         let (position, turn) = rows.split_at(3.min(rows.len()));
         let norm = |rows: &[f64]| rows.iter().fold(0.0, |norm: f64, row| norm.hypot(*row));
-        Err(Unreached::OutOfReach { residual: norm(position) * self.arm, turn: norm(turn) })
+        Err(ReachError::OutOfReach { residual: norm(position) * self.arm, turn: norm(turn) })
     }
 
     /// Free revolute variables brought back by whole turns, towards the middle of their limits.

@@ -2,8 +2,8 @@
 
 mod compensate;
 mod inverse;
-mod unreached;
+mod reach_error;
 
-pub use compensate::corrected;
+pub use compensate::compensated;
 pub use inverse::{Target, inverse};
-pub use unreached::Unreached;
+pub use reach_error::ReachError;

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::{Row, Sweepable, Unevaluated};
-use crate::analysis::{Configuration, Unreachable, Unreached, Workspace};
+use crate::analysis::{Configuration, ReachError, Unreachable, Workspace};
 use crate::lanes::{InstructionSet, Kernel, Lanes, Register, Tiles};
 use crate::{Class, Error, Function, MINIMUM_MARGIN, Orientation, Pose, Quantity, Scalar};
 
@@ -153,7 +153,7 @@ impl<'a> Block<'a> {
                     kept += 1;
                 }
                 Err(error @ Error::EulerSingularity { .. }) => {
-                    let (point, reason) = (self.workspace.point(index), Unreached::Evaluation(error));
+                    let (point, reason) = (self.workspace.point(index), ReachError::Evaluation(error));
                     self.unreachable.push(Unreachable { index, point, asked: here.clone(), reason });
                 }
                 Err(error) => return Err(self.at(place, error)),

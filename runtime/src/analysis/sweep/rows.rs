@@ -6,7 +6,7 @@ use super::Sweepable;
 use super::block::Block;
 use super::in_order::in_order;
 use crate::analysis::workspace::STREAM;
-use crate::analysis::{Configuration, Unreachables, Workspace};
+use crate::analysis::{Configuration, UnreachableSummary, Workspace};
 use crate::{Error, Pose, Quantity, checks};
 
 /// How many configurations are evaluated at once: few enough for what the sources do to stay in the cache, and
@@ -64,10 +64,10 @@ pub fn sweep(
     workspace: &dyn Workspace,
     u: &[f64],
     visit: &mut dyn FnMut(&Row),
-) -> Result<Unreachables, Unevaluated> {
+) -> Result<UnreachableSummary, Unevaluated> {
     ready(manipulator, workspace, u)?;
     let mut here = workspace.home().clone();
-    let mut unreachables = Unreachables::default();
+    let mut unreachables = UnreachableSummary::default();
     let count = workspace.len();
     in_order(
         count.div_ceil(BLOCK),

@@ -79,7 +79,7 @@ fn what_cannot_be_reached_is_counted_by_reason() {
     assert_eq!((budget.configurations, budget.unreachable.count), (0, 3500));
     assert_eq!(budget.unreachable.first.len(), 1000);
     let kinds = budget.unreachable.reasons.iter().map(|(reason, count)| match reason {
-        Unreached::OutsideLimits { variable, .. } => (*variable, *count),
+        ReachError::OutsideLimits { variable, .. } => (*variable, *count),
         other => panic!("{other}"),
     });
     assert_eq!(kinds.collect::<Vec<_>>(), [(1, 2000), (0, 1500)]);

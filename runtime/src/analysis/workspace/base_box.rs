@@ -2,7 +2,7 @@
 
 use super::axis::{combinations, combine, in_range};
 use super::{Axis, Configuration, Workspace};
-use crate::analysis::{Target, Unreached, inverse};
+use crate::analysis::{ReachError, Target, inverse};
 use crate::{Error, Manipulator, Pose, Quantity};
 
 /// What a tool that reaches a point of a [`BaseBox`] has to point at.
@@ -66,7 +66,7 @@ impl Workspace for ReachedBox<'_> {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
         q.copy_from_slice(&self.home.q);
         s.copy_from_slice(&self.home.s);
         let mut pose = self.pose;

@@ -1,7 +1,7 @@
 //! Configurations one after the other.
 
 use super::{Configuration, Workspace};
-use crate::analysis::Unreached;
+use crate::analysis::ReachError;
 use crate::{Error, Manipulator, Quantity};
 
 /// Configurations one after the other, a path say; see [`listed`].
@@ -40,14 +40,14 @@ impl Workspace for Listed {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
         let configuration = self.configurations.get(index).unwrap_or(&self.home);
         q.copy_from_slice(&configuration.q);
         s.copy_from_slice(&configuration.s);
         let outside = |(value, [lower, upper]): (&f64, &[f64; 2])| value < lower || value > upper;
         match q.iter().zip(&self.limits).position(outside) {
             Some(variable) => {
-                Err(Unreached::OutsideLimits { variable, value: q[variable], limits: self.limits[variable] })
+                Err(ReachError::OutsideLimits { variable, value: q[variable], limits: self.limits[variable] })
             }
             None => Ok(()),
         }

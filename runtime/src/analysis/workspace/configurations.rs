@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::Configuration;
-use crate::analysis::Unreached;
+use crate::analysis::ReachError;
 use crate::lanes::Tiles;
 
 /// The configurations over which errors are analyzed, by index.
@@ -24,7 +24,7 @@ pub trait Workspace: Sync {
 
     /// Writes configuration `index`, less than [`len`](Self::len), over `q` and `s`, which are as long as those
     /// of home. If it cannot be had they hold what was asked for.
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached>;
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError>;
 
     /// Writes what differs from home in the configurations of a range into rows q, s of `rows`, which hold those of
     /// home, if all can be had and this is quicker than one by one; says whether it did.
@@ -38,7 +38,7 @@ pub trait Workspace: Sync {
     }
 
     /// Configuration `index`, or why it cannot be had.
-    fn configuration(&self, index: usize) -> Result<Configuration, Unreached> {
+    fn configuration(&self, index: usize) -> Result<Configuration, ReachError> {
         let mut configuration = self.home().clone();
         self.fill(index, &mut configuration.q, &mut configuration.s)?;
         Ok(configuration)
@@ -62,7 +62,7 @@ impl Workspace for One<'_> {
         self.0
     }
 
-    fn fill(&self, _: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+    fn fill(&self, _: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
         q.copy_from_slice(&self.0.q);
         s.copy_from_slice(&self.0.s);
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::axis::{combinations, combine, in_range};
 use super::{Axis, Configuration, Workspace};
-use crate::analysis::Unreached;
+use crate::analysis::ReachError;
 use crate::{Error, Manipulator, Quantity};
 
 /// Every combination of the values of some variables; see [`joint_grid`].
@@ -31,7 +31,7 @@ impl Workspace for JointGrid {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
         q.copy_from_slice(&self.home.q);
         s.copy_from_slice(&self.home.s);
         combine(index, &self.axes, q);

@@ -6,7 +6,7 @@ use rand::{Rng, RngExt};
 
 use super::axis::in_range;
 use super::{Configuration, Workspace};
-use crate::analysis::Unreached;
+use crate::analysis::ReachError;
 use crate::analysis::sampling::{self, stream};
 use crate::lanes::Tiles;
 use crate::{Error, Manipulator, Quantity};
@@ -77,7 +77,7 @@ impl Workspace for JointSamples {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
         q.copy_from_slice(&self.home.q);
         s.copy_from_slice(&self.home.s);
         match self.spread {

@@ -25,5 +25,5 @@ pub use joint_grid::{JointGrid, joint_grid};
 pub(in crate::analysis) use joint_samples::STREAM;
 pub use joint_samples::{JointSamples, joint_samples, random_joint_samples};
 pub use presented_volume::{Presentation, PresentedVolume, presented_volume};
-pub use subset::Scattered;
-pub use unreachable::{Unreachable, Unreachables};
+pub use subset::Subset;
+pub use unreachable::{Unreachable, UnreachableSummary};

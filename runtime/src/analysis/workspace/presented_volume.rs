@@ -2,7 +2,7 @@
 
 use super::axis::{combinations, combine, in_range};
 use super::{Axis, Configuration, Workspace};
-use crate::analysis::{Target, Unreached, inverse, sampling};
+use crate::analysis::{ReachError, Target, inverse, sampling};
 use crate::{Error, Manipulator, Quantity};
 
 /// What is presented where, and how.
@@ -55,7 +55,7 @@ impl Workspace for PresentedVolume<'_> {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
         let Presentation { point, tool_points, approaches, solved } = &self.presentation;
         q.copy_from_slice(&self.home.q);
         s.copy_from_slice(&self.home.s);

@@ -1,20 +1,20 @@
 //! A few configurations from everywhere in a workspace.
 
 use super::{Configuration, Workspace};
-use crate::analysis::Unreached;
+use crate::analysis::ReachError;
 
 /// `1/φ`: its multiples modulo 1 are spread evenly, and fall in step with no grid.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// At most `count` configurations of a workspace, spread over its indices; all of a smaller one.
-pub struct Scattered<'a> {
+pub struct Subset<'a> {
     /// The workspace.
     pub workspace: &'a dyn Workspace,
     /// How many of its configurations at most.
     pub count: usize,
 }
 
-impl Workspace for Scattered<'_> {
+impl Workspace for Subset<'_> {
     fn len(&self) -> usize {
         self.workspace.len().min(self.count)
     }
@@ -23,7 +23,7 @@ impl Workspace for Scattered<'_> {
         self.workspace.home()
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), Unreached> {
+    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
         let all = self.workspace.len();
         let place = match all <= self.count {
             true => index,

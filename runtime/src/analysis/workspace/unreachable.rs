@@ -3,7 +3,7 @@
 use core::mem::discriminant;
 
 use super::Configuration;
-use crate::analysis::Unreached;
+use crate::analysis::ReachError;
 
 /// A configuration that was asked for and could not be had.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Unreachable {
     /// What was asked for; the variables to be solved for are where the search began.
     pub asked: Configuration,
     /// Why it could not be had.
-    pub reason: Unreached,
+    pub reason: ReachError,
 }
 
 /// How many are listed one by one.
@@ -23,17 +23,17 @@ const LISTED: usize = 1000;
 
 /// What of a workspace could not be reached.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Unreachables {
+pub struct UnreachableSummary {
     /// How many.
     pub count: usize,
     /// The kinds of reasons (out of reach, the variable outside its limits, the kind of error), each with the
     /// first of its kind and how many there are; the most frequent kind first.
-    pub reasons: Vec<(Unreached, usize)>,
+    pub reasons: Vec<(ReachError, usize)>,
     /// The first ones, 1000 at most.
     pub first: Vec<Unreachable>,
 }
 
-impl Unreachables {
+impl UnreachableSummary {
     pub(in crate::analysis) fn add(&mut self, unreachable: Unreachable) {
         self.count += 1;
         let reason = unreachable.reason;
@@ -55,13 +55,13 @@ impl Unreachables {
 }
 
 /// Whether two reasons are of one kind.
-fn alike(a: &Unreached, b: &Unreached) -> bool {
+fn alike(a: &ReachError, b: &ReachError) -> bool {
     match (a, b) {
-        (Unreached::OutOfReach { .. }, Unreached::OutOfReach { .. }) => true,
-        (Unreached::OutsideLimits { variable: a, .. }, Unreached::OutsideLimits { variable: b, .. }) => {
+        (ReachError::OutOfReach { .. }, ReachError::OutOfReach { .. }) => true,
+        (ReachError::OutsideLimits { variable: a, .. }, ReachError::OutsideLimits { variable: b, .. }) => {
             a == b
         }
-        (Unreached::Evaluation(a), Unreached::Evaluation(b)) => discriminant(a) == discriminant(b),
+        (ReachError::Evaluation(a), ReachError::Evaluation(b)) => discriminant(a) == discriminant(b),
         _ => false,
     }
 }

@@ -18,7 +18,7 @@ pub enum Residual {
 /// What compensation leaves of all sources, and the total absolute accuracy, gathered configuration by
 /// configuration. Random errors cannot be compensated: they remain as they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Compensation {
+pub struct RemainingErrors {
     /// max √(Σ ρ_k²) with the residuals ρ_k of the repeatable sources: their signs are unknown and independent.
     pub residual: Extreme,
     /// max Σ ρ_k: all in one direction.
@@ -27,7 +27,7 @@ pub struct Compensation {
     pub total: Extreme,
 }
 
-impl Compensation {
+impl RemainingErrors {
     /// Of no configurations.
     pub(super) fn none() -> Self {
         Self::default()
@@ -47,7 +47,7 @@ impl Compensation {
     }
 }
 
-/// Gathers [`Compensation`] in lanes.
+/// Gathers [`RemainingErrors`] in lanes.
 pub(super) struct Lane<R: Register> {
     square: Peak<R>,
     sum: Peak<R>,
@@ -79,13 +79,13 @@ impl<R: Register> Lane<R> {
         self.total.add(square.sqrt() + sums.random_norm, sums.place);
     }
 
-    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Compensation {
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> RemainingErrors {
         let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
             let found = peak.finish().map(|(value, place)| (f(value), Some(index(place))));
             let (value, configuration) = found.unwrap_or_default();
             Extreme { value, configuration }
         };
-        Compensation {
+        RemainingErrors {
             residual: extreme(self.square, f64::sqrt),
             residual_sum: extreme(self.sum, |sum| sum),
             total: extreme(self.total, |total| total),

@@ -6,7 +6,7 @@ use crate::Error;
 
 /// Why a target could not be reached. Lengths in the manipulator's unit, angles in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Unreached {
+pub enum ReachError {
     /// No values of the free variables were found that reach it, with limits or without.
     OutOfReach {
         /// The smallest distance of the tool point from the target that was found, limits aside.
@@ -27,7 +27,7 @@ pub enum Unreached {
     Evaluation(Error),
 }
 
-impl fmt::Display for Unreached {
+impl fmt::Display for ReachError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfReach { residual, turn: 0.0 } => {
@@ -45,9 +45,9 @@ impl fmt::Display for Unreached {
     }
 }
 
-impl core::error::Error for Unreached {}
+impl core::error::Error for ReachError {}
 
-impl From<Error> for Unreached {
+impl From<Error> for ReachError {
     fn from(error: Error) -> Self {
         Self::Evaluation(error)
     }
