@@ -1,4 +1,4 @@
-//! The report: the paper's Figure 13, errors in space, and its Figure 14, how often which error occurs.
+//! The report: errors in space and how often which error occurs, as in the paper's Figures 13 and 14.
 
 use abbe_codegen::spec::Spec;
 use abbe_study::measure::{Report, RowError};
@@ -13,6 +13,8 @@ use abbe_study::number::{fixed, trimmed};
 const MOST: usize = 5000;
 /// The bins of a histogram.
 const BINS: usize = 40;
+/// Its machine is in Figures 13 and 14.
+const PAPER: &str = "High Performance Medical Robot Requirements and Accuracy Analysis";
 
 pub(super) fn page(spec: &Spec, report: &Report) -> String {
     let to_mm = if spec.length.symbol() == "m" { 1e3 } else { 1.0 };
@@ -28,16 +30,17 @@ pub(super) fn page(spec: &Spec, report: &Report) -> String {
     let sentences = report.sentences();
     let words: String = sentences.iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect();
     let lines: String = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect();
+    let of_paper = |figure| if spec.reference.contains(PAPER) { paper_figure(figure) } else { String::new() };
     let mut figures = figure(
         "Accuracy: errors in space",
-        "Figure 13",
+        &of_paper(13),
         &[cloud(&position, &report.row_errors)],
         560,
         "Each dot is ΔX of one row.",
     );
     figures += &figure(
         "Accuracy: how often which error occurs",
-        "Figure 14",
+        &of_paper(14),
         &histograms(&position),
         260,
         "ΔX of all rows.",
@@ -46,7 +49,7 @@ pub(super) fn page(spec: &Spec, report: &Report) -> String {
         let words = "About the barycentre of the visits of each configuration.";
         figures += &figure(
             "Repeatability: how often which error occurs",
-            "Figure 14",
+            &of_paper(14),
             &histograms(&about),
             260,
             words,
@@ -81,6 +84,11 @@ fn table(report: &Report) -> String {
     )
 }
 
+/// Where the paper shows the same of the same machine.
+fn paper_figure(number: u32) -> String {
+    format!(" <span class=\"paper\">cf. Figure {number} of the paper</span>")
+}
+
 fn figure(title: &str, paper: &str, plots: &[Plot], height: u32, words: &str) -> String {
     let slug: String =
         title.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect();
@@ -89,7 +97,7 @@ fn figure(title: &str, paper: &str, plots: &[Plot], height: u32, words: &str) ->
         format!("<div class=\"plot\" style=\"height:{height}px\">{}</div>\n", plot.to_inline_html(Some(&id)))
     });
     format!(
-        "<figure>\n<h3>{title} <span class=\"paper\">cf. {paper} of the paper</span></h3>\n<div class=\"plots of-{}\">\n{}</div>\n\
+        "<figure>\n<h3>{title}{paper}</h3>\n<div class=\"plots of-{}\">\n{}</div>\n\
          <figcaption>{words}</figcaption>\n</figure>\n",
         plots.len(),
         panels.collect::<String>()

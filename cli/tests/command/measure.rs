@@ -146,3 +146,14 @@ fn maps_and_plans_with_mistakes() {
     refused(&["simulate", "pps", "--map", "pps", "--noise", "-1mm"], &["not negative"]);
     refused(&["simulate", "pps", "--map", "pps", "--outliers", "2"], &["a share is from 0 to 1"]);
 }
+
+/// Only of the machine that the paper measured.
+#[test]
+fn figures_of_the_paper_are_of_its_machine() {
+    let folder = tempdir().unwrap();
+    let (data, out) = (folder.path().join("data.csv"), folder.path().join("out"));
+    prints(&["simulate", "ur5", "--map", "ur5", "--samples", "20", "--out", path(&data)]);
+    prints(&["measure", "ur5", path(&data), "--map", "ur5", "--out", path(&out)]);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("Accuracy: errors in space") && !page.contains("of the paper"));
+}

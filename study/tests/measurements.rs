@@ -1,0 +1,269 @@
+//! The jobs about measurements, called as anything but the command would call them.
+
+use std::path::PathBuf;
+
+use abbe::identify::{Loss, Measurement, Observation};
+use abbe_codegen::spec::Spec;
+use abbe_study::compensate::Compensate;
+use abbe_study::data::{Base, Data, Map};
+use abbe_study::identify::{Family, Identify, Settings};
+use abbe_study::measure::Measure;
+use abbe_study::plan::{Choice, Plan};
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Machine, Study};
+use tempfile::{TempDir, tempdir};
+
+/// A UR5 with errors of its own.
+const ERRORS: &str = r#"
+[[source]]
+name = "truth"
+class = "repeatable"
+
+[[source.effect]]
+frame = "shoulder"
+e_x = "0.6 mm"
+e_s = "0.8 mrad"
+
+[[source.effect]]
+frame = "elbow"
+e_y = "-0.5 mm"
+e_p = "-1.1 mrad"
+"#;
+
+const POINT: &str = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
+
+const POSE: &str = "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
+                    euler = { columns = [\"a\", \"b\", \"c\"], order = \"zyx\", unit = \"deg\" }\n";
+
+fn ur5() -> Machine {
+    Machine::find("ur5").unwrap()
+}
+
+/// The machine as it really is.
+fn real() -> Machine {
+    let shipped = ur5();
+    let text = format!("{}{ERRORS}", shipped.text().unwrap());
+    Machine::of_spec(Spec::parse("real.toml", &text).unwrap(), "real.toml")
+}
+
+fn map(layout: &str) -> Map {
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let head = "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.05 mrad\"\n\n[joints]\n";
+    Map::parse("map.toml", &format!("{head}{joints}{layout}"), &ur5().spec).unwrap()
+}
+
+/// Three targets.
+fn targets() -> Map {
+    let target = |(i, at): (usize, [i32; 3])| {
+        let [x, y, z] = at.map(|v| format!("\"{v} mm\""));
+        format!(
+            "[[target]]\ncolumns = [\"x{i}\", \"y{i}\", \"z{i}\"]\nunit = \"mm\"\nposition = [{x}, {y}, {z}]\n"
+        )
+    };
+    let places = [[60, 10, 40], [-50, 20, 60], [0, -70, 30]];
+    map(&places.into_iter().enumerate().map(target).collect::<String>())
+}
+
+fn simulate(map: &Map, samples: usize, seed: u64) -> Simulate {
+    Simulate {
+        machine: real(),
+        map: map.clone(),
+        at: Places::Samples(samples),
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed,
+    }
+}
+
+fn measurements(map: &Map, samples: usize, seed: u64) -> Data {
+    let report = simulate(map, samples, seed).run(&mut ()).unwrap();
+    Data { file: "simulated".to_owned(), observations: report.observations, unusable: Vec::new() }
+}
+
+fn identify(map: &Map, data: Data) -> Identify {
+    let settings = Settings { loss: Loss::Squares, prior: 0.01, folds: 10 };
+    Identify { machine: ur5(), map: map.clone(), data, test: None, terms: Vec::new(), settings }
+}
+
+/// A file in a folder of its own.
+fn file(text: &str) -> (TempDir, PathBuf) {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("data.csv");
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+#[test]
+fn what_is_found_is_the_machine() {
+    let map = map(POINT);
+    let mut job = identify(&map, measurements(&map, 300, 1));
+    job.test = Some(measurements(&map, 50, 2));
+    let report = job.run(&mut ()).unwrap();
+    assert_eq!((report.rank, report.parameters.len()), (27, 27));
+    let test = report.test.unwrap();
+    // Nothing but the instrument's noise is left: √3 σ of a point.
+    assert!((test.after.rms - 0.02 * 3f64.sqrt()).abs() < 0.004, "{test:?}");
+    assert!(test.before.rms > 10.0 * test.after.rms);
+    let json = serde_json::to_value(&report).unwrap();
+    assert_eq!(json["rank"], 27);
+    assert!(json.get("found").is_none() && json.get("files").is_none());
+}
+
+/// What was found is a spec again, and predicts what was measured.
+#[test]
+fn the_identified_machine_is_measured_again() {
+    let mut exact = map(POINT);
+    exact.base = Base::Exact;
+    let data = measurements(&exact, 300, 1);
+    let mut job = identify(&exact, data.clone());
+    job.terms = vec![Family::Joint, Family::Elastic];
+    let report = job.run(&mut ()).unwrap();
+    let nominal = ur5();
+    let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+    let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
+    let measured = Measure { machine, map: exact, data }.run(&mut ()).unwrap();
+    assert_eq!(measured.row_errors.len(), 300);
+    assert!(measured.explained.share > 0.99, "{:?}", measured.explained);
+}
+
+/// Rows with a hidden target have fewer numbers; lines end as on Windows; comments and empty lines count.
+#[test]
+fn lines_are_those_of_the_file() {
+    let map = targets();
+    let report = simulate(&map, 120, 3).run(&mut ()).unwrap();
+    let csv = report.table.csv();
+    for end in ["\n", "\r\n"] {
+        let mut lines: Vec<String> = csv.lines().map(str::to_owned).collect();
+        lines.insert(1, "# measured on a Monday".to_owned());
+        lines.insert(20, String::new());
+        for (i, line) in lines.iter_mut().enumerate() {
+            let number = i + 1;
+            let mut fields: Vec<&str> = line.split(',').collect();
+            if (30..60).contains(&number) {
+                // The first target is hidden.
+                fields[6..9].fill("");
+                *line = fields.join(",");
+            } else if [70, 100].contains(&number) {
+                let wrong = format!("{}", fields[9].parse::<f64>().unwrap() + 40.0);
+                fields[9] = &wrong;
+                *line = fields.join(",");
+            } else if number == 110 {
+                fields[2] = "n/a";
+                *line = fields.join(",");
+            }
+        }
+        let (_folder, path) = file(&(lines.join(end) + end));
+        let data = Data::read(&path, &map).unwrap();
+        assert_eq!(data.observations.len(), 119);
+        assert_eq!(data.unusable.iter().map(|row| row.line).collect::<Vec<_>>(), [110], "{end:?}");
+        let mut job = identify(&map, data);
+        let plain = job.run(&mut ()).unwrap();
+        assert!(plain.notes.iter().any(|note| note.contains("(lines 70, 100)")), "{:?}", plain.notes);
+        job.settings.loss = Loss::Tukey;
+        assert_eq!(job.run(&mut ()).unwrap().rejected, [70, 100]);
+    }
+}
+
+/// Of poses, turns are no lengths; of a robust fit, gross errors are not what is left.
+#[test]
+fn provenance_says_what_is_left() {
+    let map = map(POSE);
+    let mut job = identify(&map, measurements(&map, 120, 5));
+    let report = job.run(&mut ()).unwrap();
+    assert!((report.fit.after.rms - 0.02 * 3f64.sqrt()).abs() < 0.004);
+    let left = |report: &abbe_study::identify::Report| {
+        let said = report.found.reference.split("rms ").nth(1).unwrap().split(' ').next().unwrap();
+        said.parse::<f64>().unwrap()
+    };
+    assert!((left(&report) - report.fit.after.rms).abs() < 1e-5, "{}", report.found.reference);
+    if let Measurement::Pose(pose) = &mut job.data.observations[17].measured {
+        pose.0[3][0] += 30.0;
+    }
+    job.settings.loss = Loss::Tukey;
+    let report = job.run(&mut ()).unwrap();
+    assert_eq!(report.rejected, [job.data.observations[17].line]);
+    assert!((left(&report) - report.fit.after.rms).abs() < 1e-5, "{}", report.found.reference);
+}
+
+/// A row that weighs nothing might as well be left out; one that weighs four times counts as four.
+#[test]
+fn weights_belong_to_rows() {
+    let map = map(POINT);
+    let mut data = measurements(&map, 100, 7);
+    let without = identify(&map, data.clone()).run(&mut ()).unwrap();
+    let Some(Observation { line, .. }) = data.observations.last().cloned() else { unreachable!() };
+    let mut wrong = data.observations[40].clone();
+    wrong.line = line + 1;
+    if let Measurement::Points(points) = &mut wrong.measured {
+        points[0].as_mut().unwrap()[1] += 7.0;
+    }
+    wrong.weight = 1e-12;
+    data.observations.push(wrong);
+    let with = identify(&map, data).run(&mut ()).unwrap();
+    for (a, b) in without.parameters.iter().zip(&with.parameters) {
+        assert!((a.value - b.value).abs() < 1e-3 * a.standard_deviation, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn repeated_visits_show_repeatability() {
+    let map = map(POINT);
+    let mut data = measurements(&map, 20, 1);
+    for seed in 2..10 {
+        data.observations.extend(
+            Simulate { at: Places::Rows(measurements(&map, 20, 1)), ..simulate(&map, 20, seed) }
+                .run(&mut ())
+                .unwrap()
+                .observations,
+        );
+    }
+    let report = Measure { machine: real(), map, data }.run(&mut ()).unwrap();
+    assert_eq!((report.repeated.configurations, report.repeated.visits), (20, 180));
+    for sigma in report.repeated.three_sigma.unwrap() {
+        assert!((sigma - 0.06).abs() < 0.012, "{sigma}");
+    }
+    assert_eq!(report.table().rows.len(), 180);
+}
+
+#[test]
+fn commands_are_compensated() {
+    let map = map(POINT);
+    let data = measurements(&map, 30, 4);
+    let job = Compensate { machine: real(), map: map.clone(), data, poses: false, tolerance: 1e-3 };
+    let report = job.run(&mut ()).unwrap();
+    assert!(report.before.mean > 0.3 && report.compensated > 25, "{:?}", report.before);
+    assert_eq!(report.table(&map).heading.len(), 6 + 6);
+    let poses = Compensate { poses: true, ..job };
+    assert!(
+        poses.run(&mut ()).is_err_and(|mistake| mistake.to_string().contains("needs a map with `[pose]`"))
+    );
+}
+
+#[test]
+fn a_plan_predicts_what_it_tells() {
+    let machine = ur5();
+    let study = Study::find(None, &machine).unwrap();
+    let choice = Choice::Optimal { count: 30, candidates: 80 };
+    let report = Plan { machine, map: map(POINT), choice, study }.run(&mut ()).unwrap();
+    // The tool point stands on the last axis: two of the 27 combinations cannot be seen there.
+    assert_eq!((report.rows, report.rank, report.observations.len()), (30, 25, 30));
+    assert!(report.predicted.mean > 0.0 && report.predicted.mean < 0.05, "{:?}", report.predicted);
+}
+
+/// A file whose columns are named as the spec names its joints needs no map.
+#[test]
+fn names_of_the_spec_are_a_map() {
+    let spec = ur5().spec;
+    let map = Map::from_names(&["q1".to_owned()], &spec);
+    let (_folder, path) = file("q1,q2,q3,q4,q5,q6\n0.1,0.2,0.3,0.4,0.5,0.6\n");
+    let data = Data::read_commanded(&path, &map).unwrap();
+    assert_eq!(data.observations[0].q, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    let (_folder, path) = file("q1,q2,q3,q4_deg,q5,q6\n0.1,0.2,0.3,0.4,0.5,0.6\n");
+    let mistake = Data::read_commanded(&path, &map).unwrap_err().to_string();
+    assert!(
+        mistake.contains("there is no column `q4`") && mistake.contains("did you mean `q4_deg`?"),
+        "{mistake}"
+    );
+}
