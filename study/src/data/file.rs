@@ -33,9 +33,6 @@ impl File {
         let mut reader = table.reader();
         let heading = reader.headers().map_err(|error| unreadable(&table.file, &error))?;
         table.heading = heading.iter().map(str::to_owned).collect();
-        if table.heading.is_empty() {
-            return Err(mistake::with_help(&table.file, "this file is empty", WANTED));
-        }
         Ok(table)
     }
 
