@@ -121,7 +121,7 @@ impl Model<'_> {
             Measurement::Points(points) => {
                 for (j, measured) in points.iter().enumerate() {
                     let Some(measured) = measured else { continue };
-                    let target = *room.targets.get(j).ok_or_else(|| Failure::Observation {
+                    let target = *room.targets.get(j).ok_or(Failure::Observation {
                         line: observation.line,
                         error: Error::Count {
                             quantity: Quantity::Pose,
