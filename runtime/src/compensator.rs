@@ -123,7 +123,7 @@ impl Problem<'_> {
                 if *column == [0.0; 6] {
                     continue;
                 }
-                q[j] = start[j] + d.of(j, column) * self.unit(j);
+                q[j] = start[j] + d.component(j, column) * self.unit(j);
                 let beyond = Scalar::abs(q[j] - clamped(&self.variables[j], q[j])) / self.unit(j);
                 if beyond > furthest.0 {
                     furthest = (beyond, j);
@@ -172,7 +172,7 @@ impl Departure {
         Self::Primal(solve(matrix, projected))
     }
 
-    fn of(&self, j: usize, column: &[f64; 6]) -> f64 {
+    fn component(&self, j: usize, column: &[f64; 6]) -> f64 {
         match self {
             Self::Primal(d) => d[j],
             Self::Dual(z) => dot(column, z),
@@ -222,7 +222,7 @@ mod tests {
 
     fn departure<const N: usize>(columns: &[[f64; 6]; N], b: &[f64; 6]) -> [f64; N] {
         let d = Departure::shortest(columns, b);
-        core::array::from_fn(|j| d.of(j, &columns[j]))
+        core::array::from_fn(|j| d.component(j, &columns[j]))
     }
 
     #[test]

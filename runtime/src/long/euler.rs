@@ -29,7 +29,7 @@ impl<T: Scalar> Euler<T> {
     }
 
     #[inline(always)]
-    fn of(&self, [x, y, z]: Vector<T>) -> Vector<T> {
+    fn euler_rows(&self, [x, y, z]: Vector<T>) -> Vector<T> {
         let pitch = self.pitch[0].mul_add(x, self.pitch[1] * z);
         let roll = self.roll[0].mul_sub(z, self.roll[1] * x);
         [self.sine.neg_mul_add(pitch, y), roll, pitch]
@@ -38,7 +38,7 @@ impl<T: Scalar> Euler<T> {
     #[inline(always)]
     fn column(&self, column: &mut [T; 6]) {
         let [x, y, z, u, v, w] = *column;
-        let [u, v, w] = self.of([u, v, w]);
+        let [u, v, w] = self.euler_rows([u, v, w]);
         *column = [x, y, z, u, v, w];
     }
 
@@ -69,9 +69,9 @@ pub fn euler_columns<T: Scalar>(pose: &Motion<T>, columns: &mut [[T; 6]]) -> T {
 pub fn euler_distinct<T: Scalar>(pose: &Motion<T>, distinct: &mut [[[T; 3]; 9]]) -> T {
     let euler = Euler::new(pose[0]);
     for vectors in distinct {
-        vectors[6] = euler.of(vectors[1]);
-        vectors[7] = euler.of(vectors[2]);
-        vectors[8] = euler.of(vectors[0]);
+        vectors[6] = euler.euler_rows(vectors[1]);
+        vectors[7] = euler.euler_rows(vectors[2]);
+        vectors[8] = euler.euler_rows(vectors[0]);
     }
     euler.margin
 }
@@ -93,7 +93,7 @@ pub fn euler_covariance<T: Scalar>(transforms: &[Motion<T>], covariance: &mut [[
     }
     let [.., first, second, third] = covariance;
     for ((a, b), c) in first.iter_mut().zip(second).zip(third) {
-        [*a, *b, *c] = euler.of([*a, *b, *c]);
+        [*a, *b, *c] = euler.euler_rows([*a, *b, *c]);
     }
     euler.margin
 }

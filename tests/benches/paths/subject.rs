@@ -55,11 +55,11 @@ impl Subject {
 
     /// `A_1 … A_n` and the tool of each configuration.
     pub(crate) fn transforms(&self) -> Vec<Vec<[[f64; 3]; 4]>> {
-        let of = |q: &Vec<f64>| {
+        let transforms = |q: &Vec<f64>| {
             let mut transforms = vec![Pose::IDENTITY; self.errors.len() / 6 + 1];
             self.compiled.transforms(q, &self.parameters, &mut transforms).expect("within limits");
             transforms.iter().map(|pose| pose.0).collect()
         };
-        self.variables.iter().map(of).collect()
+        self.variables.iter().map(transforms).collect()
     }
 }
