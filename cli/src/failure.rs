@@ -4,7 +4,6 @@ use std::fmt::Display;
 use std::io::{IsTerminal, Write, stderr};
 use std::process::ExitCode;
 
-use abbe::{Description, Error};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_study::mistake;
 
@@ -16,16 +15,6 @@ impl Failure {
     /// Something wrong with a file, a spec or an argument as a whole.
     pub(crate) fn of(subject: impl Display, message: impl Display) -> Self {
         mistake::whole(subject, message).into()
-    }
-
-    /// A configuration that could not be evaluated.
-    pub(crate) fn evaluation(
-        subject: impl Display,
-        at: &str,
-        error: &Error,
-        description: &Description,
-    ) -> Self {
-        mistake::not_evaluated(subject, at, error, description).into()
     }
 
     /// Says a way out.

@@ -2,18 +2,19 @@
 
 use std::io::Write;
 
-use abbe_codegen::emit;
+use abbe_study::{Machine, generate};
 
 use crate::arguments::{Generate, Language};
+use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Pending, cannot_write, note};
-use abbe_study::Machine;
 
 pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
-    let found = Machine::find(&arguments.spec)?;
-    let code = match arguments.lang {
-        Language::Rust => emit::rust(&found.spec),
+    let language = match arguments.lang {
+        Language::Rust => generate::Language::Rust,
     };
+    let job = generate::Generate { machine: Machine::find(&arguments.spec)?, language };
+    let code = job.run(&mut Console::default())?;
     let Some(path) = &arguments.out else {
         return Ok(Outcome::passed(code));
     };

@@ -74,6 +74,13 @@ impl Pending {
         Ok(Self { path: path.to_owned(), file })
     }
 
+    /// A file with that text, complete but for its place.
+    pub(crate) fn complete(path: &Path, text: &str) -> Result<Self, Failure> {
+        let mut file = Self::create(path)?;
+        file.write_all(text.as_bytes()).map_err(|error| cannot_write(path, &error))?;
+        Ok(file)
+    }
+
     /// Puts the complete file in its place.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let Self { path, file } = self;

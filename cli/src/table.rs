@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use abbe_study::Listing;
+use abbe_study::number::NO_BREAK;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Row, TableStyle};
 
 /// The width that everything is set to, so that the same input gives the same text on every terminal.
@@ -10,20 +12,11 @@ pub(crate) const WIDTH: usize = 100;
 const STYLE: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─').left('─').right('─'));
 
-/// What a table says, for text and for HTML: the first column is words, those in `numbers` are flush right.
-#[derive(Debug)]
-pub(crate) struct Listing {
-    pub(crate) header: Vec<&'static str>,
-    pub(crate) rows: Vec<Vec<String>>,
-    pub(crate) numbers: std::ops::Range<usize>,
-}
-
-impl fmt::Display for Listing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut table = Table::new(&self.header);
-        self.rows.iter().for_each(|row| table.row(row.clone()));
-        table.right(&self.numbers.clone().collect::<Vec<_>>()).fmt(f)
-    }
+/// A listing as a table.
+pub(crate) fn listed(listing: &Listing) -> String {
+    let mut table = Table::new(&listing.header);
+    listing.rows.iter().for_each(|row| table.row(row.clone()));
+    table.right(&listing.numbers.clone().collect::<Vec<_>>()).to_string()
 }
 
 /// A table that grows row by row.
@@ -70,15 +63,6 @@ impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.lines().try_for_each(|line| writeln!(f, "{}", line.trim_end().replace(NO_BREAK, " ")))
     }
-}
-
-/// A space at which no line ends; it is printed as any other.
-const NO_BREAK: char = '\u{a0}';
-
-/// A list, `d1 = 5 mm, q4 = 90°`, whose lines end after commas only.
-pub(crate) fn unbroken(list: &str) -> String {
-    let items = list.split(", ").map(|item| item.replace(' ', &NO_BREAK.to_string()));
-    items.collect::<Vec<_>>().join(", ")
 }
 
 /// A text wrapped at the width of the tables, its lines after the first indented.

@@ -1,3 +1,17 @@
 //! Pictures and pages of what `abbe-study` reports: SVG files, and HTML files that need no network.
 //!
-//! Everything comes back as texts with the names of their files; nothing here writes.
+//! Everything comes back as texts with the names of their files; nothing here writes. [`analysis`] is the report of an
+//! analysis: `axis` says how its numbers are shown, `svg` draws the figures one by one, `html` writes the page, with the
+//! same figures to rotate and to point at. The rest are the parts that other pages are made of.
+
+mod axis;
+mod figure;
+mod html;
+mod pictures;
+mod shares;
+mod spheres;
+mod svg;
+
+pub use axis::{BAR, INK, XYZ, css};
+pub use html::{document, escaped, section, style};
+pub use pictures::{File, analysis};

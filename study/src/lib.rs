@@ -25,21 +25,30 @@
 //! [`Machine`] is a spec with its name, and its generated code if it is shipped; [`Changes`] what differs from it in one
 //! run; [`study_file`] the study files, [`workspace`] the configurations that they ask for; [`data`] measurements.
 
-mod changes;
+pub mod analyze;
+pub mod check;
 pub mod compensate;
-pub mod data;
+pub mod generate;
 pub mod identify;
-mod machine;
+pub mod jacobian;
+pub mod list;
 pub mod measure;
-pub mod mistake;
-mod notes;
-pub mod number;
 pub mod plan;
 pub mod simulate;
+
+pub mod data;
+pub mod mistake;
+pub mod number;
 pub mod study_file;
 pub mod workspace;
 
+mod changes;
+mod listing;
+mod machine;
+mod notes;
+
 pub use changes::{Changes, find_symbol};
+pub use listing::Listing;
 pub use machine::{Evaluator, Machine};
 pub use notes::Notes;
 pub use study_file::Study;

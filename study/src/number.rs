@@ -1,7 +1,8 @@
 //! Numbers as people read them.
 
 use abbe::analysis::Configuration;
-use abbe::{Description, LengthUnit, VariableKind};
+use abbe::{Class, Distribution, LengthUnit, VariableKind};
+use abbe_codegen::spec::{self, Spec};
 use serde::{Serialize, Serializer};
 
 /// A number with this many decimals, nothing plain 0; a large one in powers of ten.
@@ -60,31 +61,37 @@ pub fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> String {
 }
 
 /// The value of every variable: `d1 = 1128 mm, q4 = 0°`.
-pub fn variables(q: &[f64], description: &Description) -> String {
-    let values = description.variables.iter().zip(q);
-    let values = values.map(|(variable, value)| {
-        format!("{} = {}", variable.name, of_variable(*value, variable.kind, description.length))
-    });
+pub fn variables(q: &[f64], spec: &Spec) -> String {
+    let values = spec.variables.iter().zip(q).map(|(variable, value)| variable_is(variable, *value, spec));
     let all = values.collect::<Vec<_>>();
     if all.is_empty() { "no joints".to_owned() } else { all.join(", ") }
 }
 
 /// What is not at home and not nominal: `d1 = 38 mm, q4 = -90°, z = 1100 mm`.
-pub fn configuration(
-    configuration: &Configuration,
-    home: &Configuration,
-    description: &Description,
-) -> String {
-    let variables = description.variables.iter().zip(configuration.q.iter().zip(&home.q));
-    let variables = variables.filter(|(_, (value, home))| value != home).map(|(variable, (value, _))| {
-        format!("{} = {}", variable.name, of_variable(*value, variable.kind, description.length))
-    });
-    let parameters = description.parameters.iter().zip(configuration.s.iter().zip(&home.s));
+pub fn configuration(configuration: &Configuration, home: &Configuration, spec: &Spec) -> String {
+    let variables = spec.variables.iter().zip(configuration.q.iter().zip(&home.q));
+    let variables = variables.filter(|(_, (value, home))| value != home);
+    let variables = variables.map(|(variable, (value, _))| variable_is(variable, *value, spec));
+    let parameters = spec.parameters.iter().zip(configuration.s.iter().zip(&home.s));
+    let parameters = parameters.filter(|(_, (value, home))| value != home);
     let parameters = parameters
-        .filter(|(_, (value, home))| value != home)
         .map(|(parameter, (value, _))| format!("{} = {}", parameter.name, quantity(*value, &parameter.unit)));
     let all = variables.chain(parameters).collect::<Vec<_>>();
     if all.is_empty() { "home".to_owned() } else { all.join(", ") }
+}
+
+/// `d1 = 1128 mm`.
+fn variable_is(variable: &spec::Variable, value: f64, spec: &Spec) -> String {
+    format!("{} = {}", variable.name, of_variable(value, variable.kind, spec.length))
+}
+
+/// What a source is: `repeatable`, or `random` with its distribution.
+pub fn class(class: Class) -> (&'static str, Option<&'static str>) {
+    match class {
+        Class::Repeatable => ("repeatable", None),
+        Class::Random(Distribution::Uniform) => ("random", Some("uniform")),
+        Class::Random(Distribution::Normal) => ("random", Some("normal")),
+    }
 }
 
 /// A number to so many digits.
@@ -108,11 +115,20 @@ pub fn trimmed(value: f64, decimals: usize) -> String {
 }
 
 /// Named numbers, in JSON an object in this order.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Named(pub Vec<(String, f64)>);
 
 impl Serialize for Named {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }
+}
+
+/// A space at which no line ends; it is printed as any other.
+pub const NO_BREAK: char = '\u{a0}';
+
+/// A list, `d1 = 5 mm, q4 = 90°`, whose lines end after commas only.
+pub fn unbroken(list: &str) -> String {
+    let items = list.split(", ").map(|item| item.replace(' ', &NO_BREAK.to_string()));
+    items.collect::<Vec<_>>().join(", ")
 }

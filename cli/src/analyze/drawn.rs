@@ -1,19 +1,10 @@
 //! What was drawn at the worst configuration and at home, as a table.
 
-use abbe::analysis::MonteCarlo;
-
-use super::{Analysis, Drawn};
 use crate::table::{Table, wrapped};
+use abbe_study::analyze::{Drawn, Report};
 use abbe_study::number::{self, fixed};
 
-impl Drawn {
-    /// Both places, with their names.
-    pub(super) fn places(&self) -> [(&'static str, &MonteCarlo); 2] {
-        [("worst", &self.worst), ("home", &self.home)]
-    }
-}
-
-pub(super) fn table(analysis: &Analysis, drawn: &Drawn) -> String {
+pub(super) fn table(report: &Report, drawn: &Drawn) -> String {
     let text = format!(
         "{} draws at each place, seed {}. Above: quantiles and the largest of the norm of the whole error; the share of \
          the draws inside the first-order 95 % ellipsoid, which is 95 % if all random sources are normal. Below: \
@@ -21,11 +12,11 @@ pub(super) fn table(analysis: &Analysis, drawn: &Drawn) -> String {
         number::short(drawn.worst.draws as f64),
         drawn.seed,
     );
-    format!("{}\n{}{}\n", norms(analysis, drawn), deviations(analysis, drawn), wrapped(&text, 0))
+    format!("{}\n{}{}\n", norms(report, drawn), deviations(report, drawn), wrapped(&text, 0))
 }
 
-fn norms(analysis: &Analysis, drawn: &Drawn) -> Table {
-    let decimals = analysis.decimals();
+fn norms(report: &Report, drawn: &Drawn) -> Table {
+    let decimals = report.decimals();
     let mut table = Table::new(&["at", "50 %", "95 %", "99 %", "largest", "in ellipsoid"]);
     for (place, found) in drawn.places() {
         let mut cells = vec![format!("{place}\n  standard error")];
@@ -41,8 +32,8 @@ fn norms(analysis: &Analysis, drawn: &Drawn) -> Table {
     table.right(&[1, 2, 3, 4, 5]).unwrapped(&[0])
 }
 
-fn deviations(analysis: &Analysis, drawn: &Drawn) -> Table {
-    let decimals = analysis.decimals();
+fn deviations(report: &Report, drawn: &Drawn) -> Table {
+    let decimals = report.decimals();
     let mut table = Table::new(&["at", "σ x", "σ y", "σ z"]);
     for (place, found) in drawn.places() {
         let mut cells = vec![format!("{place}\n  standard error\n  first order")];

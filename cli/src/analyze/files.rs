@@ -5,32 +5,28 @@ use std::io::Write;
 use std::path::Path;
 
 use abbe::analysis::{Configuration, Row};
-use abbe::{Description, VariableKind};
+use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_study::analyze::{Report, figures_of, reason};
+use abbe_study::number::class;
+use abbe_study::study_file::{CombinedFigure, Metric};
 use csv::Writer;
 
-use super::agreement::of_source;
-use super::{Analysis, json, unreachable};
 use crate::failure::Failure;
 use crate::output::{Pending, cannot_write};
-use abbe_study::study_file::{CombinedFigure, Metric};
 
 /// The files of a folder; none appears before all are complete.
-pub(super) struct Files<'v> {
+pub(super) struct Files {
     configurations: Writer<Pending>,
     sources: Writer<Pending>,
     unreachable: Writer<Pending>,
-    varying: &'v [usize],
+    varying: Vec<usize>,
     /// The first thing that went wrong during the sweep.
     failure: Option<csv::Error>,
 }
 
-impl<'v> Files<'v> {
+impl Files {
     /// Begins the files; makes the folder if there is none.
-    pub(super) fn create(
-        folder: &Path,
-        description: &Description,
-        varying: &'v [usize],
-    ) -> Result<Self, Failure> {
+    pub(super) fn create(folder: &Path, spec: &Spec, varying: Vec<usize>) -> Result<Self, Failure> {
         if folder.exists() && !folder.is_dir() {
             let message = "this is a file, not a folder";
             return Err(Failure::of(folder.display(), message).help("--out takes a folder"));
@@ -44,10 +40,10 @@ impl<'v> Files<'v> {
             varying,
             failure: None,
         };
-        let unit = description.length.symbol();
+        let unit = spec.length.symbol();
         let mut heading = vec!["configuration".to_owned()];
-        heading.extend(names(description, varying));
-        let sources = description.sources.iter().map(|source| &*source.name);
+        heading.extend(names(spec, &files.varying));
+        let sources = spec.enabled_sources().map(|source| source.name.as_str());
         for what in ["ideal"].into_iter().chain(sources).chain(["repeatable", "random"]) {
             heading.extend(["x", "y", "z"].map(|axis| format!("{what} {axis} ({unit})")));
         }
@@ -57,7 +53,7 @@ impl<'v> Files<'v> {
 
     /// Writes what the sweep sees.
     pub(super) fn configuration(&mut self, row: &Row) {
-        let values = values(row.configuration, self.varying);
+        let values = values(row.configuration, &self.varying);
         let pose = row.pose.position();
         let sources = row.sources.iter().flat_map(|source| &source[..3]);
         let together = row.repeatable[..3].iter().chain(&row.random[..3]);
@@ -67,9 +63,9 @@ impl<'v> Files<'v> {
     }
 
     /// Writes the other files, and puts all in their places.
-    pub(super) fn finish(mut self, analysis: &Analysis) -> Result<(), Failure> {
-        self.keep(|files| write_sources(&mut files.sources, analysis));
-        self.keep(|files| write_unreachable(&mut files.unreachable, analysis));
+    pub(super) fn finish(mut self, report: &Report) -> Result<(), Failure> {
+        self.keep(|files| write_sources(&mut files.sources, report));
+        self.keep(|files| write_unreachable(&mut files.unreachable, report));
         if let Some(error) = self.failure {
             return Err(Failure::of("--out", format!("cannot write the files: {error}")));
         }
@@ -88,36 +84,27 @@ impl<'v> Files<'v> {
     }
 }
 
-fn write_sources(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::Result<()> {
-    let unit = analysis.description.length.symbol();
+fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Result<()> {
+    let unit = report.spec.length.symbol();
     let axes = ["x", "y", "z", "norm"].map(|axis| format!("{axis} ({unit})"));
     let heading = ["source", "class", "metric"].map(str::to_owned).into_iter().chain(axes);
     writer.write_record(heading.chain(["worst configuration".to_owned()]).collect::<Vec<_>>())?;
     let index = |worst: Option<usize>| worst.map(|worst| worst.to_string()).unwrap_or_default();
-    for errors in &analysis.budget.sources {
-        let source = &analysis.description.sources[errors.source];
-        for (name, metric) in Metric::ALL {
-            let [x, y, z, norm] = of_source(errors, metric).map(|figure| number(&figure));
+    for errors in &report.budget.sources {
+        let (name, class) = (report.name(errors), class(errors.class).0);
+        for (metric_name, metric) in Metric::ALL {
+            let [x, y, z, norm] = figures_of(errors, metric).map(|figure| number(&figure));
             let worst = index(errors.worst);
-            writer.write_record([
-                &*source.name,
-                json::class(source.class).0,
-                name,
-                &x,
-                &y,
-                &z,
-                &norm,
-                &worst,
-            ])?;
+            writer.write_record([name, class, metric_name, &x, &y, &z, &norm, &worst])?;
         }
     }
-    let combined = &analysis.budget.combined;
+    let combined = &report.budget.combined;
     for ((name, figure), worst) in CombinedFigure::ALL.into_iter().zip([
         combined.repeatable_radius,
         combined.random_radius,
         combined.radius,
     ]) {
-        let (axes, norm) = analysis.combined(figure);
+        let (axes, norm) = report.combined(figure);
         let [x, y, z] = axes.map(|axis| axis.as_ref().map(number).unwrap_or_default());
         let (norm, worst) = (number(&norm), index(worst.configuration));
         writer.write_record(["all together", "", name, &x, &y, &z, &norm, &worst])?;
@@ -125,17 +112,17 @@ fn write_sources(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::R
     Ok(())
 }
 
-fn write_unreachable(writer: &mut Writer<impl Write>, analysis: &Analysis) -> csv::Result<()> {
-    let Analysis { description, budget, .. } = analysis;
+fn write_unreachable(writer: &mut Writer<impl Write>, report: &Report) -> csv::Result<()> {
+    let Report { spec, budget, .. } = report;
     // Here every parameter may matter: nothing is known of what varies among those that were reached.
-    let all = (0..description.parameters.len()).collect::<Vec<_>>();
-    let unit = description.length.symbol();
+    let all = (0..spec.parameters.len()).collect::<Vec<_>>();
+    let unit = spec.length.symbol();
     let point = ["x", "y", "z"].map(|axis| format!("point {axis} ({unit})"));
-    let heading = ["configuration".to_owned()].into_iter().chain(names(description, &all)).chain(point);
+    let heading = ["configuration".to_owned()].into_iter().chain(names(spec, &all)).chain(point);
     let heading = heading.chain(["reason".to_owned()]);
     writer.write_record(heading.collect::<Vec<_>>())?;
     for refused in &budget.unreachable.first {
-        let reason = unreachable::reason(refused, description);
+        let reason = reason(refused, spec);
         let point = [0, 1, 2].map(|i| refused.point.map(|point| number(&point[i])).unwrap_or_default());
         let asked = [refused.index.to_string()].into_iter().chain(values(&refused.asked, &all));
         writer.write_record(asked.chain(point).chain([reason]).collect::<Vec<_>>())?;
@@ -144,14 +131,14 @@ fn write_unreachable(writer: &mut Writer<impl Write>, analysis: &Analysis) -> cs
 }
 
 /// The headings of a configuration.
-fn names<'a>(description: &'a Description, parameters: &'a [usize]) -> impl Iterator<Item = String> + 'a {
-    let length = description.length.symbol();
-    let variables = description.variables.iter().map(move |variable| match variable.kind {
+fn names<'a>(spec: &'a Spec, parameters: &'a [usize]) -> impl Iterator<Item = String> + 'a {
+    let length = spec.length.symbol();
+    let variables = spec.variables.iter().map(move |variable| match variable.kind {
         VariableKind::Revolute => format!("{} (rad)", variable.name),
         VariableKind::Prismatic => format!("{} ({length})", variable.name),
     });
-    let parameters = parameters.iter().map(|&i| match &description.parameters[i] {
-        parameter if parameter.unit.is_empty() => parameter.name.to_string(),
+    let parameters = parameters.iter().map(|&i| match &spec.parameters[i] {
+        parameter if parameter.unit.is_empty() => parameter.name.to_owned(),
         parameter => format!("{} ({})", parameter.name, parameter.unit),
     });
     variables.chain(parameters)

@@ -1,68 +1,30 @@
 //! The tables of an analysis.
 
-use abbe::analysis::Admissible;
+use abbe_study::analyze::{Report, figures_of};
+use abbe_study::number::{self, fixed, short};
+use abbe_study::study_file::{CombinedFigure, Metric, Subject};
 
-use super::agreement::{Agreement, of_source};
-use super::{Analysis, json};
-use crate::table::{Listing, Table};
-use abbe_study::number::{self, error_decimals, fixed, short};
-use abbe_study::study_file::{CombinedFigure, Metric, Published};
-
-impl Analysis<'_> {
-    /// How many decimals errors have: three digits of the smallest source that matters.
-    pub(super) fn decimals(&self) -> usize {
-        let least = error_decimals(self.description.length);
-        let negligible = 1e-6 * self.budget.combined.radius.value;
-        let norms = self.budget.sources.iter().map(|errors| errors.plain_max.norm);
-        let smallest = norms.filter(|norm| *norm > negligible).fold(f64::INFINITY, f64::min);
-        let needed = 2.0 - smallest.log10().floor();
-        (needed.max(0.0) as usize).clamp(least, least + 4)
-    }
-}
+use crate::table::Table;
 
 /// Three metrics of every source, and under each what is published on it.
-pub(super) fn sources(analysis: &Analysis) -> String {
+pub(super) fn sources(report: &Report) -> String {
     let mut table = Table::new(&["source", "metric", "x", "y", "z", "norm", ""]);
-    for errors in &analysis.budget.sources {
-        let source = &analysis.description.sources[errors.source];
+    for errors in &report.budget.sources {
         let mut lines = Lines::default();
         for (name, metric) in Metric::ALL {
-            let figures = of_source(errors, metric);
-            lines.figures(analysis, name, figures.map(Some));
-            if let Some(published) = analysis.published_of(&source.name, metric) {
-                lines.published(analysis, figures, published);
-            }
+            let figures = figures_of(errors, metric);
+            lines.figures(report, name, figures.map(Some));
+            lines.published(report, &Subject::Source(report.name(errors).to_owned(), metric));
         }
-        let (class, distribution) = json::class(source.class);
+        let (class, distribution) = number::class(errors.class);
         let class = distribution.map_or(class.to_owned(), |distribution| format!("{class}, {distribution}"));
-        lines.cells[0] = vec![source.name.to_string(), class];
+        lines.cells[0] = vec![report.name(errors).to_owned(), class];
         table.row(lines.joined());
     }
     table.right(&[2, 3, 4, 5]).unwrapped(&[1, 6]).to_string()
 }
 
-/// What the tolerance allows each source, and what is gained by making it smaller.
-pub(super) fn allowed(analysis: &Analysis, admissible: &Admissible) -> Listing {
-    let times = |scale: Option<f64>| {
-        scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
-    };
-    let row = |source: usize| {
-        vec![
-            analysis.description.sources[source].name.to_string(),
-            times(admissible.alone[source]),
-            times(admissible.equal[source]),
-            fixed(analysis.budget.gains[source], analysis.decimals() + 1),
-        ]
-    };
-    let rows = analysis.budget.tighten_first().into_iter().map(row).collect();
-    Listing {
-        header: vec!["source", "alone at most", "equal shares", "gain per percent"],
-        rows,
-        numbers: 1..4,
-    }
-}
-
-pub(super) fn combined(analysis: &Analysis) -> String {
+pub(super) fn combined(report: &Report) -> String {
     let mut table = Table::new(&["", "x", "y", "z", "norm", ""]);
     let names = [
         (CombinedFigure::Repeatable, "repeatable: sum, with signs"),
@@ -70,22 +32,20 @@ pub(super) fn combined(analysis: &Analysis) -> String {
         (CombinedFigure::Both, "radius: both norms, added"),
     ];
     for (figure, name) in names {
-        let ([x, y, z], norm) = analysis.combined(figure);
+        let ([x, y, z], norm) = report.combined(figure);
         let mut lines = Lines::default();
-        lines.figures(analysis, name, [x, y, z, Some(norm)]);
-        if let Some(published) = analysis.published_combined(figure) {
-            lines.published(analysis, [0.0, 0.0, 0.0, norm], published);
-        }
+        lines.figures(report, name, [x, y, z, Some(norm)]);
+        lines.published(report, &Subject::Combined(figure));
         table.row(lines.joined().split_off(1));
     }
-    let all = &analysis.budget.combined;
+    let all = &report.budget.combined;
     for (name, axes, norm) in [
         ("random: standard deviation", all.standard_deviation, all.standard_radius),
         ("worst case: absolute values, added", all.worst_case, all.worst_case_radius),
     ] {
         let mut lines = Lines::default();
         let [x, y, z] = axes.map(Some);
-        lines.figures(analysis, name, [x, y, z, Some(norm.value)]);
+        lines.figures(report, name, [x, y, z, Some(norm.value)]);
         table.row(lines.joined().split_off(1));
     }
     table.right(&[1, 2, 3, 4]).unwrapped(&[0, 5]).to_string()
@@ -104,17 +64,18 @@ impl Lines {
         }
     }
 
-    fn figures(&mut self, analysis: &Analysis, name: &str, figures: [Option<f64>; 4]) {
-        let decimals = analysis.decimals();
+    fn figures(&mut self, report: &Report, name: &str, figures: [Option<f64>; 4]) {
+        let decimals = report.decimals();
         let [x, y, z, norm] =
             figures.map(|figure| figure.map_or_else(String::new, |value| fixed(value, decimals)));
         self.push([name.to_owned(), x, y, z, norm, String::new()]);
     }
 
-    fn published(&mut self, analysis: &Analysis, found: [f64; 4], published: &Published) {
+    /// What is published on something, if anything is.
+    fn published(&mut self, report: &Report, subject: &Subject) {
+        let Some((published, agreement)) = report.published(subject) else { return };
         let [x, y, z, norm] = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
-        let verdict = Agreement::of(found, published).text(analysis);
-        self.push([format!("  {}", analysis.publisher()), x, y, z, norm, verdict]);
+        self.push([format!("  {}", report.publisher()), x, y, z, norm, agreement.text(report)]);
     }
 
     fn joined(self) -> Vec<String> {

@@ -1,52 +1,55 @@
 //! The results for people.
 
-use super::{Analysis, conclusions, drawn, ledger, tables, unreachable};
-use crate::table::{unbroken, wrapped};
-use abbe_study::number;
+use abbe_study::analyze::{self, Report};
+use abbe_study::number::{self, unbroken};
 
-pub(super) fn of(analysis: &Analysis) -> String {
-    let unit = analysis.description.length.symbol();
-    let mut parts = vec![heading(analysis)];
-    if analysis.budget.sources.is_empty() {
+use super::{drawn, tables};
+use crate::table::{listed, wrapped};
+
+pub(super) fn text(report: &Report) -> String {
+    let unit = report.spec.length.symbol();
+    let mut parts = vec![heading(report)];
+    if report.budget.sources.is_empty() {
         parts.push("This spec has no error source that is switched on: there is nothing to add up.\n".into());
     } else {
-        parts.push(format!("Each source alone ({unit})\n{}", tables::sources(analysis)));
-        parts.push(format!("All together ({unit})\n{}", tables::combined(analysis)));
-        parts.push(format!("Ledger: norms of the errors ({unit})\n{}", ledger::listing(analysis)));
-        if let Some(admissible) = &analysis.admissible {
-            let table = tables::allowed(analysis, admissible);
+        parts.push(format!("Each source alone ({unit})\n{}", tables::sources(report)));
+        parts.push(format!("All together ({unit})\n{}", tables::combined(report)));
+        parts.push(format!("Ledger: norms of the errors ({unit})\n{}", listed(&analyze::ledger(report))));
+        if let Some(allowed) = analyze::allowed(report) {
+            let table = listed(&allowed);
             parts.push(format!("What the tolerance allows, and what to tighten first ({unit})\n{table}"));
         }
-        if let Some(drawn) = &analysis.drawn {
-            parts.push(format!("Monte Carlo on the exact chain ({unit})\n{}", drawn::table(analysis, drawn)));
+        if let Some(drawn) = &report.monte_carlo {
+            parts.push(format!("Monte Carlo on the exact chain ({unit})\n{}", drawn::table(report, drawn)));
         }
-        parts.push(conclusions::of(analysis));
+        let paragraphs = report.conclusions().into_iter().map(|said| format!("{}\n", wrapped(&said, 0)));
+        parts.push(paragraphs.collect());
     }
-    if !analysis.study.not_reproducible.is_empty() {
-        let notes = analysis.study.not_reproducible.iter().map(|note| format!("- {}\n", wrapped(note, 2)));
-        parts.push(format!("Not reproducible from {}\n{}", analysis.publisher(), notes.collect::<String>()));
+    if !report.study.not_reproducible.is_empty() {
+        let notes = report.study.not_reproducible.iter().map(|note| format!("- {}\n", wrapped(note, 2)));
+        parts.push(format!("Not reproducible from {}\n{}", report.publisher(), notes.collect::<String>()));
     }
     parts.join("\n")
 }
 
-fn heading(analysis: &Analysis) -> String {
-    let Analysis { description, study, workspace, region, budget, .. } = analysis;
+fn heading(report: &Report) -> String {
+    let Report { spec, study, budget, .. } = report;
     let unreachable = &budget.unreachable;
-    let mut text = format!("{} ({})\n{}\n", description.title, description.name, study.title);
-    text += &format!("\nWorkspace       {}\n", wrapped(region, 16));
+    let mut text = format!("{} ({})\n{}\n", spec.title, spec.name, study.title);
+    text += &format!("\nWorkspace       {}\n", wrapped(&report.workspace, 16));
     let mut reached = format!("{}, {} unreachable", budget.configurations, unreachable.count);
     if unreachable.count > 0 {
-        reached += &format!(": {}", unreachable::summary(unreachable, description));
+        reached += &format!(": {}", analyze::summary(unreachable, spec));
     }
     text += &format!("Configurations  {}\n", wrapped(&reached, 16));
-    for example in unreachable::first_few(unreachable, workspace.home(), description) {
+    for example in analyze::first_few(unreachable, &report.home, spec) {
         text += &format!("                - {}\n", wrapped(&example, 18));
     }
-    let home = number::variables(&workspace.home().q, description);
+    let home = number::variables(&report.home.q, spec);
     text += &format!("Home            {}\n", wrapped(&unbroken(&home), 16));
-    let inputs = description.inputs.iter();
+    let inputs = spec.inputs.iter();
     let inputs =
-        inputs.map(|input| format!("{} = {}", input.name, number::quantity(input.nominal, &input.unit)));
+        inputs.map(|input| format!("{} = {}", input.name, number::quantity(input.value, &input.unit)));
     let inputs = inputs.collect::<Vec<_>>().join(", ");
     if !inputs.is_empty() {
         text += &format!("Inputs          {}\n", wrapped(&unbroken(&inputs), 16));
@@ -56,11 +59,4 @@ fn heading(analysis: &Analysis) -> String {
     text += &format!("Errors          {}\n", wrapped(errors, 16));
     let metrics = "plain maximum; half of what it varies by; largest difference from the error at home";
     text + &format!("Metrics         {}\n", wrapped(metrics, 16))
-}
-
-impl Analysis<'_> {
-    /// Who printed the published figures.
-    pub(super) fn publisher(&self) -> &str {
-        if self.study.publisher.is_empty() { "what is published" } else { &self.study.publisher }
-    }
 }

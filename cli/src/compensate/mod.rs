@@ -8,8 +8,8 @@ use abbe_study::compensate::{Compensate, check_poses};
 use abbe_study::data::{Data, Map};
 
 use crate::arguments;
+use crate::console::Console;
 use crate::failure::Failure;
-use crate::notes::Stderr;
 use crate::number::length;
 use crate::output::{Outcome, json, write};
 
@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         false => Data::read_commanded(&arguments.data, &map)?,
     };
     let job = Compensate { machine, map, data, poses: arguments.poses, tolerance };
-    let report = job.run(&mut Stderr)?;
+    let report = job.run(&mut Console::default())?;
     if let Some(file) = &arguments.out {
         write(file, &report.table(&job.map).csv())?;
     }

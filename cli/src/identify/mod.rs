@@ -11,8 +11,8 @@ use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Identify, Report, Settings};
 
 use crate::arguments::{self, Robust, Terms};
+use crate::console::Console;
 use crate::failure::Failure;
-use crate::notes::Stderr;
 use crate::output::{Outcome, json, note, write};
 
 pub(crate) use alike::table as alike_table;
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
     let settings = Settings { loss: loss(arguments.robust), prior: arguments.prior, folds: arguments.folds };
     let job = Identify { machine, map, data, test, terms: families(&arguments.terms), settings };
-    let report = job.run(&mut Stderr)?;
+    let report = job.run(&mut Console::default())?;
     let written = arguments.out.as_ref().map(|file| write_spec(file, &job.machine, &report)).transpose()?;
     if arguments.json {
         report.notes.iter().for_each(|line| note(line));

@@ -8,8 +8,8 @@ use abbe_study::data::{Data, Map};
 use abbe_study::measure::Measure;
 
 use crate::arguments;
+use crate::console::Console;
 use crate::failure::Failure;
-use crate::notes::Stderr;
 use crate::output::{Outcome, cannot_write, json, write};
 
 pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let map = Map::find(&arguments.map, &machine.spec)?;
     let data = Data::read(&arguments.data, &map)?;
     let job = Measure { machine, map, data };
-    let report = job.run(&mut Stderr)?;
+    let report = job.run(&mut Console::default())?;
     let spec = &job.machine.spec;
     if let Some(folder) = &arguments.out {
         std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;

@@ -6,7 +6,7 @@ use plotly::common::{HoverInfo, Marker, Mode};
 use plotly::layout::AspectMode;
 use plotly::{Bar, Layout, Plot, Scatter3D};
 
-use crate::report::{BAR, INK, XYZ, css, document, escaped, section, style};
+use abbe_report::{BAR, INK, XYZ, css, document, escaped, section, style};
 use abbe_study::number::{fixed, trimmed};
 
 /// The most points that are drawn.

@@ -9,9 +9,9 @@ use abbe_study::plan::{Choice, Plan, Report, Sets};
 use abbe_study::{Machine, Study};
 
 use crate::arguments;
+use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::alike_table;
-use crate::notes::Stderr;
 use crate::output::{Outcome, json, write};
 use crate::table::wrapped;
 
@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
     };
     let study = Study::find(arguments.study.as_deref(), &machine)?;
     let job = Plan { machine, map, choice, study };
-    let report = job.run(&mut Stderr)?;
+    let report = job.run(&mut Console::default())?;
     if let Some(file) = &arguments.out {
         write(file, &report.table(&job.map).csv())?;
     }

@@ -5,8 +5,8 @@ use abbe_study::data::{Data, Map};
 use abbe_study::simulate::{Places, Simulate};
 
 use crate::arguments;
+use crate::console::Console;
 use crate::failure::Failure;
-use crate::notes::Stderr;
 use crate::number::length;
 use crate::output::{Outcome, write};
 
@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
         random: arguments.random,
         seed: arguments.seed,
     };
-    let table = job.run(&mut Stderr)?.table;
+    let table = job.run(&mut Console::default())?.table;
     match &arguments.out {
         Some(file) => {
             write(file, &table.csv())?;

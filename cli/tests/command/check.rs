@@ -35,7 +35,7 @@ fn it_shows_what_follows_from_a_spec() {
         report["identifiable"].as_array().unwrap().iter().map(|found| found["rank"].as_u64().unwrap());
     assert_eq!(ranks.collect::<Vec<_>>(), [22, 24, 19, 21]);
     let laws = report["laws"].as_array().unwrap();
-    assert_eq!(laws.len(), 6);
+    assert_eq!(laws.len(), 7);
     assert!(laws.iter().all(|law| law["holds"] == true));
     assert_eq!(json(&["check", "puma560", "--json"])["identifiable"][0]["rank"], 26);
     assert_eq!(json(&["check", "ur5", "--json"])["identifiable"][1]["rank"], 30);

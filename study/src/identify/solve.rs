@@ -71,7 +71,7 @@ pub(super) fn solve<'a>(
         _ => None,
     };
     if let (Err(_), Some(warning)) = (&found, &warning) {
-        notes.warn(warning);
+        notes.note(warning.trim_start_matches("note: "));
     }
     let fit = found.map_err(explained)?;
     let mut solved = Solved {

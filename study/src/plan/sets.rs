@@ -112,10 +112,7 @@ impl Sets {
                     let workspace = workspace.map_err(|error| mistake::whole(&set.name, error))?;
                     let unreached = workspace.len() - workspace.reached().len();
                     if unreached > 0 {
-                        notes.note(&format!(
-                            "note: {}: {unreached} configurations cannot be reached",
-                            set.name
-                        ));
+                        notes.note(&format!("{}: {unreached} configurations cannot be reached", set.name));
                     }
                     workspace.reached().into_iter().map(|configuration| configuration.q).collect()
                 }

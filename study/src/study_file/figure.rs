@@ -21,11 +21,12 @@ use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::find_name;
 use abbe_codegen::spec::Spec;
+use serde::Serialize;
 
 use crate::workspace::{Region, read_region};
 
 /// A figure to draw.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Figure {
     /// What it shows.
     pub content: Content,
@@ -36,11 +37,13 @@ pub struct Figure {
     /// Which figure of the paper it stands for, if any.
     pub paper: String,
     /// Its own workspace, if it is not that of the study.
+    #[serde(skip)]
     pub region: Option<Region>,
 }
 
 /// What a figure shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Content {
     /// The error against the travel of something.
     Travel(Over),
@@ -57,7 +60,8 @@ pub enum Content {
 }
 
 /// What errors are drawn over.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Over {
     /// A variable, by its index.
     Variable(usize),

@@ -1,0 +1,127 @@
+//! `abbe check`: whether a spec is right, and what follows from it.
+
+use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_study::Machine;
+use abbe_study::check::{self, Identifiable, Law, Report};
+use abbe_study::number::{quantity, short};
+
+use crate::arguments::Check;
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::output::{Outcome, json};
+use crate::table::{Table, wrapped};
+
+pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
+    let job = check::Check { machine: Machine::find(&arguments.spec)? };
+    let report = job.run(&mut Console::default())?;
+    let shown = if arguments.json { json(&report)? } else { text(&report) };
+    Ok(Outcome::checked(shown, report.passed()))
+}
+
+fn text(report: &Report) -> String {
+    let spec = &report.spec;
+    let length = spec.length.symbol();
+    let mut parts = vec![format!("{} ({})\n", spec.title, report.facts.spec)];
+    if !spec.description.is_empty() {
+        parts[0] += &format!("{}\n", wrapped(&spec.description, 0));
+    }
+    parts[0] += &format!("\nLengths in {length}, orientation {}\n", report.facts.orientation);
+    parts.push(format!("Frames\n{}", frames(spec)));
+    if !spec.parameters.is_empty() {
+        let rows = spec
+            .parameters
+            .iter()
+            .map(|p| [p.name.clone(), quantity(p.value, &p.unit), p.description.clone()]);
+        parts.push(format!("Parameters\n{}", table(&["name", "nominal", "what"], rows)));
+    }
+    if !spec.inputs.is_empty() {
+        let rows = spec.inputs.iter().map(|u| {
+            let [lower, upper] = u.range.map(short);
+            let range = format!("{lower} … {upper} {}", u.unit);
+            [u.name.clone(), quantity(u.value, &u.unit), range, u.description.clone()]
+        });
+        parts.push(format!("Inputs\n{}", table(&["name", "nominal", "range", "what"], rows)));
+    }
+    if !report.facts.sources.is_empty() {
+        let rows = report.facts.sources.iter().map(|source| {
+            let state = if source.enabled { "on" } else { "off" };
+            [source.name.clone(), source.class.to_owned(), source.effects.to_string(), state.to_owned()]
+        });
+        parts.push(format!("Sources\n{}", table(&["name", "class", "effects", ""], rows)));
+    }
+    let rows = report.facts.operations.iter().map(|f| [f.function.to_owned(), f.operations.to_string()]);
+    parts.push(format!("Operations of the generated code\n{}", table(&["function", "operations"], rows)));
+    parts.push(format!("What measurements can tell\n{}", identifiable(&report.identifiable, report.moved)));
+    parts.push(format!("Laws, at {} configurations\n{}", report.configurations, laws(&report.laws)));
+    parts.join("\n")
+}
+
+fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+    let mut table = Table::new(header);
+    rows.for_each(|row| table.row(row));
+    table.to_string()
+}
+
+fn frames(spec: &Spec) -> String {
+    let rows = spec.frames.iter().enumerate().map(|(i, frame)| {
+        let number = (i + 1).to_string();
+        let Some(variable) = frame.variable.map(|variable| &spec.variables[variable]) else {
+            return [number, frame.name.clone(), String::new(), "fixed".into(), String::new(), String::new()];
+        };
+        let (kind, scale, unit) = match variable.kind {
+            VariableKind::Revolute => ("revolute", 180.0 / std::f64::consts::PI, "deg"),
+            VariableKind::Prismatic => ("prismatic", 1.0, spec.length.symbol()),
+        };
+        let [lower, upper] = variable.limits.map(|limit| short(limit * scale));
+        let limits = match variable.limits.map(f64::is_finite) {
+            [false, false] => "none".to_owned(),
+            _ => format!("{lower} … {upper} {unit}"),
+        };
+        let home = quantity(variable.home * scale, unit);
+        [number, frame.name.clone(), variable.name.clone(), kind.to_owned(), limits, home]
+    });
+    table(&["", "frame", "variable", "kind", "limits", "home"], rows)
+}
+
+fn identifiable(counted: &[Identifiable], configurations: usize) -> String {
+    let find = |measurement: &str, base: bool| {
+        let counted = counted.iter().find(|way| way.measurement == measurement && way.base == base);
+        match counted.map(|way| (way.rank, way.unknowns, &way.reason)) {
+            Some((Some(rank), unknowns, _)) => format!("{rank} of {unknowns}"),
+            Some((None, unknowns, reason)) => format!("an unknown number ({reason}) of {unknowns}"),
+            None => String::new(),
+        }
+    };
+    let (pose, pose_base) = (find("pose", false), find("pose", true));
+    let (point, point_base) = (find("point", false), find("point", true));
+    let text = format!(
+        "Of the generalized errors of all frames, {pose} can be known from poses (or three targets), {point} from \
+         tool points alone; with those of a base frame, {pose_base} and {point_base}. The others act together \
+         with these and cannot be told apart. Counted over {configurations} configurations with all joints moved.",
+    );
+    wrapped(&text, 0) + "\n"
+}
+
+fn laws(laws: &[Law]) -> String {
+    let rows = laws.iter().map(|law| {
+        let slope = law.expected != 0.0;
+        let value = match law.value {
+            Some(0.0) => "0".to_owned(),
+            Some(value) if slope => format!("{value:.4}"),
+            Some(value) => format!("{value:.1e}"),
+            None => String::new(),
+        };
+        let bound = if slope {
+            format!("{} ± {}", law.expected, law.tolerance)
+        } else {
+            format!("at most {:.0e}", law.tolerance)
+        };
+        let verdict = if law.holds { "holds" } else { "FAILS" };
+        [law.law.to_owned(), value, bound, verdict.to_owned()]
+    });
+    let mut text = table(&["law", "found", "expected", ""], rows);
+    for failure in laws.iter().filter_map(|law| law.failure.as_ref()) {
+        text += &format!("{}\n", wrapped(failure, 0));
+    }
+    text
+}

@@ -1,0 +1,149 @@
+//! A figure as it is drawn: what was gathered, with its names.
+
+use abbe_study::analyze::Report;
+use abbe_study::analyze::figures::{Figure, Gathered, Range};
+use abbe_study::study_file::{self, CombinedFigure, Content, Metric};
+
+use super::axis::Axis;
+
+/// A figure, ready to be drawn.
+pub(super) struct Named<'a> {
+    pub(super) asked: &'a study_file::Figure,
+    /// The name of its file, without the ending; no two figures of a report have the same.
+    pub(super) name: String,
+    pub(super) title: String,
+    /// What is to be said of its own workspace, if it has one.
+    pub(super) workspace_note: String,
+    /// Whether there are only bounds to show.
+    pub(super) bounds: bool,
+    pub(super) data: &'a Gathered,
+}
+
+/// A published figure to draw: the least and the largest that it allows, and what it is called.
+pub(super) struct Printed {
+    pub(super) range: Range,
+    /// Its name, in short lines.
+    pub(super) lines: Vec<String>,
+}
+
+impl Printed {
+    /// Its name in one line.
+    pub(super) fn label(&self) -> String {
+        self.lines.join(" ")
+    }
+}
+
+impl<'a> Named<'a> {
+    /// The figures of a report, in their order.
+    pub(super) fn all(figures: &'a [Figure], report: &Report) -> Vec<Self> {
+        let mut stems = Vec::new();
+        let named = figures.iter().map(|figure| {
+            let mut named = Self::new(figure, report);
+            stems.push(named.name.clone());
+            // Names that differ in signs only would be the same file.
+            let same = stems.iter().filter(|stem| **stem == named.name).count();
+            if same > 1 {
+                named.name = format!("{}-{same}", named.name);
+            }
+            named
+        });
+        named.collect()
+    }
+
+    /// Its file is named by what it shows.
+    fn new(figure: &'a Figure, report: &Report) -> Self {
+        let Figure { asked, bounds, own_workspace, data } = figure;
+        let of = asked.source.as_deref().unwrap_or("all sources");
+        let kept = if *bounds { "all random sources" } else { "all repeatable sources" };
+        let kept = asked.source.as_deref().unwrap_or(kept);
+        let over = |over| Axis::over(over, &report.spec).name;
+        let (kind, overs, title) = match asked.content {
+            Content::Travel(first) => ("travel", vec![over(first)], format!("{of}, over {}", over(first))),
+            Content::Surface([first, second]) => {
+                let [first, second] = [over(first), over(second)];
+                let title = format!("{of}, over {first} and {second}");
+                ("surface", vec![first, second], title)
+            }
+            Content::Cloud => (
+                "cloud",
+                Vec::new(),
+                format!("{} in space: {kept}", if *bounds { "Bounds" } else { "Errors" }),
+            ),
+            Content::Histogram => ("histogram", Vec::new(), format!("How often which error occurs: {kept}")),
+            Content::Pareto => ("pareto", Vec::new(), "Share of each source".to_owned()),
+            Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
+        };
+        let words = [kind.to_owned()].into_iter().chain(asked.source.clone()).chain(overs);
+        let workspace_note = own_workspace.map(|[reached, unreached]| {
+            format!("{reached} configurations of its own, {unreached} unreachable.")
+        });
+        Self {
+            asked,
+            name: words.map(|word| slug(&word)).collect::<Vec<_>>().join("-"),
+            title: capital(&title),
+            workspace_note: workspace_note.unwrap_or_default(),
+            bounds: *bounds,
+            data,
+        }
+    }
+
+    /// What is published on one axis of this figure's source, in the unit of the spec.
+    ///
+    /// `found` is what the axis spans here: half peak-to-peak is drawn about its middle.
+    pub(super) fn printed(&self, axis: usize, found: Range, report: &Report) -> Option<Printed> {
+        let name = self.asked.source.as_deref()?;
+        let published = report.study.published.iter().find_map(|published| match &published.subject {
+            study_file::Subject::Source(of, metric) if of == name => {
+                Some((published.figures[axis]?, *metric))
+            }
+            _ => None,
+        });
+        let (value, metric) = published?;
+        let (middle, about) = match metric {
+            Metric::PlainMaximum => (0.0, ""),
+            Metric::HalfPeakToPeak => (found.middle(), "about the middle"),
+            // It stands for differences, which this figure does not show.
+            Metric::RelativeToHome => return None,
+        };
+        let errors = Axis::errors("", &report.spec);
+        let shown = abbe_study::number::short(errors.show(value));
+        Some(Printed {
+            range: Range { least: middle - value, largest: middle + value },
+            lines: [
+                format!("{}:", report.publisher()),
+                format!("±{shown} {}", errors.unit),
+                about.to_owned(),
+            ]
+            .into_iter()
+            .filter(|line| !line.is_empty())
+            .collect(),
+        })
+    }
+
+    /// The radius that is published for all sources together, if this figure shows them.
+    pub(super) fn printed_radius(&self, report: &Report) -> Option<f64> {
+        let radius = study_file::Subject::Combined(CombinedFigure::Both);
+        let published = report.study.published.iter().find(|published| published.subject == radius);
+        published.filter(|_| self.asked.source.is_none() && self.asked.region.is_none())?.figures[3]
+    }
+
+    /// What is done about random errors, if that needs saying.
+    pub(super) fn remark(&self) -> &'static str {
+        if self.asked.source.is_none() && !self.bounds { ", random errors added" } else { "" }
+    }
+
+    /// What the errors are called.
+    pub(super) fn errors(&self) -> &'static str {
+        if self.bounds { "bound" } else { "error" }
+    }
+}
+
+fn slug(text: &str) -> String {
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+    words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-")
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

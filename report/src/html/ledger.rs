@@ -1,0 +1,162 @@
+//! The tables of the report: every source alone, all together, and what is printed beside them.
+
+use abbe::analysis::{Configuration, Figures, SourceErrors};
+use abbe::{Class, Distribution};
+
+use abbe_study::Listing;
+use abbe_study::analyze::{Agreement, Report};
+use abbe_study::number::{fixed, percent, short, unbroken};
+use abbe_study::study_file::{self, CombinedFigure, Metric};
+
+use super::escaped;
+
+/// Every source alone, the largest first.
+pub(super) fn sources(report: &Report) -> String {
+    let unit = report.spec.length.symbol();
+    let share = report.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
+    let mut rows = String::new();
+    let mut sources = report.budget.sources.iter().collect::<Vec<_>>();
+    sources.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
+    for (rank, errors) in sources.into_iter().enumerate() {
+        let worst = report.configuration(errors.worst).filter(|_| errors.plain_max.norm > 0.0);
+        rows += &source(rank + 1, errors, worst, report);
+    }
+    format!(
+        "<table class=\"ledger\"><thead><tr><th>rank</th><th class=\"words\">source</th>\
+         <th class=\"words\">metric</th><th>x ({unit})</th><th>y ({unit})</th><th>z ({unit})</th>\
+         <th>norm ({unit})</th>{share}<th class=\"words\">verdict</th></tr></thead>\n{rows}</table>\n"
+    )
+}
+
+fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, report: &Report) -> String {
+    let source = report.source(errors.source);
+    let metrics = Metric::ALL.map(|(name, metric)| {
+        let figures = match metric {
+            Metric::PlainMaximum => errors.plain_max,
+            Metric::HalfPeakToPeak => errors.half_peak_to_peak,
+            Metric::RelativeToHome => errors.relative_to_home,
+        };
+        (name, figures, report.published(&study_file::Subject::Source(source.name.clone(), metric)))
+    });
+    let lines = metrics.iter().map(|(_, _, published)| 1 + usize::from(published.is_some())).sum::<usize>();
+    let share = |figures: &Figures| {
+        let share = report.study.tolerance.map(|tolerance| percent(figures.norm, tolerance));
+        share.map_or_else(String::new, |share| format!("<td>{share}</td>"))
+    };
+    let mut rows = String::new();
+    for (i, (name, figures, published)) in metrics.iter().enumerate() {
+        let head = if i == 0 {
+            let (name, class) = (escaped(&source.name), class(errors.class));
+            let worst =
+                worst.map(|worst| format!("<br>worst at {}", escaped(&unbroken(&report.label(worst)))));
+            let worst = worst.unwrap_or_default();
+            format!(
+                "<td rowspan=\"{lines}\">{rank}</td><td class=\"words\" rowspan=\"{lines}\"><b>{name}</b>\
+                 <small>{class}{worst}</small></td>"
+            )
+        } else {
+            String::new()
+        };
+        let Figures { x, y, z, norm } = *figures;
+        let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", error(figure, report))).concat();
+        rows += &format!(
+            "<tr>{head}<td class=\"words metric\">{name}</td>{cells}{}<td></td></tr>\n",
+            share(figures)
+        );
+        if let Some((published, agreement)) = published {
+            let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
+            let skipped = report.study.tolerance.map_or("", |_| "<td></td>");
+            rows += &format!(
+                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
+                attributed(report, &published.reference),
+                verdict(*agreement, report)
+            );
+        }
+    }
+    format!("<tbody>{rows}</tbody>\n")
+}
+
+/// All sources together.
+pub(super) fn combined(report: &Report) -> String {
+    let unit = report.spec.length.symbol();
+    let combined = &report.budget.combined;
+    let share = report.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
+    let mut rows = String::new();
+    for (figure, name, axes, norm) in [
+        (
+            CombinedFigure::Repeatable,
+            "repeatable: sum, with signs",
+            combined.repeatable.map(Some),
+            combined.repeatable_radius.value,
+        ),
+        (
+            CombinedFigure::Random,
+            "random: root sum of squares of bounds",
+            combined.random.map(Some),
+            combined.random_radius.value,
+        ),
+        (CombinedFigure::Both, "radius: both norms, added", [None; 3], combined.radius.value),
+    ] {
+        let cell = |figure: Option<f64>| figure.map_or_else(String::new, |figure| error(figure, report));
+        let [x, y, z] = axes;
+        let cells = [x, y, z, Some(norm)].map(|figure| format!("<td>{}</td>", cell(figure))).concat();
+        let of = report.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
+        let of = of.unwrap_or_default();
+        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}<td></td></tr>\n");
+        if let Some((published, agreement)) = report.published(&study_file::Subject::Combined(figure)) {
+            let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
+            let skipped = report.study.tolerance.map_or("", |_| "<td></td>");
+            rows += &format!(
+                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
+                attributed(report, &published.reference),
+                verdict(agreement, report)
+            );
+        }
+    }
+    format!(
+        "<table class=\"ledger\"><thead><tr><th class=\"words\">all together</th><th>x ({unit})</th>\
+         <th>y ({unit})</th><th>z ({unit})</th><th>norm ({unit})</th>{share}<th class=\"words\">verdict</th>\
+         </tr></thead>\n<tbody>{rows}</tbody></table>\n"
+    )
+}
+
+/// Any table, as it is.
+pub(super) fn listed(listing: &Listing) -> String {
+    let class = |column: usize| if listing.numbers.contains(&column) { "" } else { " class=\"words\"" };
+    let cells = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
+        let cells =
+            cells.enumerate().map(|(i, cell)| format!("<{tag}{}>{}</{tag}>", class(i), escaped(cell)));
+        format!("<tr>{}</tr>\n", cells.collect::<String>())
+    };
+    let head = cells("th", &mut listing.header.iter().copied());
+    let rows = listing.rows.iter().map(|row| cells("td", &mut row.iter().map(String::as_str)));
+    format!(
+        "<table class=\"ledger\"><thead>{head}</thead>\n<tbody>{}</tbody></table>\n",
+        rows.collect::<String>()
+    )
+}
+
+fn attributed(report: &Report, reference: &str) -> String {
+    let publisher = escaped(report.publisher());
+    if reference.is_empty() { publisher } else { format!("{publisher}, {}", escaped(reference)) }
+}
+
+fn verdict(agreement: Agreement, report: &Report) -> String {
+    let class = if agreement == Agreement::Met { "met" } else { "missed" };
+    format!("<td class=\"words metric {class}\">{}</td>", escaped(&agreement.text(report)))
+}
+
+/// An error, with the decimals of the tables.
+fn error(value: f64, report: &Report) -> String {
+    fixed(value, report.decimals())
+}
+
+fn class(class: Class) -> &'static str {
+    match class {
+        Class::Repeatable => "repeatable",
+        Class::Random(Distribution::Uniform) => "random, uniform: half-width",
+        Class::Random(Distribution::Normal) => "random, normal: 3σ",
+    }
+}

@@ -1,0 +1,133 @@
+//! The results in sentences: tolerance, spheres, compensation, first order.
+
+use abbe::analysis::RemainingErrors;
+
+use super::report::Report;
+use crate::number::{self, percent, short};
+
+impl Report {
+    /// The results in sentences: tolerance, spheres, compensation, first order.
+    pub fn conclusions(&self) -> Vec<String> {
+        let sentences = [
+            tolerance(self),
+            allowed(self),
+            Some(spheres(self)),
+            ellipsoid(self),
+            published_residual(self),
+            self.budget.compensation.as_ref().map(|compensation| residual(self, compensation)),
+            Some(first_order(self)),
+        ];
+        sentences.into_iter().flatten().collect()
+    }
+
+    fn show(&self, value: f64) -> String {
+        format!("{} {}", number::trimmed(value, self.decimals()), self.spec.length.symbol())
+    }
+
+    /// `at most 0.0123 mm`; what cannot be seen in print is less than its last digit.
+    fn at_most(&self, value: f64) -> String {
+        let smallest = 10f64.powi(-(self.decimals() as i32));
+        match value < smallest / 2.0 {
+            true => format!("less than {}", self.show(smallest)),
+            false => format!("at most {}", self.show(value)),
+        }
+    }
+
+    fn of_tolerance(&self, value: f64) -> String {
+        let share = self.study.tolerance.map(|tolerance| percent(value, tolerance));
+        share.map(|share| format!(", {share} of the tolerance")).unwrap_or_default()
+    }
+}
+
+fn tolerance(report: &Report) -> Option<String> {
+    let tolerance = report.study.tolerance?;
+    let share = percent(report.budget.combined.radius.value, tolerance);
+    Some(format!("Tolerance: {}; the radius is {share} of it.", report.show(tolerance)))
+}
+
+fn allowed(report: &Report) -> Option<String> {
+    let admissible = report.admissible.as_ref()?;
+    Some(format!(
+        "It is met with all sources × {}, or for certain with each at an equal share of {}.",
+        number::digits(admissible.together?, 3),
+        report.show(admissible.share?)
+    ))
+}
+
+fn spheres(report: &Report) -> String {
+    let combined = &report.budget.combined;
+    let sphere = &combined.enclosing;
+    let [x, y, z] = sphere.centre.map(|value| number::trimmed(value, report.decimals()));
+    let mut text = format!(
+        "Repeatable errors lie within {} of zero; the smallest sphere around them has the radius {} and the centre \
+         ({x}, {y}, {z})",
+        report.show(combined.repeatable_radius.value),
+        report.show(sphere.radius),
+    );
+    // What cannot be seen in print is rounding.
+    if sphere.excess > 1e-9 * sphere.radius {
+        text += &format!(", or is smaller by {} at most", report.show(sphere.excess));
+    }
+    text + "."
+}
+
+fn ellipsoid(report: &Report) -> Option<String> {
+    let ellipsoid = &report.budget.combined.ellipsoid;
+    ellipsoid.configuration?;
+    let [a, b, c] = ellipsoid.semi_axes.map(|value| number::trimmed(value, report.decimals()));
+    let unit = report.spec.length.symbol();
+    Some(format!(
+        "Random errors, if normal, lie with 95 % probability in an ellipsoid with the semi-axes {a}, {b}, {c} {unit} \
+         where it is longest."
+    ))
+}
+
+fn published_residual(report: &Report) -> Option<String> {
+    let published = report.study.compensated.as_ref()?;
+    let random = report.budget.combined.random_radius.value;
+    let total = published.residual + random;
+    Some(format!(
+        "After compensation: {} repeatable residual + {} random = {}{}; {} prints {} + {} = {} ({}).",
+        report.show(published.residual),
+        report.show(random),
+        report.show(total),
+        report.of_tolerance(total),
+        report.publisher(),
+        short(published.residual),
+        short(published.random),
+        report.show(published.total),
+        published.reference,
+    ))
+}
+
+fn residual(report: &Report, compensation: &RemainingErrors) -> String {
+    format!(
+        "Compensated as the study says: {} remain of the repeatable sources (root sum of squares; {} if all added), \
+         and with the random ones the total absolute accuracy is {}{}.",
+        report.show(compensation.residual.value),
+        report.show(compensation.residual_sum.value),
+        report.show(compensation.total.value),
+        report.of_tolerance(compensation.total.value),
+    )
+}
+
+fn first_order(report: &Report) -> String {
+    let first_order = &report.first_order;
+    let which = match report.budget.sources.iter().any(|alone| alone.class == abbe::Class::Repeatable) {
+        true => "repeatable sources",
+        false => "random sources at their bounds",
+    };
+    let spread = match first_order.checked < report.budget.configurations {
+        true => ", spread evenly over all",
+        false => "",
+    };
+    let (differs, by) = match first_order.largest {
+        0.0 => ("does not differ", String::new()),
+        largest => ("differs", format!(" by {}", report.at_most(largest))),
+    };
+    format!(
+        "First order: J_e ε of the {which} {differs} from the exact chain A_1 E_1 … A_n E_n T{by}, at {} \
+         configurations{spread}.",
+        first_order.checked,
+    )
+}

@@ -1,0 +1,185 @@
+//! Bins that double their width when there are too many: sorting without knowing the range in advance.
+
+use std::collections::BTreeMap;
+
+use serde::{Serialize, Serializer};
+
+/// What bins hold.
+pub trait Merge: Default {
+    /// Takes in what a neighbour holds.
+    fn merge(&mut self, other: Self);
+}
+
+/// Bins of width 2^exponent, at most so many that are not empty.
+///
+/// The narrowest that are few enough: what comes in decides the width, not the order in which it comes.
+#[derive(Clone, Debug)]
+pub struct Bins<T> {
+    finest: i32,
+    exponent: i32,
+    most: usize,
+    bins: BTreeMap<i64, T>,
+}
+
+impl<T: Merge> Bins<T> {
+    /// No bins yet; the first ones are so narrow that different values stay apart.
+    pub fn new(finest: i32, most: usize) -> Self {
+        Self { finest, exponent: finest, most: most.max(1), bins: BTreeMap::new() }
+    }
+
+    /// The bin of a value.
+    pub fn at(&mut self, value: f64) -> &mut T {
+        while self.key(value).unsigned_abs() > 1 << 52 {
+            self.double();
+        }
+        while self.bins.len() >= self.most && !self.bins.contains_key(&self.key(value)) {
+            self.double();
+        }
+        let key = self.key(value);
+        self.bins.entry(key).or_default()
+    }
+
+    /// Widens the bins until they span no more than so many, empty ones included.
+    pub fn span_at_most(&mut self, most: i64) {
+        while self.span() > most.max(1) {
+            self.double();
+        }
+    }
+
+    fn span(&self) -> i64 {
+        let keys = self.bins.keys();
+        keys.clone().next_back().zip(keys.clone().next()).map_or(0, |(last, first)| last - first + 1)
+    }
+
+    fn key(&self, value: f64) -> i64 {
+        // 0 and other round values in the middle of the first bins: rounding does not tear them apart.
+        let offset = 2f64.powi(self.finest - 1);
+        ((value + offset) / self.width()).floor() as i64
+    }
+
+    fn double(&mut self) {
+        self.exponent += 1;
+        for (key, content) in std::mem::take(&mut self.bins) {
+            self.bins.entry(key.div_euclid(2)).or_default().merge(content);
+        }
+    }
+
+    /// Takes in other bins that began as fine as these.
+    pub fn merge(&mut self, mut other: Self) {
+        while self.exponent < other.exponent {
+            self.double();
+        }
+        while other.exponent < self.exponent {
+            other.double();
+        }
+        for (key, content) in other.bins {
+            self.bins.entry(key).or_default().merge(content);
+        }
+        while self.bins.len() > self.most {
+            self.double();
+        }
+    }
+
+    /// Widens the bins to at least this exponent.
+    pub fn widen(&mut self, exponent: i32) {
+        while self.exponent < exponent {
+            self.double();
+        }
+    }
+
+    /// The width is 2 to the power of this.
+    pub fn exponent(&self) -> i32 {
+        self.exponent
+    }
+
+    /// Whether different values may share a bin.
+    pub fn are_wide(&self) -> bool {
+        self.exponent > self.finest
+    }
+
+    fn width(&self) -> f64 {
+        2f64.powi(self.exponent)
+    }
+
+    /// Lower and upper edge of a bin.
+    pub fn edges(&self, key: i64) -> [f64; 2] {
+        [key, key + 1].map(|edge| edge as f64 * self.width())
+    }
+
+    /// The contents of a bin, if there is any.
+    pub fn get(&self, key: i64) -> Option<&T> {
+        self.bins.get(&key)
+    }
+
+    /// What the bins hold, in ascending order.
+    pub fn into_contents(self) -> impl Iterator<Item = T> {
+        self.bins.into_values()
+    }
+
+    /// The bins that are not empty, in ascending order, with their numbers.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = (i64, &T)> {
+        self.bins.iter().map(|(key, content)| (*key, content))
+    }
+}
+
+/// A list: the edges of every bin, and what it holds.
+impl<T: Merge + Serialize> Serialize for Bins<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter().map(|(key, content)| (self.edges(key), content)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bins, Merge};
+
+    impl Merge for usize {
+        fn merge(&mut self, other: Self) {
+            *self += other;
+        }
+    }
+
+    fn counted(values: &[f64], most: usize) -> Vec<([f64; 2], usize)> {
+        let mut bins = Bins::<usize>::new(-20, most);
+        values.iter().for_each(|value| *bins.at(*value) += 1);
+        bins.iter().map(|(key, count)| (bins.edges(key), *count)).collect()
+    }
+
+    #[test]
+    fn few_values_stay_apart() {
+        let counts = counted(&[-0.5, 0.0, 1e-12, -1e-12, 1e3, 1e3 + 1e-3], 9);
+        assert_eq!(counts.iter().map(|(_, count)| *count).collect::<Vec<_>>(), [1, 3, 1, 1]);
+    }
+
+    #[test]
+    fn many_values_share_bins_whatever_their_order() {
+        let mut values = (-700..900).map(|i| f64::from(i) * 0.37).collect::<Vec<_>>();
+        let forth = counted(&values, 64);
+        values.reverse();
+        assert_eq!(forth, counted(&values, 64));
+        assert!((33..=64).contains(&forth.len()));
+        assert_eq!(forth.iter().map(|(_, count)| count).sum::<usize>(), values.len());
+        for ([lower, upper], count) in forth {
+            let inside = values.iter().filter(|value| (lower..upper).contains(value)).count();
+            assert_eq!(inside, count);
+        }
+    }
+
+    #[test]
+    fn merged_is_as_if_counted_together() {
+        let values = (0..400).map(|i| f64::from(i * i)).collect::<Vec<_>>();
+        let mut parts = [Bins::<usize>::new(-20, 32), Bins::new(-20, 32)];
+        for (i, value) in values.iter().enumerate() {
+            *parts[i % 2].at(*value) += 1;
+        }
+        let [mut bins, other] = parts;
+        bins.merge(other);
+        let merged = bins.iter().map(|(key, count)| (bins.edges(key), *count)).collect::<Vec<_>>();
+        assert_eq!(merged, counted(&values, 32));
+    }
+
+    #[test]
+    fn enormous_values_are_binned_too() {
+        assert_eq!(counted(&[1e300, -1e300, 0.0], 9).len(), 3);
+    }
+}

@@ -1,0 +1,23 @@
+//! Section 5 of the paper: what every source does over a workspace, alone and together.
+//!
+//! `job` is the question, `report` the answer. The sweep runs once; `figures` gathers on the way what the figures show.
+//! `first_order` compares with the exact chain, `agreement` with published figures; `ledger` ranks the sources,
+//! `unreachable` says what could not be had and why, `conclusions` puts the results into sentences; `json` is the report as
+//! machines read it.
+
+mod agreement;
+mod conclusions;
+pub mod figures;
+mod first_order;
+mod job;
+mod json;
+mod ledger;
+mod report;
+mod unreachable;
+
+pub use agreement::{Agreement, figures_of};
+pub use first_order::FirstOrder;
+pub use job::Analyze;
+pub use ledger::{Entry, allowed, ledger};
+pub use report::{Drawn, Report};
+pub use unreachable::{Reason, first_few, reason, reasons, summary};

@@ -1,0 +1,147 @@
+//! The answer: what was found over a workspace.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use abbe::analysis::{Admissible, Budget, Configuration, MonteCarlo, SourceErrors, Workspace};
+use abbe_codegen::spec::{Source, Spec};
+
+use super::figures::Figures;
+use super::first_order::FirstOrder;
+use crate::notes::Notes;
+use crate::number::{self, Named, error_decimals};
+use crate::study_file::Study;
+
+/// What the sources do over a workspace. Lengths in the spec's unit and along the axes of `F_0`, angles in rad.
+///
+/// Serialized it is what `abbe analyze --json` prints.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The manipulator, with all changes.
+    pub spec: Arc<Spec>,
+    /// The study that was asked for.
+    pub study: Study,
+    /// The workspace in a sentence.
+    pub workspace: String,
+    /// The home configuration, with which those of the workspace are compared.
+    pub home: Configuration,
+    /// Indices of the parameters that the workspace moves.
+    pub varying: Vec<usize>,
+    /// Every source alone, and all together. Sources are counted among those that are switched on: see
+    /// [`source`](Self::source).
+    pub budget: Budget,
+    /// What first order neglects.
+    pub first_order: FirstOrder,
+    /// What the tolerance of the study allows.
+    pub admissible: Option<Admissible>,
+    /// What was drawn, if it was asked for.
+    pub monte_carlo: Option<Drawn>,
+    /// What the figures of the study show, if it was asked for.
+    pub figures: Option<Figures>,
+    pub(super) places: Places,
+}
+
+/// What was drawn at the worst configuration and at home.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The seed of the draws.
+    pub seed: u64,
+    /// Where the radius of all errors is largest.
+    pub worst: MonteCarlo,
+    /// At home.
+    pub home: MonteCarlo,
+}
+
+impl Drawn {
+    /// Both places, with their names.
+    pub fn places(&self) -> [(&'static str, &MonteCarlo); 2] {
+        [("worst", &self.worst), ("home", &self.home)]
+    }
+}
+
+/// The configurations that the figures of a budget name by their index in the workspace.
+#[derive(Clone, Debug)]
+pub(super) struct Places(BTreeMap<usize, Configuration>);
+
+impl Places {
+    pub(super) fn new(budget: &Budget, workspace: &dyn Workspace) -> Self {
+        let combined = &budget.combined;
+        let radii =
+            [combined.repeatable_radius, combined.random_radius, combined.radius, combined.worst_case_radius];
+        let named = budget.sources.iter().map(|alone| alone.worst);
+        let named = named.chain(radii.map(|radius| radius.configuration));
+        let named = named.chain([combined.ellipsoid.configuration]).flatten();
+        Self(named.filter_map(|index| Some((index, workspace.configuration(index).ok()?))).collect())
+    }
+}
+
+impl Report {
+    /// The configuration where a source, or everything, is worst.
+    pub fn configuration(&self, index: Option<usize>) -> Option<&Configuration> {
+        self.places.0.get(&index?)
+    }
+
+    /// A source of the budget, by its index there.
+    pub fn source(&self, index: usize) -> &Source {
+        &self.sources()[index]
+    }
+
+    /// The name of a source of the budget.
+    pub fn name(&self, errors: &SourceErrors) -> &str {
+        &self.source(errors.source).name
+    }
+
+    /// The sources of the budget: those that are switched on.
+    pub fn sources(&self) -> Vec<&Source> {
+        self.spec.enabled_sources().collect()
+    }
+
+    /// The variables of a configuration, by their names.
+    pub(super) fn variables(&self, configuration: Option<&Configuration>) -> Named {
+        let values = configuration.iter().flat_map(|configuration| &configuration.q);
+        let named = self.spec.variables.iter().zip(values);
+        Named(named.map(|(variable, value)| (variable.name.clone(), value + 0.0)).collect())
+    }
+
+    /// Those parameters of a configuration that the workspace moves, by their names.
+    pub(super) fn parameters(&self, configuration: Option<&Configuration>) -> Named {
+        let named = self.varying.iter().filter_map(|&i| {
+            let name = self.spec.parameters[i].name.clone();
+            configuration.map(|configuration| (name, configuration.s[i] + 0.0))
+        });
+        Named(named.collect())
+    }
+
+    /// Who printed the published figures.
+    pub fn publisher(&self) -> &str {
+        if self.study.publisher.is_empty() { "what is published" } else { &self.study.publisher }
+    }
+
+    /// What is not at home at a configuration.
+    pub fn label(&self, configuration: &Configuration) -> String {
+        number::configuration(configuration, &self.home, &self.spec)
+    }
+
+    /// How many decimals errors have: three digits of the smallest source that matters.
+    pub fn decimals(&self) -> usize {
+        let least = error_decimals(self.spec.length);
+        let negligible = 1e-6 * self.budget.combined.radius.value;
+        let norms = self.budget.sources.iter().map(|errors| errors.plain_max.norm);
+        let smallest = norms.filter(|norm| *norm > negligible).fold(f64::INFINITY, f64::min);
+        let needed = 2.0 - smallest.log10().floor();
+        (needed.max(0.0) as usize).clamp(least, least + 4)
+    }
+
+    /// Warns if first order is not good enough for the tolerance.
+    pub(super) fn warn_of_first_order(&self, notes: &mut dyn Notes) {
+        let length = |value| number::length(value, self.spec.length);
+        let neglected = self.first_order.largest;
+        if let Some(tolerance) = self.study.tolerance.filter(|tolerance| neglected > tolerance / 10.0) {
+            notes.warn(&format!(
+                "first order is off by up to {}, more than a tenth of the tolerance of {}; look at --monte-carlo",
+                length(neglected),
+                length(tolerance),
+            ));
+        }
+    }
+}

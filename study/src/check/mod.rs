@@ -1,0 +1,76 @@
+//! Whether a spec is right, and what follows from it.
+//!
+//! `facts` is what the spec says, `identifiable` what measurements could tell, `laws` whether the closed form agrees
+//! with the exact chain.
+
+mod facts;
+mod identifiable;
+mod laws;
+
+use std::sync::Arc;
+
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use serde::Serialize;
+
+use crate::machine::Machine;
+use crate::notes::Notes;
+
+pub use facts::{Facts, Frame, Function, Source, Value, Variable};
+pub use identifiable::Identifiable;
+pub use laws::{Law, laws};
+
+/// Is this spec right?
+#[derive(Clone)]
+pub struct Check {
+    /// Whose spec.
+    pub machine: Machine,
+}
+
+/// What [`Check`] finds.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// What the spec says.
+    #[serde(flatten)]
+    pub facts: Facts,
+    /// What measurements could tell: poses, then tool points; each without and with an unknown base frame.
+    pub identifiable: Vec<Identifiable>,
+    /// At how many configurations the laws were checked.
+    pub configurations: usize,
+    /// How well each law holds.
+    pub laws: Vec<Law>,
+    /// Over how many configurations was counted what can be identified.
+    #[serde(skip)]
+    pub moved: usize,
+    /// The spec, for what else it says.
+    #[serde(skip)]
+    pub spec: Arc<Spec>,
+}
+
+impl Check {
+    /// Checks everything.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let spec = &self.machine.spec;
+        let facts = Facts::new(spec, &self.machine.origin);
+        notes.go_on()?;
+        let identifiable = identifiable::count(spec);
+        notes.go_on()?;
+        let configurations = laws::configurations(spec);
+        Ok(Report {
+            facts,
+            identifiable,
+            configurations,
+            laws: laws(&Interpreter::new(Arc::clone(spec)), configurations),
+            moved: identifiable::configurations(spec.frames.len()),
+            spec: Arc::clone(spec),
+        })
+    }
+}
+
+impl Report {
+    /// Whether every law holds.
+    pub fn passed(&self) -> bool {
+        self.laws.iter().all(|law| law.holds)
+    }
+}

@@ -1,0 +1,161 @@
+//! Pose, error Jacobian and generalized errors at one configuration.
+
+use std::sync::Arc;
+
+use abbe::analysis::sampling;
+use abbe::{Component, Description, Manipulator, Pose};
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, Span};
+use abbe_codegen::document::Document;
+use abbe_codegen::expr::{Dimension, parse_value};
+use abbe_codegen::spec::{Spec, Variable, VariableKind};
+use abbe_interpreter::Interpreter;
+use serde::Serialize;
+
+use crate::machine::Machine;
+use crate::mistake;
+use crate::notes::Notes;
+use crate::number;
+
+/// What are `J_e` and `ε` here?
+#[derive(Clone)]
+pub struct Jacobian {
+    /// Whose.
+    pub machine: Machine,
+    /// The joint variables in their order, in the length unit and rad; home if not given.
+    pub q: Option<Vec<f64>>,
+}
+
+/// What [`Jacobian`] finds. Lengths in the spec's unit, angles in rad, everything in `F_0`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The manipulator.
+    pub name: String,
+    /// The unit of every length.
+    pub length: &'static str,
+    /// What rows 4–6 are: `rotation-vector` or `euler-yzx`.
+    pub orientation: &'static str,
+    /// The configuration.
+    pub q: Vec<f64>,
+    /// `A_T`, row by row.
+    pub pose: [[f64; 4]; 4],
+    /// The names of the rows of `J_e`.
+    pub rows: [&'static str; 6],
+    /// The names of its columns: `e_x1 … e_p1`, then those of frame 2, …
+    pub columns: Vec<String>,
+    /// `J_e`, row by row.
+    pub error_jacobian: [Vec<f64>; 6],
+    /// `ε`: the sum of the repeatable sources, six per frame as the columns.
+    pub generalized_errors: Vec<f64>,
+    /// What was evaluated, for names and units.
+    #[serde(skip)]
+    pub spec: Arc<Spec>,
+}
+
+impl Jacobian {
+    /// Evaluates both; notes what is beyond its limits.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let spec = &self.machine.spec;
+        let interpreter = Interpreter::new(Arc::clone(spec));
+        let description = interpreter.description();
+        let q = self.q.clone().unwrap_or_else(|| sampling::home(&description));
+        for (variable, value) in spec.variables.iter().zip(&q) {
+            note_beyond_limits(variable, *value, spec, notes);
+        }
+        let s = sampling::nominal_parameters(&description);
+        let u = sampling::nominal_inputs(&description);
+        let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+        let mut errors = vec![[0.0; 6]; description.frames.len()];
+        let pose = interpreter
+            .error_jacobian(&q, &s, &mut columns)
+            .and_then(|pose| interpreter.generalized_errors(&q, &s, &u, &mut errors).map(|()| pose))
+            .map_err(|error| {
+                mistake::not_evaluated(&self.machine.origin, "this configuration", &error, &description)
+            })?;
+        Ok(Report::new(&description, Arc::clone(spec), q, &pose, &columns, &errors))
+    }
+}
+
+impl Report {
+    fn new(
+        description: &Description,
+        spec: Arc<Spec>,
+        q: Vec<f64>,
+        pose: &Pose,
+        columns: &[[f64; 6]],
+        errors: &[[f64; 6]],
+    ) -> Self {
+        // Adding 0 makes −0 a plain 0.
+        let row = |i: usize| columns.iter().map(|column| column[i] + 0.0).collect();
+        let names = (1..=description.frames.len())
+            .flat_map(|frame| Component::ALL.map(|component| format!("{}{frame}", component.name())));
+        Self {
+            name: description.name.to_string(),
+            length: description.length.symbol(),
+            orientation: description.orientation.name(),
+            q,
+            pose: pose.rows().map(|row| row.map(|entry| entry + 0.0)),
+            rows: description.orientation.rows(),
+            columns: names.collect(),
+            error_jacobian: std::array::from_fn(row),
+            generalized_errors: errors.as_flattened().iter().map(|error| error + 0.0).collect(),
+            spec,
+        }
+    }
+}
+
+fn note_beyond_limits(variable: &Variable, value: f64, spec: &Spec, notes: &mut dyn Notes) {
+    let [lower, upper] = variable.limits;
+    if !(lower..=upper).contains(&value) {
+        let show = |value| number::of_variable(value, variable.kind, spec.length);
+        let (name, value) = (&variable.name, show(value));
+        notes.note(&format!("{name} = {value} is outside its limits {} … {}", show(lower), show(upper)));
+    }
+}
+
+/// Reads the values of `--q`, as many as there are variables: `500,0.2m,0,-90deg,pi/180,0`.
+pub fn read_joint_variables(text: &str, spec: &Spec) -> Result<Vec<f64>, Diagnostics> {
+    let mut document = Document::new("--q", text);
+    let spans = values(text);
+    if spans.len() != spec.variables.len() {
+        let names = spec.variables.iter().map(|variable| variable.name.as_str()).collect::<Vec<_>>();
+        let message = format!("{} joint variables are needed, {} are given", names.len(), spans.len());
+        let help = if names.is_empty() {
+            "leave --q out".into()
+        } else {
+            format!("in this order: {}", names.join(","))
+        };
+        document.mistake(Diagnostic::new(0..text.len(), message).help(help));
+        return document.finish(None);
+    }
+    let mut q = Vec::new();
+    for (variable, span) in spec.variables.iter().zip(spans) {
+        let dimension = match variable.kind {
+            VariableKind::Revolute => Dimension::NONE,
+            VariableKind::Prismatic => Dimension::LENGTH,
+        };
+        let what = format!("the value of `{}`", variable.name);
+        q.extend(parse_value(&mut document, span, spec.length, dimension, &what));
+    }
+    document.finish(Some(q))
+}
+
+/// What stands between the commas; those in parentheses do not count.
+fn values(text: &str) -> Vec<Span> {
+    if text.trim().is_empty() {
+        return Vec::new();
+    }
+    let (mut spans, mut start, mut depth) = (Vec::new(), 0, 0_usize);
+    for (i, character) in text.char_indices() {
+        match character {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            ',' if depth == 0 => {
+                spans.push(start..i);
+                start = i + 1;
+            }
+            _ => {}
+        }
+    }
+    spans.push(start..text.len());
+    spans
+}
