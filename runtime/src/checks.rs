@@ -28,8 +28,9 @@ pub fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Error> {
 /// Whether Euler rows exist at the margin `cos ρ` that a generated function returned.
 pub fn margin(margin: impl Margin<f64>) -> Result<(), Error> {
     match margin.cosine() {
-        Some(margin) if !(margin >= MINIMUM_MARGIN) => Err(Error::EulerSingularity { margin }),
-        _ => Ok(()),
+        None => Ok(()),
+        Some(margin) if margin >= MINIMUM_MARGIN => Ok(()),
+        Some(margin) => Err(Error::EulerSingularity { margin }),
     }
 }
 

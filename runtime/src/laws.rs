@@ -1,4 +1,4 @@
-//! What holds for every correct [`Manipulator`], as functions and as tests for your own.
+//! What holds for every correct [`Manipulator`](crate::Manipulator), as functions and as tests for your own.
 //!
 //! ```
 //! struct Slide;

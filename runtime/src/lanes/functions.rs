@@ -7,7 +7,7 @@ pub trait Named {
 }
 
 /// Every function, its name in generated code, and what it takes and fills, as its
-/// [`Signature`](crate::Signature) says; handed to the macro `$then`.
+/// [`Signature`](crate::function::Signature) says; handed to the macro `$then`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! lane_functions {

@@ -10,7 +10,7 @@ use crate::{Description, Error, Function, Manipulator, Quantity, Scalar};
 )]
 pub trait Evaluate<F: Named>: Manipulator {
     /// Fills the results of one configuration, or of one in each lane: rows as the function's
-    /// [`Signature`](crate::Signature) says. None if there are not enough rows.
+    /// [`Signature`](crate::function::Signature) says. None if there are not enough rows.
     ///
     /// Everything in it must be `#[inline(always)]`, as in any [`Kernel`].
     fn evaluate<T: Scalar>(&self, arguments: &[T], results: &mut [T]) -> Option<()>;
@@ -18,7 +18,7 @@ pub trait Evaluate<F: Named>: Manipulator {
 
 /// Evaluates a function in all configurations, in the lanes of the instruction set that the tiles are laid out for.
 ///
-/// Rows of arguments and results are as the function's [`Signature`](crate::Signature) says. This is compiled
+/// Rows of arguments and results are as the function's [`Signature`](crate::function::Signature) says. This is compiled
 /// where it is called, for this function of this manipulator and for every instruction set. Nothing but counts is
 /// checked ([`Error::Count`]): what is not finite, or not defined, stays so in its configuration.
 pub fn run<M: Evaluate<F> + ?Sized, F: Named>(

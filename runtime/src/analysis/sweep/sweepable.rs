@@ -8,7 +8,7 @@ use crate::{Error, Function, Manipulator};
 /// Generated manipulators are sweepable as they are, and only where somebody says `&dyn Sweepable` are these two
 /// compiled for lanes. Any other [`Manipulator`] is, [`OneByOne`].
 ///
-/// Rows of arguments and results are as the [`Signature`](crate::Signature) of the function says; errors as for
+/// Rows of arguments and results are as the [`Signature`](crate::function::Signature) of the function says; errors as for
 /// [`run`].
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no code for lanes",
