@@ -53,9 +53,9 @@ fn results(robot: &dyn Batches, function: Function, arguments: &Tiles) -> Tiles 
 #[test]
 fn batches_are_the_single_evaluations() {
     for robot in COMPILED {
-        let found = laws::batches(robot, laws::SAMPLES)
-            .and_then(|found| found.within("batches", laws::ROUNDING_TOLERANCE));
-        found.unwrap_or_else(|failure| panic!("{}: {failure}", robot.description().name));
+        let discrepancy = laws::batches(robot, laws::SAMPLES)
+            .and_then(|discrepancy| discrepancy.within("batches", laws::ROUNDING_TOLERANCE));
+        discrepancy.unwrap_or_else(|failure| panic!("{}: {failure}", robot.description().name));
     }
 }
 

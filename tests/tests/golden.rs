@@ -105,13 +105,13 @@ fn build_script_door() {
         std::fs::write(specs.path().join(format!("{name}.toml")), text).unwrap();
     }
     compile_into(specs.path(), out.path()).unwrap();
-    let written = |name: &str| std::fs::metadata(out.path().join(name)).unwrap().modified().unwrap();
+    let modified = |name: &str| std::fs::metadata(out.path().join(name)).unwrap().modified().unwrap();
     let generated = std::fs::read_to_string(out.path().join("abbe_pps.rs")).unwrap();
     assert_eq!(generated, emit::rust(&spec("pps")));
-    let before = [written("abbe_pps.rs"), written("abbe_slide.rs"), written("abbe_manipulators.rs")];
+    let before = [modified("abbe_pps.rs"), modified("abbe_slide.rs"), modified("abbe_manipulators.rs")];
     std::fs::write(specs.path().join("slide.toml"), SLIDE.replace("d1", "x1")).unwrap();
     compile_into(specs.path(), out.path()).unwrap();
-    let after = [written("abbe_pps.rs"), written("abbe_slide.rs"), written("abbe_manipulators.rs")];
+    let after = [modified("abbe_pps.rs"), modified("abbe_slide.rs"), modified("abbe_manipulators.rs")];
     assert_eq!((before[0], before[2]), (after[0], after[2]));
     assert_ne!(before[1], after[1]);
 
@@ -136,11 +136,11 @@ fn generic_over_the_scalar() {
     let (pose, columns) = puma560::joint_jacobian(&q, &puma560::Parameters::NOMINAL).unwrap();
     for (joint, column) in columns.iter().enumerate() {
         let dual: [Dual; 6] = std::array::from_fn(|i| Dual(q[i], f64::from(i == joint)));
-        let mut found = [[Dual(0.0, 0.0); 3]; 4];
-        raw::pose(&dual, &[], &mut found);
+        let mut carried = [[Dual(0.0, 0.0); 3]; 4];
+        raw::pose(&dual, &[], &mut carried);
         for row in 0..3 {
-            assert_eq!(found[3][row].0, pose.position()[row]);
-            assert!((found[3][row].1 - column[row]).abs() < 1e-15);
+            assert_eq!(carried[3][row].0, pose.position()[row]);
+            assert!((carried[3][row].1 - column[row]).abs() < 1e-15);
         }
     }
     let mut single = [[0.0_f32; 3]; 4];

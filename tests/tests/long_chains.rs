@@ -21,10 +21,10 @@ fn spec() -> Spec {
 }
 
 /// Equal to 1e-12 of the largest.
-fn assert_close(what: &str, found: &[f64], expected: &[f64]) {
-    assert_eq!(found.len(), expected.len());
+fn assert_close(what: &str, actual: &[f64], expected: &[f64]) {
+    assert_eq!(actual.len(), expected.len());
     let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    for (i, (a, b)) in found.iter().zip(expected).enumerate() {
+    for (i, (a, b)) in actual.iter().zip(expected).enumerate() {
         assert!((a - b).abs() <= 1e-12 * largest, "{what}: {a} instead of {b} at {i}");
     }
 }
@@ -52,14 +52,14 @@ fn batches_are_those_of_the_straight_line_program() {
             Long.batch(function, &arguments, looped).unwrap();
             straight.batch(function, &arguments, straight_line).unwrap();
             for configuration in 0..COUNT {
-                let [found, expected] = results.each_ref().map(|results| {
+                let [looped, expected] = results.each_ref().map(|results| {
                     let mut values = vec![0.0; results.rows()];
                     results.copy_rows(0..results.rows(), configuration, &mut values);
                     values
                 });
                 let what = format!("{set:?}, {}", function.name());
                 assert!(expected.iter().any(|value| *value != 0.0), "{what}: nothing to compare");
-                assert_close(&what, &found, &expected);
+                assert_close(&what, &looped, &expected);
             }
         }
     }
@@ -72,19 +72,19 @@ fn single_configurations_are_those_of_the_straight_line_program() {
     for sample in 0..COUNT {
         let q: Vec<f64> = (0..VARIABLES).map(|i| number(i + 57 * sample)).collect();
         let s: Vec<f64> = (0..PARAMETERS).map(|i| 0.4 + 0.1 * number(i + sample)).collect();
-        let [mut found, mut expected] = [(); 2].map(|()| vec![Pose::IDENTITY; FRAMES + 1]);
-        Long.transforms(&q, &s, &mut found).unwrap();
+        let [mut looped, mut expected] = [(); 2].map(|()| vec![Pose::IDENTITY; FRAMES + 1]);
+        Long.transforms(&q, &s, &mut looped).unwrap();
         straight.transforms(&q, &s, &mut expected).unwrap();
         let flat = |poses: &[Pose]| poses.iter().flat_map(|pose| pose.0.concat()).collect::<Vec<f64>>();
-        assert_close("transforms", &flat(&found), &flat(&expected));
-        let [mut found, mut expected] = [(); 2].map(|()| vec![[0.0; 6]; VARIABLES]);
-        Long.joint_jacobian(&q, &s, &mut found).unwrap();
+        assert_close("transforms", &flat(&looped), &flat(&expected));
+        let [mut looped, mut expected] = [(); 2].map(|()| vec![[0.0; 6]; VARIABLES]);
+        Long.joint_jacobian(&q, &s, &mut looped).unwrap();
         straight.joint_jacobian(&q, &s, &mut expected).unwrap();
-        assert_close("joint Jacobian", found.as_flattened(), expected.as_flattened());
-        let [mut found, mut expected] = [(); 2].map(|()| vec![[0.0; 6]; PARAMETERS]);
-        Long.parameter_jacobian(&q, &s, &mut found).unwrap();
+        assert_close("joint Jacobian", looped.as_flattened(), expected.as_flattened());
+        let [mut looped, mut expected] = [(); 2].map(|()| vec![[0.0; 6]; PARAMETERS]);
+        Long.parameter_jacobian(&q, &s, &mut looped).unwrap();
         straight.parameter_jacobian(&q, &s, &mut expected).unwrap();
-        assert_close("parameter Jacobian", found.as_flattened(), expected.as_flattened());
+        assert_close("parameter Jacobian", looped.as_flattened(), expected.as_flattened());
     }
 }
 
