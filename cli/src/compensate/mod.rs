@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         true => json(&report)?,
         false => {
             let manipulator = job.machine.evaluator(true);
-            text::text(&manipulator.description(), &report, arguments.out.as_deref())
+            text::text(manipulator.description(), &report, arguments.out.as_deref())
         }
     };
     Ok(Outcome::checked(text, report.complete()))

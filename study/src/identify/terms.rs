@@ -58,14 +58,14 @@ pub enum Family {
 
 /// The terms of some families, in groups that come together: the sine and cosine of a joint, say.
 pub fn candidates(spec: &Spec, families: &[Family]) -> Vec<Vec<Term>> {
-    let family = |(family, terms): (Family, fn(&Spec) -> Vec<Vec<Term>>)| match families.contains(&family) {
-        true => terms(spec),
-        false => Vec::new(),
+    let asked =
+        [Family::Joint, Family::Load, Family::Elastic].into_iter().filter(|one| families.contains(one));
+    let terms = |family| match family {
+        Family::Joint => joint(spec),
+        Family::Load => load(spec),
+        Family::Elastic => elastic(spec),
     };
-    [(Family::Joint, joint as fn(&Spec) -> _), (Family::Load, load), (Family::Elastic, elastic)]
-        .into_iter()
-        .flat_map(family)
-        .collect()
+    asked.flat_map(terms).collect()
 }
 
 fn joint(spec: &Spec) -> Vec<Vec<Term>> {
