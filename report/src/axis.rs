@@ -5,13 +5,13 @@ use abbe_codegen::spec::{Spec, VariableKind};
 use abbe_study::study_file::Over;
 
 /// Colours that those who confuse red and green can tell apart as well (Okabe and Ito): of x, y and z.
-pub const XYZ: [(u8, u8, u8); 3] = [(213, 94, 0), (0, 158, 115), (0, 114, 178)];
+pub(crate) const XYZ: [(u8, u8, u8); 3] = [(213, 94, 0), (0, 158, 115), (0, 114, 178)];
 /// Of the norm, and of all together.
-pub const INK: (u8, u8, u8) = (40, 44, 52);
+pub(crate) const INK: (u8, u8, u8) = (40, 44, 52);
 /// Of what is printed elsewhere.
 pub(super) const PUBLISHED: (u8, u8, u8) = (160, 70, 130);
 /// Of bars.
-pub const BAR: (u8, u8, u8) = (86, 140, 190);
+pub(crate) const BAR: (u8, u8, u8) = (86, 140, 190);
 /// Of axes and their numbers.
 pub(super) const GREY: (u8, u8, u8) = (110, 114, 122);
 /// Of the lines of a grid.
@@ -20,7 +20,7 @@ pub(super) const FAINT: (u8, u8, u8) = (226, 228, 232);
 pub(super) const TOLERANCE: (u8, u8, u8) = (120, 120, 120);
 
 /// As CSS has it.
-pub fn css((red, green, blue): (u8, u8, u8), opacity: f64) -> String {
+pub(crate) fn css((red, green, blue): (u8, u8, u8), opacity: f64) -> String {
     format!("rgba({red},{green},{blue},{opacity})")
 }
 

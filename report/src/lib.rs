@@ -2,7 +2,7 @@
 //!
 //! Everything comes back as texts with the names of their files; nothing here writes. [`analysis`] is the report of an
 //! analysis: `axis` says how its numbers are shown, `svg` draws the figures one by one, `html` writes the page, with the
-//! same figures to rotate and to point at. The rest are the parts that other pages are made of.
+//! same figures to rotate and to point at. [`measurement()`] is the page of a measurement.
 
 mod axis;
 mod figure;
@@ -12,6 +12,5 @@ mod shares;
 mod spheres;
 mod svg;
 
-pub use axis::{BAR, INK, XYZ, css};
-pub use html::{document, escaped, section, style};
+pub use html::measurement;
 pub use pictures::{File, analysis};

@@ -1,6 +1,5 @@
 //! `abbe measure`: how good a machine is.
 
-mod page;
 mod text;
 
 use abbe_study::Machine;
@@ -23,7 +22,7 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     if let Some(folder) = &arguments.out {
         std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
         write(&folder.join("errors.csv"), &report.table().csv())?;
-        write(&folder.join("report.html"), &page::page(spec, &report))?;
+        write(&folder.join("report.html"), &abbe_report::measurement(spec, &report))?;
     }
     Ok(Outcome::passed(if arguments.json { json(&report)? } else { text::text(spec, &report) }))
 }

@@ -1,18 +1,20 @@
 //! The report: one HTML file with everything in it, its script and its data, and no link to anywhere.
 //!
-//! `page` is the whole; `ledger` its tables of errors, `facts` what they rest on; `plots` the figures, one module for each kind.
+//! `page` is that of an analysis, `measurement` that of a measurement; `ledger` its tables of errors, `facts` what they rest on; `plots` the figures, one module for each kind.
 
 mod facts;
 mod ledger;
+mod measurement;
 mod page;
 mod plots;
 
+pub use measurement::measurement;
 pub(super) use page::page;
-pub use page::{document, section};
-pub use plots::style;
+use page::{document, section};
+use plots::style;
 
 /// Text as HTML has it.
-pub fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;")
 }

@@ -29,7 +29,7 @@ pub(crate) fn page(figures: &[Named], drawings: &[String], left_out: &[String], 
 }
 
 /// A page with its script and style in it.
-pub fn document(title: &str, body: &str) -> String {
+pub(super) fn document(title: &str, body: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
@@ -57,7 +57,7 @@ fn script() -> String {
 }
 
 /// A part of a page.
-pub fn section(title: &str, body: &str) -> String {
+pub(super) fn section(title: &str, body: &str) -> String {
     format!("<section>\n<h2>{title}</h2>\n{body}</section>\n")
 }
 

@@ -34,7 +34,7 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
         return None;
     }
     Some(format!(
-        "note: {} of {} rows lie more than ten standard deviations from a fit that leaves them out (lines {}); \
+        "{} of {} rows lie more than ten standard deviations from a fit that leaves them out (lines {}); \
          `--robust tukey` does without them",
         wrong.len(),
         rows.len(),

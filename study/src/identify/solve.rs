@@ -71,7 +71,7 @@ pub(super) fn solve<'a>(
         _ => None,
     };
     if let (Err(_), Some(warning)) = (&found, &warning) {
-        notes.note(warning.trim_start_matches("note: "));
+        notes.note(warning);
     }
     let fit = found.map_err(explained)?;
     let mut solved = Solved {
@@ -83,7 +83,7 @@ pub(super) fn solve<'a>(
         constant: None,
         chosen: Vec::new(),
         terms: Vec::new(),
-        notes: warning.into_iter().collect(),
+        notes: warning.into_iter().map(|warning| format!("note: {warning}")).collect(),
     };
     if candidates.is_empty() {
         return Ok(solved);

@@ -4,7 +4,7 @@ mod cloud;
 mod histogram;
 mod manipulator;
 mod pareto;
-pub mod style;
+pub(super) mod style;
 mod surface;
 mod travel;
 

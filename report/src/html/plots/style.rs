@@ -29,7 +29,7 @@ const SUPERFLUOUS: [ModeBarButtonName; 14] = [
 ];
 
 /// An empty plot with this layout.
-pub fn plot(layout: Layout) -> Plot {
+pub(crate) fn plot(layout: Layout) -> Plot {
     let mut plot = Plot::new();
     let hover = Label::new().background_color("#ffffff").font(font(12).color(css(INK, 1.0)));
     plot.set_layout(
@@ -47,17 +47,17 @@ pub fn plot(layout: Layout) -> Plot {
 }
 
 /// Text of a size.
-pub fn font(size: usize) -> Font {
+pub(crate) fn font(size: usize) -> Font {
     Font::new().size(size).family("Helvetica, Arial, sans-serif")
 }
 
 /// Room on the left, right, top and bottom, pixels.
-pub fn margin([left, right, top, bottom]: [usize; 4]) -> Margin {
+pub(crate) fn margin([left, right, top, bottom]: [usize; 4]) -> Margin {
     Margin::new().left(left).right(right).top(top).bottom(bottom)
 }
 
 /// An axis with a title.
-pub fn axis(title: &str) -> Axis {
+pub(crate) fn axis(title: &str) -> Axis {
     let title = Title::with_text(title).font(font(12).color(css(INK, 1.0)));
     Axis::new()
         .title(title)
@@ -69,7 +69,7 @@ pub fn axis(title: &str) -> Axis {
 }
 
 /// A space with three axes, seen from the corner; `up` is the axis that points up.
-pub fn scene(titles: [&str; 3], aspect: AspectMode, up: usize, distance: f64) -> LayoutScene {
+pub(crate) fn scene(titles: [&str; 3], aspect: AspectMode, up: usize, distance: f64) -> LayoutScene {
     let [x, y, z] = titles.map(axis);
     let unit = |axis: usize| f64::from(u8::from(axis == up));
     let eye = |axis: usize| distance * if axis == up { 0.6 } else { 0.95 };

@@ -1,13 +1,14 @@
-//! The report: errors in space and how often which error occurs, as in the paper's Figures 13 and 14.
+//! The page of a measurement: errors in space and how often which error occurs, as in the paper's Figures 13 and 14.
 
 use abbe_codegen::spec::Spec;
 use abbe_study::measure::{Report, RowError};
+use abbe_study::number::{fixed, trimmed};
 use plotly::common::{HoverInfo, Marker, Mode};
 use plotly::layout::AspectMode;
 use plotly::{Bar, Layout, Plot, Scatter3D};
 
-use abbe_report::{BAR, INK, XYZ, css, document, escaped, section, style};
-use abbe_study::number::{fixed, trimmed};
+use super::{document, escaped, section, style};
+use crate::axis::{BAR, INK, XYZ, css};
 
 /// The most points that are drawn.
 const MOST: usize = 5000;
@@ -16,7 +17,8 @@ const BINS: usize = 40;
 /// Its machine is in Figures 13 and 14.
 const PAPER: &str = "High Performance Medical Robot Requirements and Accuracy Analysis";
 
-pub(super) fn page(spec: &Spec, report: &Report) -> String {
+/// The page of a measurement; `spec` is that of the machine.
+pub fn measurement(spec: &Spec, report: &Report) -> String {
     let to_mm = if spec.length.symbol() == "m" { 1e3 } else { 1.0 };
     let position: Vec<[f64; 3]> =
         report.row_errors.iter().map(|row| [0, 1, 2].map(|axis| row.error[axis] * to_mm)).collect();
