@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::print::Language;
 use abbe_codegen::spec::Spec;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Predict, rank and check the position errors of a manipulator from its spec
@@ -69,16 +71,18 @@ pub(crate) struct Generate {
     /// Spec file, or shipped name
     pub(crate) spec: String,
     /// Language of the code
-    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    #[arg(long, value_parser = language(), default_value = Language::Rust.name())]
     pub(crate) lang: Language,
     /// Write to this file instead of stdout
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Language {
-    Rust,
+/// The languages by their names.
+fn language() -> impl TypedValueParser<Value = Language> {
+    PossibleValuesParser::new(Language::ALL.map(Language::name)).try_map(|name| {
+        Language::ALL.into_iter().find(|language| language.name() == name).ok_or("no such language")
+    })
 }
 
 #[derive(Args, Debug)]

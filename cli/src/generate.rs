@@ -4,16 +4,13 @@ use std::io::Write;
 
 use abbe_study::{Machine, generate};
 
-use crate::arguments::{Generate, Language};
+use crate::arguments::Generate;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Pending, cannot_write, note};
 
 pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
-    let language = match arguments.lang {
-        Language::Rust => generate::Language::Rust,
-    };
-    let job = generate::Generate { machine: Machine::find(&arguments.spec)?, language };
+    let job = generate::Generate { machine: Machine::find(&arguments.spec)?, language: arguments.lang };
     let code = job.run(&mut Console::default())?;
     let Some(path) = &arguments.out else {
         return Ok(Outcome::passed(code));

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::emit;
+use crate::print;
 use crate::spec::Spec;
 
 /// Generates a module for every `*.toml` in a folder, for `abbe::include_manipulators!()` to include.
@@ -62,7 +62,7 @@ pub fn compile_into(specs: &Path, out: &Path) -> Result<Vec<PathBuf>, CompileErr
     let mut index = String::new();
     for spec in &read {
         let file = format!("abbe_{}.rs", spec.name);
-        write_if_changed(&out.join(&file), &emit::rust(spec))?;
+        write_if_changed(&out.join(&file), &print::rust(spec))?;
         index.push_str(&format!("include!(concat!(env!(\"OUT_DIR\"), \"/{file}\"));\n"));
     }
     write_if_changed(&out.join("abbe_manipulators.rs"), &index)?;

@@ -11,14 +11,14 @@
 //! the file once, for crates that want nothing of this at build time. All three give the same code.
 //!
 //! The path of a spec through this crate: `spec` reads and checks it (with `expr`, and `diagnostic` for what is
-//! wrong), `chain` builds the nodes of a `graph`, `program` puts them in order, `emit` writes Rust.
+//! wrong), `chain` builds the nodes of a `graph`, `program` puts them in order, `print` writes Rust or another language.
 
 pub mod chain;
 pub mod diagnostic;
 pub mod document;
-pub mod emit;
 pub mod expr;
 pub mod graph;
+pub mod print;
 pub mod program;
 pub mod spec;
 

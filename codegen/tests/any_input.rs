@@ -34,7 +34,7 @@ e_s = "load * 1e-6/kg"
 fn read(text: &str) {
     match Spec::parse("any.toml", text) {
         // What is read can be generated.
-        Ok(spec) => drop(abbe_codegen::emit::rust(&spec)),
+        Ok(spec) => drop(abbe_codegen::print::rust(&spec)),
         Err(diagnostics) => assert!(diagnostics.to_string().starts_with("error")),
     }
 }

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 use abbe::analysis::Sweepable;
 use abbe::lanes::{self, Batches, Tiles};
 use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks};
-use abbe_codegen::chain::{EffectNode, Model};
-use abbe_codegen::program::FunctionKind;
+use abbe_codegen::chain::Model;
+use abbe_codegen::program::Routines;
 use abbe_codegen::spec::Spec;
 
 use crate::lanes::{Batch, Block};
@@ -19,8 +19,7 @@ const POSE: usize = 12;
 #[derive(Clone, Debug)]
 pub struct Interpreter {
     spec: Arc<Spec>,
-    description: Description,
-    model: Arc<Model>,
+    routines: Arc<Routines>,
     /// In the order of [`Function::ALL`]; made when they are first asked for.
     tapes: [OnceLock<Tape>; Function::ALL.len()],
 }
@@ -28,11 +27,17 @@ pub struct Interpreter {
 impl Interpreter {
     /// Prepares a spec, which it keeps.
     pub fn new(spec: impl Into<Arc<Spec>>) -> Self {
-        let spec = spec.into();
-        let model = Model::new(&spec);
-        let description = spec.describe(model.effects.iter().map(EffectNode::effect));
-        let tapes = [const { OnceLock::new() }; Function::ALL.len()];
-        Self { spec, description, model: Arc::new(model), tapes }
+        Self::with(spec.into(), Routines::new)
+    }
+
+    /// The same without loops over the frames, however long the chain is: what loops are checked against.
+    pub fn without_loops(spec: impl Into<Arc<Spec>>) -> Self {
+        Self::with(spec.into(), Routines::without_loops)
+    }
+
+    fn with(spec: Arc<Spec>, routines: impl Fn(&Spec, &Model) -> Routines) -> Self {
+        let routines = Arc::new(routines(&spec, &Model::new(&spec)));
+        Self { spec, routines, tapes: [const { OnceLock::new() }; Function::ALL.len()] }
     }
 
     /// The spec that it runs.
@@ -40,48 +45,49 @@ impl Interpreter {
         &self.spec
     }
 
-    /// The program of a function, ready to run.
+    /// A function, ready to run.
     fn tape(&self, function: Function) -> &Tape {
-        self.tapes[function as usize].get_or_init(|| {
-            let numbers = |quantity: Quantity| {
-                let arrays = function.signature().arguments.iter();
-                arrays
-                    .filter(|array| array.quantity == quantity)
-                    .map(|array| array.len(&self.description))
-                    .sum()
-            };
-            let symbols = [Quantity::Variables, Quantity::Parameters, Quantity::Inputs, Quantity::Errors];
-            Tape::new(&FunctionKind::ALL[function as usize].program(&self.model), symbols.map(numbers))
-        })
+        self.tapes[function as usize].get_or_init(|| Tape::new(&self.routines, function))
+    }
+
+    /// What a function gives for its arguments, both one after the other, the margin last. Nothing is checked but how many
+    /// arguments there are: what is not finite stays so.
+    ///
+    /// # Errors
+    ///
+    /// There are more or fewer arguments than the function's signature says.
+    pub fn evaluate(&self, function: Function, arguments: &[f64]) -> Result<Vec<f64>, Error> {
+        let tape = self.tape(function);
+        count(Quantity::Arguments, tape.arguments, arguments.len())?;
+        let mut rows = vec![[0.0]; tape.slots];
+        let mut block = Block::new(tape, &mut rows);
+        for (slot, value) in arguments.iter().enumerate() {
+            block.set(slot, 0, *value);
+        }
+        block.run(tape);
+        Ok(tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect())
     }
 
     /// The results of a function at one configuration, one after the other, finite and not singular.
     fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
         let signature = function.signature();
         for (array, values) in signature.arguments.iter().zip(arguments) {
-            count(array.quantity, array.len(&self.description), values.len())?;
+            count(array.quantity, array.len(&self.routines.description), values.len())?;
             checks::finite(array.quantity, values)?;
         }
         if let [_, _, u] = arguments {
-            checks::inputs(&self.description.inputs, u)?;
+            checks::inputs(&self.routines.description.inputs, u)?;
         }
-        let tape = self.tape(function);
-        let mut rows = vec![[0.0]; tape.slots];
-        let mut block = Block::new(tape, &mut rows);
-        for (slot, value) in arguments.iter().copied().flatten().enumerate() {
-            block.set(slot, 0, *value);
-        }
-        block.run(tape);
-        let values: Vec<f64> = tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect();
+        let values = self.evaluate(function, &arguments.concat())?;
         let mut rest = values.as_slice();
-        if signature.has_margin(self.description.orientation)
+        if signature.has_margin(self.routines.description.orientation)
             && let Some((margin, results)) = values.split_last()
         {
             checks::margin(*margin)?;
             rest = results;
         }
         for array in signature.results {
-            let (result, others) = rest.split_at(array.len(&self.description));
+            let (result, others) = rest.split_at(array.len(&self.routines.description));
             checks::finite(array.quantity, result)?;
             rest = others;
         }
@@ -106,11 +112,11 @@ impl Interpreter {
 
 impl Manipulator for Interpreter {
     fn description(&self) -> &Description {
-        &self.description
+        &self.routines.description
     }
 
     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        count(Quantity::Pose, self.description.frames.len() + 1, transforms.len())?;
+        count(Quantity::Pose, self.routines.description.frames.len() + 1, transforms.len())?;
         let values = self.run(Function::Transforms, &[q, s])?;
         for (transform, values) in transforms.iter_mut().zip(values.chunks_exact(POSE)) {
             *transform = pose_of(values);
@@ -123,19 +129,19 @@ impl Manipulator for Interpreter {
     }
 
     fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(Function::ErrorJacobian, 6 * self.description.frames.len(), q, s, columns)
+        self.jacobian(Function::ErrorJacobian, 6 * self.routines.description.frames.len(), q, s, columns)
     }
 
     fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(Function::JointJacobian, self.description.variables.len(), q, s, columns)
+        self.jacobian(Function::JointJacobian, self.routines.description.variables.len(), q, s, columns)
     }
 
     fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(Function::ParameterJacobian, self.description.parameters.len(), q, s, columns)
+        self.jacobian(Function::ParameterJacobian, self.routines.description.parameters.len(), q, s, columns)
     }
 
     fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        count(Quantity::Errors, self.description.effects.len(), effects.len())?;
+        count(Quantity::Errors, self.routines.description.effects.len(), effects.len())?;
         effects.copy_from_slice(&self.run(Function::Effects, &[q, s, u])?);
         Ok(())
     }
@@ -147,7 +153,7 @@ impl Manipulator for Interpreter {
         u: &[f64],
         errors: &mut [[f64; 6]],
     ) -> Result<(), Error> {
-        count(Quantity::Errors, self.description.frames.len(), errors.len())?;
+        count(Quantity::Errors, self.routines.description.frames.len(), errors.len())?;
         errors.as_flattened_mut().copy_from_slice(&self.run(Function::GeneralizedErrors, &[q, s, u])?);
         Ok(())
     }
@@ -155,7 +161,7 @@ impl Manipulator for Interpreter {
 
 impl Batches for Interpreter {
     fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
-        lanes::check(function, &self.description, arguments, results)?;
+        lanes::check(function, &self.routines.description, arguments, results)?;
         arguments.instruction_set().run(Batch { tape: self.tape(function), arguments, results });
         Ok(())
     }

@@ -8,7 +8,7 @@ use abbe::lanes::{Kernel, Lanes, Register, Tiles};
 use abbe_codegen::expr::Function;
 use abbe_codegen::program::Action;
 
-use crate::tape::{Instruction, Slot, Tape};
+use crate::tape::{Instruction, Part, Slot, Tape};
 
 /// How many tiles of a batch are evaluated together: enough to hide the choice of an operation, few enough for
 /// all slots to stay in the cache.
@@ -25,7 +25,7 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
     /// matter.
     #[inline(always)]
     pub(crate) fn new(tape: &Tape, rows: &'r mut [[T; N]]) -> Self {
-        for (row, constant) in rows[tape.symbol_slots()..].iter_mut().zip(&tape.constants) {
+        for (row, constant) in rows[tape.arguments..].iter_mut().zip(&tape.constants) {
             *row = [T::constant(*constant); N];
         }
         Self { rows }
@@ -46,7 +46,41 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
     /// Runs the tape over the whole row; places that nobody set hold what they held.
     #[inline(always)]
     pub(crate) fn run(&mut self, tape: &Tape) {
-        for instruction in &tape.instructions {
+        for part in &tape.parts {
+            match part {
+                Part::Move(moves) => self.moves(moves),
+                Part::Sum { constants, factors } => {
+                    for (slot, constant) in constants {
+                        self.rows[*slot] = [T::constant(*constant); N];
+                    }
+                    for (slot, term, factor) in factors {
+                        for place in 0..N {
+                            let (term, sum) = (self.rows[*term][place], self.rows[*slot][place]);
+                            self.rows[*slot][place] = term.mul_add(T::constant(*factor), sum);
+                        }
+                    }
+                }
+                Part::Program { turns, body } => {
+                    for turn in turns {
+                        self.moves(&turn.reads);
+                        self.instructions(body);
+                        self.moves(&turn.writes);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn moves(&mut self, moves: &[[Slot; 2]]) {
+        for [from, to] in moves {
+            self.rows[*to] = self.rows[*from];
+        }
+    }
+
+    #[inline(always)]
+    fn instructions(&mut self, instructions: &[Instruction]) {
+        for instruction in instructions {
             match instruction.action {
                 Action::Neg(_) => self.map(instruction, |a, _, _| -a),
                 Action::Add(..) => self.map(instruction, |a, b, _| a + b),

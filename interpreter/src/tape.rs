@@ -1,7 +1,8 @@
-//! A program ready to run: every operand a slot of one array, slots used again once their value is done with.
+//! A function ready to run: every operand a slot of one array, slots used again once their value is done with.
 
+use abbe::Function;
 use abbe_codegen::expr::Symbol;
-use abbe_codegen::program::{Action, Operand, Program};
+use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
 
 /// A place among the values of a block.
 pub(crate) type Slot = usize;
@@ -18,115 +19,318 @@ pub(crate) struct Instruction {
     pub(crate) second: Slot,
 }
 
-/// A program ready to run.
+/// A part of a tape.
+#[derive(Clone, Debug)]
+pub(crate) enum Part {
+    /// Values go to other slots.
+    Move(Vec<[Slot; 2]>),
+    /// Slots become sums: constants, and then slot, term and factor.
+    Sum { constants: Vec<(Slot, f64)>, factors: Vec<(Slot, Slot, f64)> },
+    /// For every turn, what is read comes to its slots, the instructions run, and what is written goes where it belongs;
+    /// what is no loop has one turn.
+    Program { turns: Vec<Turn>, body: Vec<Instruction> },
+}
+
+/// One turn of a loop.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Turn {
+    pub(crate) reads: Vec<[Slot; 2]>,
+    pub(crate) writes: Vec<[Slot; 2]>,
+}
+
+/// A function ready to run.
 ///
-/// Slots hold, in this order: the variables, parameters, inputs and generalized errors, the constants, and then
-/// working values.
+/// Slots hold, in this order: the arguments, the constants, and then arrays and working values.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
-    pub(crate) instructions: Vec<Instruction>,
+    pub(crate) parts: Vec<Part>,
     pub(crate) constants: Vec<f64>,
     pub(crate) outputs: Vec<Slot>,
     pub(crate) slots: usize,
-    symbols: [usize; 4],
+    /// How many slots the arguments take.
+    pub(crate) arguments: usize,
 }
 
 impl Tape {
-    /// Packs a program of a manipulator with so many variables, parameters, inputs and generalized errors.
-    pub(crate) fn new(program: &Program, symbols: [usize; 4]) -> Self {
-        let mut packer = Packer::new(program, symbols);
+    /// Packs a function: its arguments one after the other, its results one after the other, the margin last.
+    pub(crate) fn new(routines: &Routines, function: Function) -> Self {
+        let routine = routines.function(function);
+        let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
+        let arguments = given.map(|array| array.len(&routines.description)).sum();
+        let mut constants = vec![0.0, 1.0];
+        collect_constants(routines, routine, &mut constants);
+        let slots = arguments + constants.len();
+        let mut packer =
+            Packer { routines, arguments, constants, free: Vec::new(), slots, parts: Vec::new() };
+        let mut first = 0;
+        let mut places: Vec<Vec<Slot>> = Vec::new();
+        for array in routine.arrays.iter().filter(|array| array.role == Role::Argument) {
+            let next = first + array.len(&routines.description);
+            places.push((first..next).collect());
+            first = next;
+        }
+        let outputs = packer.routine(routine, places).concat();
+        let Packer { parts, constants, slots, .. } = packer;
+        Self { parts, constants, outputs, slots, arguments }
+    }
+}
+
+/// All numbers in the programs of a routine and of those that it calls.
+fn collect_constants(routines: &Routines, routine: &Routine, constants: &mut Vec<f64>) {
+    let mut add = |operand: Operand| {
+        if let Operand::Constant(value) = operand
+            && !constants.iter().any(|known| known.to_bits() == value.to_bits())
+        {
+            constants.push(value);
+        }
+    };
+    for stage in &routine.stages {
+        if let Stage::Block(Block { program, .. }) = stage {
+            program.steps.iter().flat_map(|step| step.action.operands()).for_each(&mut add);
+            program.outputs.iter().copied().for_each(&mut add);
+        }
+    }
+    for stage in &routine.stages {
+        if let Stage::Call { routine, .. } = stage {
+            collect_constants(routines, routines.named(routine), constants);
+        }
+    }
+}
+
+struct Packer<'r> {
+    routines: &'r Routines,
+    arguments: usize,
+    constants: Vec<f64>,
+    free: Vec<Slot>,
+    slots: usize,
+    parts: Vec<Part>,
+}
+
+/// The arrays of a routine while it is packed, and where they are.
+struct Arrays<'r> {
+    routine: &'r Routine,
+    places: Vec<Vec<Slot>>,
+}
+
+impl<'r> Packer<'r> {
+    /// Appends a routine whose arguments are at these slots, and says where its results are, the margin last.
+    fn routine(&mut self, routine: &'r Routine, arguments: Vec<Vec<Slot>>) -> Vec<Vec<Slot>> {
+        let mut arrays = Arrays { routine, places: arguments };
+        for array in &routine.arrays[arrays.places.len()..] {
+            let count = array.len(&self.routines.description);
+            let index = arrays.places.len();
+            // What is filled once and at once is where its values are.
+            let is_alias = array.role != Role::Identity && self.is_filled_once(routine, index);
+            let slots: Vec<Slot> = match is_alias {
+                true => Vec::new(),
+                false => (0..count).map(|_| self.new_slot()).collect(),
+            };
+            match array.role {
+                Role::Zeros if !is_alias => self.set(slots.iter().map(|slot| (*slot, 0.0)).collect()),
+                Role::Identity => {
+                    let diagonal = |i: usize| f64::from(u8::from(i < 9 && i % 4 == 0));
+                    self.set(slots.iter().enumerate().map(|(i, slot)| (*slot, diagonal(i))).collect());
+                }
+                _ => {}
+            }
+            arrays.places.push(slots);
+        }
+        for stage in &routine.stages {
+            self.stage(stage, &mut arrays);
+        }
+        let is_result = |(index, _): &(usize, &Vec<Slot>)| {
+            matches!(routine.arrays[*index].role, Role::Result | Role::Margin)
+        };
+        arrays.places.iter().enumerate().filter(is_result).map(|(_, slots)| slots.clone()).collect()
+    }
+
+    fn is_filled_once(&self, routine: &Routine, array: usize) -> bool {
+        let at_once = |stage: &Stage| match stage {
+            Stage::Block(block) => {
+                let place = |place: &&abbe_codegen::program::Place| place.array == array;
+                block.repeated.is_none()
+                    && block.writes.iter().find(place).is_some_and(|place| place.row == Row::All)
+            }
+            Stage::Call { arrays, .. } => arrays.contains(&array),
+            _ => false,
+        };
+        routine.writes(array) == 1 && routine.stages.iter().any(at_once)
+    }
+
+    /// Slots become constants.
+    fn set(&mut self, constants: Vec<(Slot, f64)>) {
+        self.parts.push(Part::Sum { constants, factors: Vec::new() });
+    }
+
+    /// Values come to an array, or it is where they are.
+    fn fill(&mut self, arrays: &mut Arrays<'_>, array: usize, from: &[Slot]) {
+        if arrays.places[array].is_empty() {
+            arrays.places[array] = from.to_vec();
+        } else {
+            let to = arrays.places[array].clone();
+            let mut from = from.to_vec();
+            if from.iter().any(|slot| to.contains(slot)) {
+                // Nothing is written before it is read.
+                let between: Vec<Slot> = from.iter().map(|_| self.new_slot()).collect();
+                self.parts.push(Part::Move(from.iter().zip(&between).map(|(a, b)| [*a, *b]).collect()));
+                from = between;
+            }
+            self.parts.push(Part::Move(from.iter().zip(&to).map(|(from, to)| [*from, *to]).collect()));
+        }
+    }
+
+    fn stage(&mut self, stage: &'r Stage, arrays: &mut Arrays<'r>) {
+        match stage {
+            Stage::Block(block) if block.repeated.is_none() => self.block(block, arrays),
+            Stage::Block(block) => self.repeated(block, arrays),
+            Stage::Call { routine, arrays: called } => {
+                let callee = self.routines.named(routine);
+                let is_given = |index: &usize| callee.arrays[*index].role == Role::Argument;
+                let (given, filled): (Vec<usize>, Vec<usize>) = (0..called.len()).partition(is_given);
+                let arguments = given.iter().map(|index| arrays.places[called[*index]].clone()).collect();
+                let results = self.routine(callee, arguments);
+                for (index, slots) in filled.iter().zip(results) {
+                    self.fill(arrays, called[*index], &slots);
+                }
+            }
+            Stage::Sums { sums, terms, entries } => {
+                let sums = &self.routines.sums[*sums];
+                let (terms, entries) = (&arrays.places[*terms], &arrays.places[*entries]);
+                let constants = entries.iter().copied().zip(sums.constants.iter().copied()).collect();
+                let factor =
+                    |(entry, term, factor): &(usize, usize, f64)| (entries[*entry], terms[*term], *factor);
+                let factors = sums.factors.iter().map(factor).collect();
+                self.parts.push(Part::Sum { constants, factors });
+            }
+            Stage::Copy { from, to } => {
+                let from = arrays.places[*from].clone();
+                self.fill(arrays, *to, &from);
+            }
+            Stage::Clear(array) => {
+                self.set(arrays.places[*array].iter().map(|slot| (*slot, 0.0)).collect());
+            }
+        }
+    }
+
+    /// The slots of a row, in turn i.
+    fn row(&self, arrays: &Arrays<'_>, array: usize, row: Row, i: usize) -> Vec<Slot> {
+        let declared = &arrays.routine.arrays[array];
+        let count = declared.place_len(row, &self.routines.description);
+        let slots = &arrays.places[array];
+        let first = match row {
+            Row::All => 0,
+            Row::Last => slots.len() - count,
+            Row::Each { stride, offset } => (stride * i + offset) * count,
+            Row::Listed { table, column } => self.routines.tables[table].rows[i][column] * count,
+        };
+        slots[first..first + count].to_vec()
+    }
+
+    fn block(&mut self, block: &Block, arrays: &mut Arrays<'_>) {
+        let locals: Vec<Slot> =
+            block.reads.iter().flat_map(|place| self.row(arrays, place.array, place.row, 0)).collect();
+        let (instructions, outputs) = self.program(&block.program, arrays, &locals);
+        self.parts.push(Part::Program { turns: vec![Turn::default()], body: instructions });
+        let mut outputs = &outputs[..];
+        for place in &block.writes {
+            let count = arrays.routine.arrays[place.array].len(&self.routines.description);
+            let (filled, rest) = outputs.split_at(count);
+            self.fill(arrays, place.array, filled);
+            outputs = rest;
+        }
+    }
+
+    fn repeated(&mut self, block: &Block, arrays: &mut Arrays<'_>) {
+        let repeated = block.repeated.expect("a loop");
+        let count = repeated.count.value(&self.routines.description);
+        let mut locals = Vec::new();
+        let mut moving = Vec::new();
+        for place in &block.reads {
+            let is_written = block.writes.iter().any(|written| written.array == place.array);
+            if matches!(place.row, Row::All | Row::Last) && !is_written {
+                locals.extend(self.row(arrays, place.array, place.row, 0));
+            } else {
+                let count =
+                    arrays.routine.arrays[place.array].place_len(place.row, &self.routines.description);
+                let slots: Vec<Slot> = (0..count).map(|_| self.new_slot()).collect();
+                locals.extend(&slots);
+                moving.push((*place, slots));
+            }
+        }
+        let (body, outputs) = self.program(&block.program, arrays, &locals);
+        let turn = |i: usize| {
+            let pairs = |from: Vec<Slot>, to: Vec<Slot>| from.into_iter().zip(to).map(|(a, b)| [a, b]);
+            let read = |(place, slots): &(abbe_codegen::program::Place, Vec<Slot>)| {
+                pairs(self.row(arrays, place.array, place.row, i), slots.clone())
+            };
+            let reads = moving.iter().flat_map(read).collect();
+            let to = block.writes.iter().flat_map(|place| self.row(arrays, place.array, place.row, i));
+            Turn { reads, writes: pairs(outputs.clone(), to.collect()).collect() }
+        };
+        let mut turns: Vec<Turn> = (0..count).map(turn).collect();
+        if repeated.backwards {
+            turns.reverse();
+        }
+        self.parts.push(Part::Program { turns, body });
+    }
+
+    /// The instructions of a program, and where its outputs are.
+    fn program(
+        &mut self,
+        program: &Program,
+        arrays: &Arrays<'_>,
+        locals: &[Slot],
+    ) -> (Vec<Instruction>, Vec<Slot>) {
+        let mut registers = Registers::new(program);
         let mut instructions = Vec::with_capacity(program.steps.len());
         for (at, step) in program.steps.iter().enumerate() {
+            let slot = |operand| self.slot(operand, &registers, arrays, locals);
             let mut operands = step.action.operands();
-            let a = operands.next().map_or(0, |operand| packer.slot(operand));
-            let b = operands.next().map_or(a, |operand| packer.slot(operand));
-            let c = operands.next().map_or(b, |operand| packer.slot(operand));
+            let a = operands.next().map_or(0, slot);
+            let b = operands.next().map_or(a, slot);
+            let c = operands.next().map_or(b, slot);
             // Operands that end here make room for the result: each lane reads before it writes.
-            packer.release(step.action, at);
-            let result = packer.define(step.register, at);
+            registers.release(step.action, at, &mut self.free);
+            let result = self.define(&mut registers, step.register, at);
             let second = match step.action {
-                Action::SinCos(_) => packer.define(step.register + 1, at),
+                Action::SinCos(_) => self.define(&mut registers, step.register + 1, at),
                 _ => result,
             };
             instructions.push(Instruction { action: step.action, a, b, c, result, second });
         }
-        let outputs = program.outputs.iter().map(|output| packer.slot(*output)).collect();
-        Self { instructions, constants: packer.constants, outputs, slots: packer.slots, symbols }
+        let outputs = program.outputs.iter();
+        let outputs = outputs.map(|output| self.slot(*output, &registers, arrays, locals)).collect();
+        (instructions, outputs)
     }
 
-    /// How many slots the symbols take.
-    pub(crate) fn symbol_slots(&self) -> usize {
-        self.symbols.iter().sum()
-    }
-}
-
-struct Packer {
-    symbols: [usize; 4],
-    constants: Vec<f64>,
-    registers: Vec<Slot>,
-    /// The last step that uses each register; outputs are used for ever.
-    last_use: Vec<usize>,
-    free: Vec<Slot>,
-    slots: usize,
-}
-
-impl Packer {
-    fn new(program: &Program, symbols: [usize; 4]) -> Self {
-        let mut last_use = vec![0; program.registers];
-        let mut constants: Vec<f64> = Vec::new();
-        for (at, step) in program.steps.iter().enumerate() {
-            for operand in step.action.operands() {
-                match operand {
-                    Operand::Register(register) => last_use[register] = at,
-                    Operand::Constant(value) => add_constant(&mut constants, value),
-                    Operand::Symbol(_) => {}
-                }
-            }
-        }
-        for output in &program.outputs {
-            match *output {
-                Operand::Register(register) => last_use[register] = usize::MAX,
-                Operand::Constant(value) => add_constant(&mut constants, value),
-                Operand::Symbol(_) => {}
-            }
-        }
-        let slots = symbols.iter().sum::<usize>() + constants.len();
-        Self { symbols, constants, registers: vec![0; program.registers], last_use, free: Vec::new(), slots }
-    }
-
-    fn slot(&self, operand: Operand) -> Slot {
-        let [variables, parameters, inputs, errors] = self.symbols;
+    fn slot(&self, operand: Operand, registers: &Registers, arrays: &Arrays<'_>, locals: &[Slot]) -> Slot {
+        let argument = |names: &[&str], i: usize| {
+            let found = arrays.routine.arrays.iter().position(|array| names.contains(&array.name));
+            arrays.places[found.expect("the signature has what the program reads")][i]
+        };
         match operand {
-            Operand::Register(register) => self.registers[register],
-            Operand::Symbol(Symbol::Variable(i)) => i,
-            Operand::Symbol(Symbol::Parameter(i)) => variables + i,
-            Operand::Symbol(Symbol::Input(i)) => variables + parameters + i,
-            Operand::Symbol(Symbol::Error(i)) => variables + parameters + inputs + i,
+            Operand::Register(register) => registers.slots[register],
+            Operand::Symbol(Symbol::Variable(i)) => argument(&["q"], i),
+            Operand::Symbol(Symbol::Parameter(i)) => argument(&["s"], i),
+            Operand::Symbol(Symbol::Input(i)) => argument(&["u"], i),
+            Operand::Symbol(Symbol::Error(i)) => argument(&["errors", "variances"], i),
+            Operand::Symbol(Symbol::Local(i)) => locals[i],
             Operand::Constant(value) => {
                 let place = self.constants.iter().position(|known| known.to_bits() == value.to_bits());
-                variables + parameters + inputs + errors + place.expect("constants were collected")
+                self.arguments + place.expect("constants were collected")
             }
         }
     }
 
-    fn release(&mut self, action: Action, at: usize) {
-        let ends = |operand: Operand| match operand {
-            Operand::Register(register) => (self.last_use[register] == at).then_some(register),
-            _ => None,
-        };
-        let mut released: Vec<usize> = action.operands().filter_map(ends).collect();
-        released.sort_unstable();
-        released.dedup();
-        self.free.extend(released.into_iter().map(|register| self.registers[register]));
+    fn new_slot(&mut self) -> Slot {
+        self.slots += 1;
+        self.slots - 1
     }
 
-    fn define(&mut self, register: usize, at: usize) -> Slot {
-        let slot = self.free.pop().unwrap_or_else(|| {
-            self.slots += 1;
-            self.slots - 1
-        });
-        self.registers[register] = slot;
-        if self.last_use[register] <= at {
+    fn define(&mut self, registers: &mut Registers, register: usize, at: usize) -> Slot {
+        let slot = self.free.pop().unwrap_or_else(|| self.new_slot());
+        registers.slots[register] = slot;
+        if registers.last_use[register] <= at {
             // Half of a sine and cosine pair that nobody reads.
             self.free.push(slot);
         }
@@ -134,8 +338,39 @@ impl Packer {
     }
 }
 
-fn add_constant(constants: &mut Vec<f64>, value: f64) {
-    if !constants.iter().any(|known| known.to_bits() == value.to_bits()) {
-        constants.push(value);
+/// Where the registers of a program are, and how long.
+struct Registers {
+    slots: Vec<Slot>,
+    /// The last step that uses each register; outputs are used for ever.
+    last_use: Vec<usize>,
+}
+
+impl Registers {
+    fn new(program: &Program) -> Self {
+        let mut last_use = vec![0; program.registers];
+        for (at, step) in program.steps.iter().enumerate() {
+            for operand in step.action.operands() {
+                if let Operand::Register(register) = operand {
+                    last_use[register] = at;
+                }
+            }
+        }
+        for output in &program.outputs {
+            if let Operand::Register(register) = *output {
+                last_use[register] = usize::MAX;
+            }
+        }
+        Self { slots: vec![0; program.registers], last_use }
+    }
+
+    fn release(&self, action: Action, at: usize, free: &mut Vec<Slot>) {
+        let ends = |operand: Operand| match operand {
+            Operand::Register(register) => (self.last_use[register] == at).then_some(register),
+            _ => None,
+        };
+        let mut released: Vec<usize> = action.operands().filter_map(ends).collect();
+        released.sort_unstable();
+        released.dedup();
+        free.extend(released.into_iter().map(|register| self.slots[register]));
     }
 }

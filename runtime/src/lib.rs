@@ -36,7 +36,6 @@ mod description;
 pub mod distinct;
 mod error;
 pub mod function;
-pub mod long;
 mod manipulator;
 #[cfg(feature = "nalgebra")]
 mod nalgebra_views;

@@ -83,7 +83,7 @@ impl Changes {
             match symbol {
                 Symbol::Parameter(i) => spec.parameters[i].value = value,
                 Symbol::Input(i) => spec.inputs[i].value = value,
-                Symbol::Variable(_) | Symbol::Error(_) => {}
+                Symbol::Variable(_) | Symbol::Error(_) | Symbol::Local(_) => {}
             }
         }
         for &(source, on) in &self.switches {

@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 use abbe::lanes::{Batches, InstructionSet, Tiles};
 use abbe::{Function, Manipulator};
-use abbe_codegen::emit;
+use abbe_codegen::print;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
@@ -82,7 +82,7 @@ fn interpreter(name: &str, function: Function) -> Work {
 /// The file of a spec.
 fn generation(name: &str) -> Work {
     let spec = spec(name);
-    Box::new(move || drop(black_box(emit::rust(black_box(&spec)))))
+    Box::new(move || drop(black_box(print::rust(black_box(&spec)))))
 }
 
 macro_rules! counted {

@@ -476,37 +476,47 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            // Frame 1: lateral
             columns[0] = [one, zero, zero, zero, zero, zero];
             columns[1] = [zero, one, zero, zero, zero, zero];
             columns[2] = [zero, zero, one, zero, zero, zero];
+            // Frame 2: vertical
             columns[6] = [one, zero, zero, zero, zero, zero];
             columns[7] = [zero, one, zero, zero, zero, zero];
             columns[8] = [zero, zero, one, zero, zero, zero];
+            // Frame 3: longitudinal
             columns[12] = [one, zero, zero, zero, zero, zero];
             columns[13] = [zero, one, zero, zero, zero, zero];
             columns[14] = [zero, zero, one, zero, zero, zero];
+            // Frame 4: spin
             columns[19] = [zero, one, zero, zero, zero, zero];
             let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
             columns[20] = [s4, zero, c4, zero, zero, zero];
+            // Frame 5: roll
             columns[26] = [s4, zero, c4, zero, zero, zero];
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
             let r4_31 = -s4;
+            // Frame 4: spin
             columns[18] = [c4, zero, r4_31, zero, zero, zero];
             let p5_y = p2_y + roll_offset;
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
+            // Frame 5: roll
             columns[24] = [r5_11, s5, r5_31, zero, zero, zero];
+            // Frame 6: pitch
             columns[30] = [r5_11, s5, r5_31, zero, zero, zero];
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let r5_12 = -t2;
+            // Frame 5: roll
             columns[25] = [r5_12, c5, r5_32, zero, zero, zero];
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
             let r6_12 = s4.mul_sub(s6, t2 * c6);
             let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            // Frame 6: pitch
             columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
             let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
@@ -534,22 +544,28 @@ pub mod pps {
             let lever1_x = pt_x - d1;
             let t10 = -pt_z;
             let t11 = -lever1_x;
+            // Frame 1: lateral
             columns[3] = [pt_z, zero, t11, one, zero, zero];
+            // Frame 2: vertical
             columns[9] = [pt_z, zero, t11, one, zero, zero];
             let t12 = -pt_y;
             let t13 = s5 * t8;
+            // Frame 1: lateral
             columns[4] = [t12, lever1_x, zero, t13, t5, t9];
             let t14 = -(s5 * t7);
             columns[5] = [zero, t10, pt_y, t14, t6, t7];
             let lever4_y = pt_y - p2_y;
+            // Frame 2: vertical
             columns[11] = [zero, t10, lever4_y, t14, t6, t7];
             let t15 = -lever4_y;
             columns[10] = [t15, lever1_x, zero, t13, t5, t9];
+            // Frame 3: longitudinal
             columns[16] = [t15, lever1_x, zero, t13, t5, t9];
             let t16 = p3_z - pt_z;
             columns[17] = [zero, t16, lever4_y, t14, t6, t7];
             let lever4_z = -t16;
             columns[15] = [lever4_z, zero, t11, one, zero, zero];
+            // Frame 4: spin
             columns[21] = [lever4_z, zero, t11, one, zero, zero];
             let t17 = s4 * lever4_y;
             let t18 = c4.mul_sub(t16, s4 * lever1_x);
@@ -568,6 +584,7 @@ pub mod pps {
             let t28 = t1.mul_sub(lever5_y, s5 * t16);
             let t29 = r5_11.mul_sub(t16, t1 * lever1_x);
             let t30 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            // Frame 5: roll
             columns[29] = [t28, t29, t30, zero, zero, one];
             let t31 = -c5.mul_add(t16, r5_32 * lever5_y);
             let t32 = r5_32.mul_sub(lever1_x, t2 * t16);
@@ -583,6 +600,7 @@ pub mod pps {
             let t40 = r6_13.neg_mul_add(couch_offset, t28);
             let t41 = t3.mul_add(couch_offset, t29);
             let t42 = r6_33.neg_mul_add(couch_offset, t30);
+            // Frame 6: pitch
             columns[35] = [t40, t41, t42, zero, zero, one];
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;
@@ -883,6 +901,7 @@ pub mod pps {
             let t3 = T::constant(0.060706) * sin_2;
             let t4 = c4 * tip_lever;
             let t5 = -assembly_shift;
+            // Frame 6: pitch
             errors[5] = [
                 assembly_shift,
                 t5,
@@ -892,12 +911,16 @@ pub mod pps {
                 assembly_turn,
             ];
             let t6 = -assembly_turn;
+            // Frame 2: vertical
             errors[1] = [t5, assembly_shift, t5, t6, t6, t6];
+            // Frame 4: spin
             errors[3] = [t5, assembly_shift, t5, t6, t6, assembly_turn];
+            // Frame 5: roll
             errors[4] = [t5, t5, assembly_shift, t6, assembly_turn, assembly_turn];
             let t7 = -(d1.mul_add(T::constant(6.2e-5), t3) + assembly_shift);
             let t8 = cos_2.mul_add(T::constant(0.000119), T::constant(6.2e-5));
             let t9 = t8 - assembly_turn;
+            // Frame 1: lateral
             errors[0] = [assembly_shift, assembly_shift, t7, t9, t6, assembly_turn];
             let t10 = p3_z / T::constant(3.0) + t4 / T::constant(2.0);
             let t11 = tip_load * (p3_z * p3_z) / arm_EI;
@@ -906,12 +929,13 @@ pub mod pps {
             let t14 = -(t13 + assembly_turn);
             let t15 = t4 + p3_z / T::constant(2.0);
             let t16 = (p3_z * tip_load / arm_EI).mul_add(t15, assembly_turn);
+            // Frame 3: longitudinal
             errors[2] = [t5, t12, assembly_shift, t6, t14, t16];
         }
 
         /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, then their rows 4–6. `abbe::distinct`
-        /// makes the columns of it.
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
         ///
         /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
         ///
@@ -941,43 +965,56 @@ pub mod pps {
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            // Frame 1: lateral
             distinct[0][0] = [one, zero, zero];
             distinct[0][1] = [zero, one, zero];
             distinct[0][2] = [zero, zero, one];
             distinct[0][6] = [one, zero, zero];
+            // Frame 2: vertical
             distinct[1][0] = [one, zero, zero];
             distinct[1][1] = [zero, one, zero];
             distinct[1][2] = [zero, zero, one];
             distinct[1][6] = [one, zero, zero];
+            // Frame 3: longitudinal
             distinct[2][0] = [one, zero, zero];
             distinct[2][1] = [zero, one, zero];
             distinct[2][2] = [zero, zero, one];
             distinct[2][6] = [one, zero, zero];
+            // Frame 4: spin
             distinct[3][1] = [zero, one, zero];
             distinct[3][6] = [one, zero, zero];
+            // Frame 5: roll
             distinct[4][8] = [zero, zero, one];
+            // Frame 6: pitch
             distinct[5][8] = [zero, zero, one];
             let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
+            // Frame 4: spin
             distinct[3][2] = [s4, zero, c4];
+            // Frame 5: roll
             distinct[4][2] = [s4, zero, c4];
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
             let r4_31 = -s4;
+            // Frame 4: spin
             distinct[3][0] = [c4, zero, r4_31];
             let p5_y = p2_y + roll_offset;
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
+            // Frame 5: roll
             distinct[4][0] = [r5_11, s5, r5_31];
+            // Frame 6: pitch
             distinct[5][0] = [r5_11, s5, r5_31];
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let r5_12 = -t2;
+            // Frame 5: roll
             distinct[4][1] = [r5_12, c5, r5_32];
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
             let r6_12 = s4.mul_sub(s6, t2 * c6);
             let r6_32 = r5_32.mul_add(c6, c4 * s6);
+            // Frame 6: pitch
             distinct[5][1] = [r6_12, r6_22, r6_32];
             let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
@@ -1004,29 +1041,40 @@ pub mod pps {
             let t9 = -t8;
             let lever1_x = pt_x - d1;
             let t10 = -pt_z;
+            // Frame 1: lateral
             distinct[0][5] = [zero, t10, pt_y];
             let t11 = -lever1_x;
             distinct[0][3] = [pt_z, zero, t11];
+            // Frame 2: vertical
             distinct[1][3] = [pt_z, zero, t11];
             let t12 = -pt_y;
+            // Frame 1: lateral
             distinct[0][4] = [t12, lever1_x, zero];
             let t13 = s5 * t8;
             distinct[0][7] = [t13, t5, t9];
+            // Frame 2: vertical
             distinct[1][7] = [t13, t5, t9];
+            // Frame 3: longitudinal
             distinct[2][7] = [t13, t5, t9];
             let t14 = -(s5 * t7);
+            // Frame 1: lateral
             distinct[0][8] = [t14, t6, t7];
+            // Frame 2: vertical
             distinct[1][8] = [t14, t6, t7];
+            // Frame 3: longitudinal
             distinct[2][8] = [t14, t6, t7];
             let lever4_y = pt_y - p2_y;
+            // Frame 2: vertical
             distinct[1][5] = [zero, t10, lever4_y];
             let t15 = -lever4_y;
             distinct[1][4] = [t15, lever1_x, zero];
+            // Frame 3: longitudinal
             distinct[2][4] = [t15, lever1_x, zero];
             let t16 = p3_z - pt_z;
             distinct[2][5] = [zero, t16, lever4_y];
             let lever4_z = -t16;
             distinct[2][3] = [lever4_z, zero, t11];
+            // Frame 4: spin
             distinct[3][3] = [lever4_z, zero, t11];
             let t17 = s4 * lever4_y;
             let t18 = c4.mul_sub(t16, s4 * lever1_x);
@@ -1039,15 +1087,18 @@ pub mod pps {
             let t23 = c4.mul_add(t5, s4 * t6);
             let t24 = -(s5 * t22);
             distinct[3][7] = [t24, t23, t22];
+            // Frame 5: roll
             distinct[4][7] = [t24, t23, t22];
             let t25 = c4.mul_add(t7, s4 * t8);
             let t26 = c4.mul_sub(t6, s4 * t5);
             let t27 = -(s5 * t25);
+            // Frame 4: spin
             distinct[3][8] = [t27, t26, t25];
             let lever5_y = pt_y - p5_y;
             let t28 = t1.mul_sub(lever5_y, s5 * t16);
             let t29 = r5_11.mul_sub(t16, t1 * lever1_x);
             let t30 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            // Frame 5: roll
             distinct[4][5] = [t28, t29, t30];
             let t31 = -c5.mul_add(t16, r5_32 * lever5_y);
             let t32 = r5_32.mul_sub(lever1_x, t2 * t16);
@@ -1064,6 +1115,7 @@ pub mod pps {
             let t40 = r6_13.neg_mul_add(couch_offset, t28);
             let t41 = t3.mul_add(couch_offset, t29);
             let t42 = r6_33.neg_mul_add(couch_offset, t30);
+            // Frame 6: pitch
             distinct[5][5] = [t40, t41, t42];
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;

@@ -230,6 +230,8 @@ pub mod puma560 {
                 [zero, zero, one],
                 [zero, zero, zero],
             ];
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
             let r1_23 = -c1;
@@ -240,8 +242,8 @@ pub mod puma560 {
                 [zero, zero, zero],
             ];
             let t1 = -s2;
-            let t2 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
+            let t2 = c2 * a2;
+            let p2_z = s2 * a2;
             transforms[1] = [
                 [c2, s2, zero],
                 [t1, c2, zero],
@@ -249,8 +251,8 @@ pub mod puma560 {
                 [t2, p2_z, zero],
             ];
             let t3 = -s3;
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
+            let t4 = c3 * a3;
+            let t5 = s3 * a3;
             transforms[2] = [
                 [c3, s3, zero],
                 [zero, zero, T::constant(-1.0)],
@@ -262,7 +264,7 @@ pub mod puma560 {
                 [c4, s4, zero],
                 [zero, zero, one],
                 [s4, t6, zero],
-                [zero, zero, T::constant(0.4318)],
+                [zero, zero, a2],
             ];
             let t7 = -s5;
             transforms[4] = [
@@ -286,28 +288,29 @@ pub mod puma560 {
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], _s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [q1, q2, q3, q4, q5, q6] = *q;
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
+            let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
-            let t1 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
+            let t1 = c2 * a2;
+            let p2_z = s2 * a2;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
             let r2_21 = s1 * c2;
             let t2 = c1 * s2;
             let t3 = s1 * s2;
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let t6 = r2_21.mul_sub(t4, t3 * t5);
+            let t4 = c3 * a3;
+            let t5 = s3 * a3;
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
             let r3_21 = r2_21.mul_sub(c3, t3 * s3);
             let r3_31 = s2.mul_add(c3, c2 * s3);
-            let t7 = r2_11.mul_add(s3, t2 * c3);
-            let t8 = r2_21.mul_add(s3, t3 * c3);
+            let t6 = r2_11.mul_add(s3, t2 * c3);
+            let t7 = r2_21.mul_add(s3, t3 * c3);
             let r3_33 = c2.mul_sub(c3, s2 * s3);
-            let t9 = s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
-            let p3_x = p2_x + t9;
-            let p3_y = p2_y + c1.neg_mul_add(T::constant(0.15005), t6);
+            let p3_x = p2_x + s1.mul_add(z3, r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y + c1.neg_mul_add(z3, r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
@@ -315,14 +318,14 @@ pub mod puma560 {
             let r4_33 = r3_31 * s4;
             let r4_13 = r3_11.mul_add(s4, s1 * c4);
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
-            let p4_x = t7.neg_mul_add(T::constant(0.4318), p3_x);
-            let p4_y = t8.neg_mul_add(T::constant(0.4318), p3_y);
-            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t7 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t8 * s5);
+            let p4_x = t6.neg_mul_add(a2, p3_x);
+            let p4_y = t7.neg_mul_add(a2, p3_y);
+            let p4_z = r3_33.mul_add(a2, p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
-            let r5_13 = -r4_11.mul_add(s5, t7 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t8 * c5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
             let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
@@ -351,15 +354,20 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            // Frame 1: waist
             columns[1] = [zero, zero, one, zero, zero, zero];
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
+            let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
             columns[0] = [c1, s1, zero, zero, zero, zero];
             let r1_23 = -c1;
             columns[2] = [s1, r1_23, zero, zero, zero, zero];
+            // Frame 2: shoulder
             columns[8] = [s1, r1_23, zero, zero, zero, zero];
-            let t1 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
+            let t1 = c2 * a2;
+            let p2_z = s2 * a2;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
@@ -370,27 +378,27 @@ pub mod puma560 {
             let t3 = s1 * s2;
             let r2_22 = -t3;
             columns[7] = [r2_12, r2_22, c2, zero, zero, zero];
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let t6 = r2_21.mul_sub(t4, t3 * t5);
+            let t4 = c3 * a3;
+            let t5 = s3 * a3;
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
             let r3_21 = r2_21.mul_sub(c3, t3 * s3);
             let r3_31 = s2.mul_add(c3, c2 * s3);
+            // Frame 3: elbow
             columns[12] = [r3_11, r3_21, r3_31, zero, zero, zero];
             let r3_12 = -s1;
             columns[13] = [r3_12, c1, zero, zero, zero, zero];
-            let t7 = r2_11.mul_add(s3, t2 * c3);
-            let r3_13 = -t7;
-            let t8 = r2_21.mul_add(s3, t3 * c3);
-            let r3_23 = -t8;
+            let t6 = r2_11.mul_add(s3, t2 * c3);
+            let r3_13 = -t6;
+            let t7 = r2_21.mul_add(s3, t3 * c3);
+            let r3_23 = -t7;
             let r3_33 = c2.mul_sub(c3, s2 * s3);
             columns[14] = [r3_13, r3_23, r3_33, zero, zero, zero];
             columns[16] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            // Frame 4: wrist roll
             columns[19] = [r3_13, r3_23, r3_33, zero, zero, zero];
             columns[21] = [zero, zero, zero, r3_13, r3_23, r3_33];
-            let t9 = s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
-            let p3_x = p2_x + t9;
-            let p3_y = p2_y + c1.neg_mul_add(T::constant(0.15005), t6);
+            let p3_x = p2_x + s1.mul_add(z3, r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y + c1.neg_mul_add(z3, r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
@@ -402,12 +410,13 @@ pub mod puma560 {
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
             columns[20] = [r4_13, r4_23, r4_33, zero, zero, zero];
             columns[22] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            let p4_x = t7.neg_mul_add(T::constant(0.4318), p3_x);
-            let p4_y = t8.neg_mul_add(T::constant(0.4318), p3_y);
-            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t7 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t8 * s5);
+            let p4_x = t6.neg_mul_add(a2, p3_x);
+            let p4_y = t7.neg_mul_add(a2, p3_y);
+            let p4_z = r3_33.mul_add(a2, p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            // Frame 5: wrist bend
             columns[24] = [r5_11, r5_21, r5_31, zero, zero, zero];
             columns[29] = [zero, zero, zero, r5_11, r5_21, r5_31];
             let r5_12 = -r4_13;
@@ -415,11 +424,12 @@ pub mod puma560 {
             let r5_32 = -r4_33;
             columns[25] = [r5_12, r5_22, r5_32, zero, zero, zero];
             columns[27] = [zero, zero, zero, r5_12, r5_22, r5_32];
-            let r5_13 = -r4_11.mul_add(s5, t7 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t8 * c5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
             columns[26] = [r5_13, r5_23, r5_33, zero, zero, zero];
             columns[28] = [zero, zero, zero, r5_13, r5_23, r5_33];
+            // Frame 6: flange
             columns[32] = [r5_13, r5_23, r5_33, zero, zero, zero];
             columns[34] = [zero, zero, zero, r5_13, r5_23, r5_33];
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
@@ -438,37 +448,40 @@ pub mod puma560 {
             ];
             columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
             columns[33] = [zero, zero, zero, r6_12, r6_22, r6_32];
-            let t10 = s1 * p4_z;
-            let t11 = -(c1 * p4_z);
-            let t12 = c1.mul_sub(p4_y, s1 * p4_x);
-            columns[5] = [t10, t11, t12, c1, s1, zero];
-            let t13 = -p4_y;
-            columns[3] = [t13, p4_x, zero, zero, zero, one];
-            let t14 = -t10;
-            let t15 = s1.mul_add(p4_y, c1 * p4_x);
-            columns[4] = [t11, t14, t15, s1, r1_23, zero];
+            let t8 = s1 * p4_z;
+            let t9 = -(c1 * p4_z);
+            let t10 = c1.mul_sub(p4_y, s1 * p4_x);
+            // Frame 1: waist
+            columns[5] = [t8, t9, t10, c1, s1, zero];
+            let t11 = -p4_y;
+            columns[3] = [t11, p4_x, zero, zero, zero, one];
+            let t12 = -t8;
+            let t13 = s1.mul_add(p4_y, c1 * p4_x);
+            columns[4] = [t9, t12, t13, s1, r1_23, zero];
             let lever2_x = p4_x - p2_x;
             let lever2_y = p4_y - p2_y;
             let lever2_z = p4_z - p2_z;
-            let t16 = r2_21.mul_sub(lever2_z, s2 * lever2_y);
-            let t17 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
-            let t18 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
-            columns[11] = [t16, t17, t18, r2_11, r2_21, s2];
-            let t19 = -t3.mul_add(lever2_z, c2 * lever2_y);
-            let t20 = c2.mul_add(lever2_x, t2 * lever2_z);
-            let t21 = t3.mul_sub(lever2_x, t2 * lever2_y);
-            columns[9] = [t19, t20, t21, r2_12, r2_22, c2];
-            let t22 = -(c1 * lever2_z);
-            let t23 = -(s1 * lever2_z);
-            let t24 = s1.mul_add(lever2_y, c1 * lever2_x);
-            columns[10] = [t22, t23, t24, s1, r1_23, zero];
-            let t25 = s1 * T::constant(0.4318);
-            let t26 = -(c1 * T::constant(0.4318));
-            columns[17] = [t25, t26, zero, r3_11, r3_21, r3_31];
-            let t27 = T::constant(0.4318) * r3_11;
-            let t28 = T::constant(0.4318) * r3_21;
-            let t29 = T::constant(0.4318) * r3_31;
-            columns[15] = [t27, t28, t29, r3_12, c1, zero];
+            let t14 = r2_21.mul_sub(lever2_z, s2 * lever2_y);
+            let t15 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
+            let t16 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
+            // Frame 2: shoulder
+            columns[11] = [t14, t15, t16, r2_11, r2_21, s2];
+            let t17 = -t3.mul_add(lever2_z, c2 * lever2_y);
+            let t18 = c2.mul_add(lever2_x, t2 * lever2_z);
+            let t19 = t3.mul_sub(lever2_x, t2 * lever2_y);
+            columns[9] = [t17, t18, t19, r2_12, r2_22, c2];
+            let t20 = -(c1 * lever2_z);
+            let t21 = -(s1 * lever2_z);
+            let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
+            columns[10] = [t20, t21, t22, s1, r1_23, zero];
+            let t23 = s1 * a2;
+            let t24 = -(c1 * a2);
+            // Frame 3: elbow
+            columns[17] = [t23, t24, zero, r3_11, r3_21, r3_31];
+            let t25 = a2 * r3_11;
+            let t26 = a2 * r3_21;
+            let t27 = a2 * r3_31;
+            columns[15] = [t25, t26, t27, r3_12, c1, zero];
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
@@ -484,32 +497,33 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
+            let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
             let r1_23 = -c1;
-            let t1 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
+            let t1 = c2 * a2;
+            let p2_z = s2 * a2;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
             let r2_21 = s1 * c2;
             let t2 = c1 * s2;
             let t3 = s1 * s2;
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let t6 = r2_21.mul_sub(t4, t3 * t5);
+            let t4 = c3 * a3;
+            let t5 = s3 * a3;
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
             let r3_21 = r2_21.mul_sub(c3, t3 * s3);
             let r3_31 = s2.mul_add(c3, c2 * s3);
-            let t7 = r2_11.mul_add(s3, t2 * c3);
-            let r3_13 = -t7;
-            let t8 = r2_21.mul_add(s3, t3 * c3);
-            let r3_23 = -t8;
+            let t6 = r2_11.mul_add(s3, t2 * c3);
+            let r3_13 = -t6;
+            let t7 = r2_21.mul_add(s3, t3 * c3);
+            let r3_23 = -t7;
             let r3_33 = c2.mul_sub(c3, s2 * s3);
             columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
-            let t9 = s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
-            let p3_x = p2_x + t9;
-            let p3_y = p2_y + c1.neg_mul_add(T::constant(0.15005), t6);
+            let p3_x = p2_x + s1.mul_add(z3, r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y + c1.neg_mul_add(z3, r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
@@ -518,14 +532,14 @@ pub mod puma560 {
             let r4_13 = r3_11.mul_add(s4, s1 * c4);
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
             columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            let p4_x = t7.neg_mul_add(T::constant(0.4318), p3_x);
-            let p4_y = t8.neg_mul_add(T::constant(0.4318), p3_y);
-            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t7 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t8 * s5);
+            let p4_x = t6.neg_mul_add(a2, p3_x);
+            let p4_y = t7.neg_mul_add(a2, p3_y);
+            let p4_z = r3_33.mul_add(a2, p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
-            let r5_13 = -r4_11.mul_add(s5, t7 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t8 * c5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
             columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
@@ -540,21 +554,21 @@ pub mod puma560 {
                 [r5_13, r5_23, r5_33],
                 [p4_x, p4_y, p4_z],
             ];
-            let t10 = -p4_y;
-            columns[0] = [t10, p4_x, zero, zero, zero, one];
+            let t8 = -p4_y;
+            columns[0] = [t8, p4_x, zero, zero, zero, one];
             let lever2_x = p4_x - p2_x;
             let lever2_y = p4_y - p2_y;
             let lever2_z = p4_z - p2_z;
-            let t11 = -c1.mul_add(lever2_z, c1 * p2_z);
-            let t12 = -s1.mul_add(lever2_z, s1 * p2_z);
-            let t13 = t1 + s1.mul_add(lever2_y, c1 * lever2_x);
-            columns[1] = [t11, t12, t13, s1, r1_23, zero];
-            let t14 = p4_z - p3_z;
-            let t15 = -c1.mul_add(t14, r2_11.mul_add(t5, t2 * t4));
-            let t16 = -s1.mul_add(t14, r2_21.mul_add(t5, t3 * t4));
-            let t17 = s1.mul_add(p4_y - p3_y, c1 * (p4_x - p3_x));
-            let t18 = c2.mul_sub(t4, s2 * t5) + t17;
-            columns[2] = [t15, t16, t18, s1, r1_23, zero];
+            let t9 = -c1.mul_add(lever2_z, c1 * p2_z);
+            let t10 = -s1.mul_add(lever2_z, s1 * p2_z);
+            let t11 = t1 + s1.mul_add(lever2_y, c1 * lever2_x);
+            columns[1] = [t9, t10, t11, s1, r1_23, zero];
+            let t12 = p4_z - p3_z;
+            let t13 = -c1.mul_add(t12, r2_11.mul_add(t5, t2 * t4));
+            let t14 = -s1.mul_add(t12, r2_21.mul_add(t5, t3 * t4));
+            let t15 = s1.mul_add(p4_y - p3_y, c1 * (p4_x - p3_x));
+            let t16 = c2.mul_sub(t4, s2 * t5) + t15;
+            columns[2] = [t13, t14, t16, s1, r1_23, zero];
         }
 
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
@@ -563,61 +577,11 @@ pub mod puma560 {
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
             _columns: &mut [[T; 6]; PARAMETERS],
         ) {
-            let [q1, q2, q3, q4, q5, q6] = *q;
-            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
-                T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
-            let t1 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
-            let p2_x = c1 * t1;
-            let p2_y = s1 * t1;
-            let r2_11 = c1 * c2;
-            let r2_21 = s1 * c2;
-            let t2 = c1 * s2;
-            let t3 = s1 * s2;
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let t6 = r2_21.mul_sub(t4, t3 * t5);
-            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
-            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
-            let r3_31 = s2.mul_add(c3, c2 * s3);
-            let t7 = r2_11.mul_add(s3, t2 * c3);
-            let t8 = r2_21.mul_add(s3, t3 * c3);
-            let r3_33 = c2.mul_sub(c3, s2 * s3);
-            let t9 = s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
-            let p3_x = p2_x + t9;
-            let p3_y = p2_y + c1.neg_mul_add(T::constant(0.15005), t6);
-            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
-            let r4_21 = r3_21.mul_add(c4, c1 * s4);
-            let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11.mul_add(s4, s1 * c4);
-            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
-            let p4_x = t7.neg_mul_add(T::constant(0.4318), p3_x);
-            let p4_y = t8.neg_mul_add(T::constant(0.4318), p3_y);
-            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t7 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t8 * s5);
-            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
-            let r5_13 = -r4_11.mul_add(s5, t7 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t8 * c5);
-            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
-            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
-            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
-            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
-            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
-            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
-            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
-            *pose = [
-                [r6_11, r6_21, r6_31],
-                [r6_12, r6_22, r6_32],
-                [r5_13, r5_23, r5_33],
-                [p4_x, p4_y, p4_z],
-            ];
+            self::pose(q, s, pose);
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
@@ -653,16 +617,23 @@ pub mod puma560 {
             errors: &mut [[T; 6]; FRAMES],
         ) {
             let zero = T::constant(0.0);
+            // Frame 1: waist
             errors[0] = [zero; 6];
+            // Frame 2: shoulder
             errors[1] = [zero; 6];
+            // Frame 3: elbow
             errors[2] = [zero; 6];
+            // Frame 4: wrist roll
             errors[3] = [zero; 6];
+            // Frame 5: wrist bend
             errors[4] = [zero; 6];
+            // Frame 6: flange
             errors[5] = [zero; 6];
         }
 
         /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
         ///
         /// 94 mul, 45 add, 6 sincos, 21 neg.
         #[inline(always)]
@@ -675,25 +646,35 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            // Frame 1: waist
             distinct[0][1] = [zero, zero, one];
+            // Frame 3: elbow
             distinct[2][4] = [zero; 3];
+            // Frame 4: wrist roll
             distinct[3][3] = [zero; 3];
             distinct[3][4] = [zero; 3];
             distinct[3][5] = [zero; 3];
+            // Frame 5: wrist bend
             distinct[4][3] = [zero; 3];
             distinct[4][4] = [zero; 3];
             distinct[4][5] = [zero; 3];
+            // Frame 6: flange
             distinct[5][3] = [zero; 3];
             distinct[5][4] = [zero; 3];
             distinct[5][5] = [zero; 3];
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
+            let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
+            // Frame 1: waist
             distinct[0][0] = [c1, s1, zero];
             let r1_23 = -c1;
             distinct[0][2] = [s1, r1_23, zero];
+            // Frame 2: shoulder
             distinct[1][2] = [s1, r1_23, zero];
-            let t1 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
+            let t1 = c2 * a2;
+            let p2_z = s2 * a2;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
@@ -704,25 +685,25 @@ pub mod puma560 {
             let t3 = s1 * s2;
             let r2_22 = -t3;
             distinct[1][1] = [r2_12, r2_22, c2];
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let t6 = r2_21.mul_sub(t4, t3 * t5);
+            let t4 = c3 * a3;
+            let t5 = s3 * a3;
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
             let r3_21 = r2_21.mul_sub(c3, t3 * s3);
             let r3_31 = s2.mul_add(c3, c2 * s3);
+            // Frame 3: elbow
             distinct[2][0] = [r3_11, r3_21, r3_31];
             let r3_12 = -s1;
             distinct[2][1] = [r3_12, c1, zero];
-            let t7 = r2_11.mul_add(s3, t2 * c3);
-            let r3_13 = -t7;
-            let t8 = r2_21.mul_add(s3, t3 * c3);
-            let r3_23 = -t8;
+            let t6 = r2_11.mul_add(s3, t2 * c3);
+            let r3_13 = -t6;
+            let t7 = r2_21.mul_add(s3, t3 * c3);
+            let r3_23 = -t7;
             let r3_33 = c2.mul_sub(c3, s2 * s3);
             distinct[2][2] = [r3_13, r3_23, r3_33];
+            // Frame 4: wrist roll
             distinct[3][1] = [r3_13, r3_23, r3_33];
-            let t9 = s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
-            let p3_x = p2_x + t9;
-            let p3_y = p2_y + c1.neg_mul_add(T::constant(0.15005), t6);
+            let p3_x = p2_x + s1.mul_add(z3, r2_11.mul_sub(t4, t2 * t5));
+            let p3_y = p2_y + c1.neg_mul_add(z3, r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
@@ -732,21 +713,23 @@ pub mod puma560 {
             let r4_13 = r3_11.mul_add(s4, s1 * c4);
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
             distinct[3][2] = [r4_13, r4_23, r4_33];
-            let p4_x = t7.neg_mul_add(T::constant(0.4318), p3_x);
-            let p4_y = t8.neg_mul_add(T::constant(0.4318), p3_y);
-            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t7 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t8 * s5);
+            let p4_x = t6.neg_mul_add(a2, p3_x);
+            let p4_y = t7.neg_mul_add(a2, p3_y);
+            let p4_z = r3_33.mul_add(a2, p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            // Frame 5: wrist bend
             distinct[4][0] = [r5_11, r5_21, r5_31];
             let r5_12 = -r4_13;
             let r5_22 = -r4_23;
             let r5_32 = -r4_33;
             distinct[4][1] = [r5_12, r5_22, r5_32];
-            let r5_13 = -r4_11.mul_add(s5, t7 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t8 * c5);
+            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
             distinct[4][2] = [r5_13, r5_23, r5_33];
+            // Frame 6: flange
             distinct[5][2] = [r5_13, r5_23, r5_33];
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
             let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
@@ -762,37 +745,40 @@ pub mod puma560 {
                 [p4_x, p4_y, p4_z],
             ];
             distinct[5][1] = [r6_12, r6_22, r6_32];
-            let t10 = s1 * p4_z;
-            let t11 = -(c1 * p4_z);
-            let t12 = c1.mul_sub(p4_y, s1 * p4_x);
-            distinct[0][5] = [t10, t11, t12];
-            let t13 = -p4_y;
-            distinct[0][3] = [t13, p4_x, zero];
-            let t14 = -t10;
-            let t15 = s1.mul_add(p4_y, c1 * p4_x);
-            distinct[0][4] = [t11, t14, t15];
+            let t8 = s1 * p4_z;
+            let t9 = -(c1 * p4_z);
+            let t10 = c1.mul_sub(p4_y, s1 * p4_x);
+            // Frame 1: waist
+            distinct[0][5] = [t8, t9, t10];
+            let t11 = -p4_y;
+            distinct[0][3] = [t11, p4_x, zero];
+            let t12 = -t8;
+            let t13 = s1.mul_add(p4_y, c1 * p4_x);
+            distinct[0][4] = [t9, t12, t13];
             let lever2_x = p4_x - p2_x;
             let lever2_y = p4_y - p2_y;
             let lever2_z = p4_z - p2_z;
-            let t16 = r2_21.mul_sub(lever2_z, s2 * lever2_y);
-            let t17 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
-            let t18 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
-            distinct[1][5] = [t16, t17, t18];
-            let t19 = -t3.mul_add(lever2_z, c2 * lever2_y);
-            let t20 = c2.mul_add(lever2_x, t2 * lever2_z);
-            let t21 = t3.mul_sub(lever2_x, t2 * lever2_y);
-            distinct[1][3] = [t19, t20, t21];
-            let t22 = -(c1 * lever2_z);
-            let t23 = -(s1 * lever2_z);
-            let t24 = s1.mul_add(lever2_y, c1 * lever2_x);
-            distinct[1][4] = [t22, t23, t24];
-            let t25 = s1 * T::constant(0.4318);
-            let t26 = -(c1 * T::constant(0.4318));
-            distinct[2][5] = [t25, t26, zero];
-            let t27 = T::constant(0.4318) * r3_11;
-            let t28 = T::constant(0.4318) * r3_21;
-            let t29 = T::constant(0.4318) * r3_31;
-            distinct[2][3] = [t27, t28, t29];
+            let t14 = r2_21.mul_sub(lever2_z, s2 * lever2_y);
+            let t15 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
+            let t16 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
+            // Frame 2: shoulder
+            distinct[1][5] = [t14, t15, t16];
+            let t17 = -t3.mul_add(lever2_z, c2 * lever2_y);
+            let t18 = c2.mul_add(lever2_x, t2 * lever2_z);
+            let t19 = t3.mul_sub(lever2_x, t2 * lever2_y);
+            distinct[1][3] = [t17, t18, t19];
+            let t20 = -(c1 * lever2_z);
+            let t21 = -(s1 * lever2_z);
+            let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
+            distinct[1][4] = [t20, t21, t22];
+            let t23 = s1 * a2;
+            let t24 = -(c1 * a2);
+            // Frame 3: elbow
+            distinct[2][5] = [t23, t24, zero];
+            let t25 = a2 * r3_11;
+            let t26 = a2 * r3_21;
+            let t27 = a2 * r3_31;
+            distinct[2][3] = [t25, t26, t27];
         }
 
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
@@ -815,6 +801,9 @@ pub mod puma560 {
                 [e5_x, e5_y, e5_z, e5_s, e5_r, e5_p],
                 [e6_x, e6_y, e6_z, e6_s, e6_r, e6_p],
             ] = *errors;
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
+            let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
             let t1 = e5_x + c6.mul_sub(e6_x, s6 * e6_y);
@@ -826,37 +815,35 @@ pub mod puma560 {
             let t7 = e4_p + c5.mul_sub(t3, s5 * t4);
             let t8 = e4_r - (e5_s + s6.mul_add(e6_p, c6 * e6_s));
             let t9 = e3_z + (e4_y + c5.mul_add(t2, s5 * t1));
-            let t10 = e3_x + s4.mul_add(t6, c4 * t5);
-            let t11 = e3_s.mul_add(T::constant(0.4318), t10);
-            let t12 = e3_y + s4.mul_sub(t5, c4 * t6);
-            let t13 = e3_p + s4.mul_add(t8, c4 * t7);
-            let t14 = e3_r + (e4_s + c5.mul_add(t4, s5 * t3));
-            let t15 = c3.mul_sub(T::constant(0.0203), T::constant(0.4318) * s3);
-            let t16 = s3.mul_add(T::constant(0.0203), T::constant(0.4318) * c3);
-            let t17 = e2_s.mul_sub(T::constant(0.15005), e2_r * t16);
-            let t18 = t17 + (e2_x + c3.mul_sub(t11, s3 * t9));
-            let t19 = e2_r.mul_sub(t15, T::constant(0.15005) * e2_p);
-            let t20 = t19 + (e2_y + c3.mul_add(t9, s3 * t11));
-            let t21 = e2_z - e3_p.neg_mul_add(T::constant(0.4318), t12);
-            let t22 = e2_p + c3.mul_sub(t13, s3 * t14);
-            let t23 = e2_s + c3.mul_add(t14, s3 * t13);
-            let t24 = T::constant(0.4318) + t15;
-            let t25 = c2.mul_sub(t24, s2 * t16);
-            let t26 = s2.mul_add(t24, c2 * t16);
-            let t27 = e1_s.mul_sub(T::constant(0.15005), e1_r * t26);
-            let t28 = t27 + (e1_x + c2.mul_sub(t18, s2 * t20));
-            let t29 = e1_r.mul_sub(t25, T::constant(0.15005) * e1_p);
-            let t30 = t29 + (e1_y + s2.mul_add(t18, c2 * t20));
-            let t31 = e1_z + (e2_p.mul_sub(t16, e2_s * t15) + t21);
-            let t32 = e1_p.mul_sub(t26, e1_s * t25) + t31;
-            let t33 = e1_p + c2.mul_sub(t22, s2 * t23);
-            let t34 = e1_s + s2.mul_add(t22, c2 * t23);
-            let t35 = e1_r + (e2_r - (e3_s + s4.mul_sub(t7, c4 * t8)));
-            let t36 = s1.mul_add(t32, c1 * t28);
-            let t37 = s1.mul_sub(t28, c1 * t32);
-            let t38 = s1.mul_add(t35, c1 * t33);
-            let t39 = s1.mul_sub(t33, c1 * t35);
-            *displacement = [t36, t37, t30, t38, t39, t34];
+            let t10 = e3_s.mul_add(a2, e3_x + s4.mul_add(t6, c4 * t5));
+            let t11 = e3_p + s4.mul_add(t8, c4 * t7);
+            let t12 = e3_r + (e4_s + c5.mul_add(t4, s5 * t3));
+            let t13 = c3.mul_sub(a3, a2 * s3);
+            let t14 = s3.mul_add(a3, a2 * c3);
+            let t15 = e2_x + c3.mul_sub(t10, s3 * t9);
+            let t16 = e2_s.mul_sub(z3, e2_r * t14) + t15;
+            let t17 = e2_y + c3.mul_add(t9, s3 * t10);
+            let t18 = e2_r.mul_sub(t13, z3 * e2_p) + t17;
+            let t19 = e2_z - e3_p.neg_mul_add(a2, e3_y + s4.mul_sub(t5, c4 * t6));
+            let t20 = e2_p + c3.mul_sub(t11, s3 * t12);
+            let t21 = e2_s + c3.mul_add(t12, s3 * t11);
+            let t22 = a2 + t13;
+            let t23 = c2.mul_sub(t22, s2 * t14);
+            let t24 = s2.mul_add(t22, c2 * t14);
+            let t25 = e1_x + c2.mul_sub(t16, s2 * t18);
+            let t26 = e1_s.mul_sub(z3, e1_r * t24) + t25;
+            let t27 = e1_y + s2.mul_add(t16, c2 * t18);
+            let t28 = e1_r.mul_sub(t23, z3 * e1_p) + t27;
+            let t29 = e1_z + (e2_p.mul_sub(t14, e2_s * t13) + t19);
+            let t30 = e1_p.mul_sub(t24, e1_s * t23) + t29;
+            let t31 = e1_p + c2.mul_sub(t20, s2 * t21);
+            let t32 = e1_s + s2.mul_add(t20, c2 * t21);
+            let t33 = e1_r + (e2_r - (e3_s + s4.mul_sub(t7, c4 * t8)));
+            let t34 = s1.mul_add(t30, c1 * t26);
+            let t35 = s1.mul_sub(t26, c1 * t30);
+            let t36 = s1.mul_add(t33, c1 * t31);
+            let t37 = s1.mul_sub(t31, c1 * t33);
+            *displacement = [t34, t35, t28, t36, t37, t32];
         }
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
@@ -879,6 +866,9 @@ pub mod puma560 {
                 [v5_x, v5_y, v5_z, v5_s, v5_r, v5_p],
                 [v6_x, v6_y, v6_z, v6_s, v6_r, v6_p],
             ] = *variances;
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
+            let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
             let t1 = s1 * s1;
@@ -889,23 +879,23 @@ pub mod puma560 {
             let t6 = c6 * c6;
             let t7 = v5_z + v6_z;
             let t8 = v5_r + v6_r;
-            let t9 = T::constant(0.4318) * v3_s;
-            let t10 = T::constant(0.4318) * v3_p;
-            let t11 = c3.mul_sub(T::constant(0.0203), T::constant(0.4318) * s3);
-            let t12 = s3.mul_add(T::constant(0.0203), T::constant(0.4318) * c3);
-            let t13 = T::constant(0.15005) * v2_s;
+            let t9 = a2 * v3_s;
+            let t10 = a2 * v3_p;
+            let t11 = c3.mul_sub(a3, a2 * s3);
+            let t12 = s3.mul_add(a3, a2 * c3);
+            let t13 = z3 * v2_s;
             let t14 = v2_r * t12;
             let t15 = v2_r * t11;
-            let t16 = T::constant(0.15005) * v2_p;
+            let t16 = z3 * v2_p;
             let t17 = v2_p * t12;
             let t18 = v2_s * t11;
-            let t19 = T::constant(0.4318) + t11;
+            let t19 = a2 + t11;
             let t20 = c2.mul_sub(t19, s2 * t12);
             let t21 = s2.mul_add(t19, c2 * t12);
-            let t22 = T::constant(0.15005) * v1_s;
+            let t22 = z3 * v1_s;
             let t23 = v1_r * t21;
             let t24 = v1_r * t20;
-            let t25 = T::constant(0.15005) * v1_p;
+            let t25 = z3 * v1_p;
             let t26 = v1_p * t21;
             let t27 = v1_s * t20;
             let t28 = c6 * s6;
@@ -945,7 +935,7 @@ pub mod puma560 {
             let t62 = t51 - t49;
             let t63 = t4.mul_sub(t62, t44 * t54);
             let t64 = t52.mul_add(t62, t44 * t53);
-            let t65 = v3_x + t9.mul_add(T::constant(0.4318), t48 + t58);
+            let t65 = v3_x + t9.mul_add(a2, t48 + t58);
             let t66 = v3_p + (t49 + t63);
             let t67 = v3_z + (v4_y + (t7 - t41));
             let t68 = v3_r + (v4_s + (t8 - t46));
@@ -962,82 +952,78 @@ pub mod puma560 {
             let t79 = t11.neg_mul_add(t14, t55.mul_sub(t70, t69 * t72));
             let t80 = t11.neg_mul_add(t13, s3.mul_add(t56, c3 * t59));
             let t81 = t12.neg_mul_add(t16, s3.mul_sub(t59, c3 * t56));
-            let t82 = v3_y + t10.mul_add(T::constant(0.4318), t50 - t58);
-            let t83 = t65 + t73 + t13.mul_add(T::constant(0.15005), t12 * t14);
-            let t84 = v2_x + t83;
-            let t85 = c3.mul_add(t9, t14);
-            let t86 = v2_p + (t66 + t77);
-            let t87 = t67 - t73 + t16.mul_add(T::constant(0.15005), t11 * t15);
-            let t88 = v2_y + t87;
-            let t89 = s3.neg_mul_add(t9, t15);
-            let t90 = v2_s + (t68 - t77);
-            let t91 = c3.mul_add(t10, t17);
-            let t92 = s3.mul_sub(t10, t18);
-            let t93 = c2 * s2;
-            let t94 = t2 + t2 - T::constant(1.0);
-            let t95 = t93 + t93;
-            let t96 = t84 - t88;
-            let t97 = t2.mul_sub(t96, t79 * t95);
-            let t98 = c2.mul_sub(t74, s2 * t75);
-            let t99 = s2.mul_add(t74, c2 * t75);
-            let t100 = t86 - t90;
-            let t101 = t2.mul_sub(t100, t78 * t95);
-            let t102 = t93.mul_add(t100, t78 * t94);
-            let t103 = t13 - t16;
-            let t104 = t93 * t103;
-            let t105 = t2 * t103;
-            let t106 = t20.neg_mul_add(t23, t93.mul_add(t96, t79 * t94));
-            let t107 = t20.neg_mul_add(t22, c2.mul_sub(t80, s2 * t81));
-            let t108 = t21.neg_mul_add(t25, s2.mul_add(t80, c2 * t81));
-            let t109 = v2_z + (t82 + t12.mul_add(t17, t11 * t18));
-            let t110 = t88 + t97 + t22.mul_add(T::constant(0.15005), t21 * t23);
-            let t111 = v1_x + t110;
-            let t112 = t22 + (t16 + t105);
-            let t113 = t23 + c2.mul_add(t85, s2 * t89);
-            let t114 = v1_p + (t90 + t101);
-            let t115 = t84 - t97 + t25.mul_add(T::constant(0.15005), t20 * t24);
-            let t116 = v1_y + t115;
-            let t117 = t105 - t13 - t25;
-            let t118 = t24 + c2.mul_sub(t89, s2 * t85);
-            let t119 = v1_s + (t86 - t101);
-            let t120 = v1_z + (t109 + t21.mul_add(t26, t20 * t27));
-            let t121 = t26 + c2.mul_sub(t91, s2 * t92);
-            let t122 = s2.mul_add(t91, c2 * t92) - t27;
-            let t123 = v1_r + (v2_r + (v3_s + (t51 - t63)));
-            let t124 = c1 * s1;
-            let t125 = t1 + t1 - T::constant(1.0);
-            let t126 = t124 + t124;
-            let t127 = s1.mul_add(t108, c1 * t106);
-            let t128 = s1.mul_sub(t106, c1 * t108);
-            let t129 = t120 - t111;
-            let t130 = t1.mul_add(t129, t107 * t126);
-            let t131 = t111 + t130;
-            let t132 = t120 - t130;
-            let t133 = t107.mul_sub(t125, t124 * t129);
-            let t134 = s1.mul_add(t99, c1 * t102);
-            let t135 = s1.mul_sub(t102, c1 * t99);
-            let t136 = t123 - t114;
-            let t137 = t1.mul_add(t136, t98 * t126);
-            let t138 = t114 + t137;
-            let t139 = t123 - t137;
-            let t140 = t98.mul_sub(t125, t124 * t136);
-            let t141 = s1.mul_add(t118, c1 * t117);
-            let t142 = s1.mul_sub(t117, c1 * t118);
-            covariance[2] = [t127, t128, t116, t141, t142, t104];
-            let t143 = s1.mul_add(t122, c1 * t112);
-            let t144 = s1.mul_sub(t112, c1 * t122);
-            covariance[5] = [t143, t144, t104, t134, t135, t119];
-            let t145 = t121 - t113;
-            let t146 = t1.mul_add(t104, t124 * t145);
-            let t147 = t1.mul_sub(t145, t104 * t124);
-            let t148 = t146 - t104;
-            let t149 = -t146;
-            let t150 = t113 + t147;
-            covariance[0] = [t131, t133, t127, t148, t150, t143];
-            covariance[4] = [t150, t149, t142, t140, t139, t135];
-            let t151 = t147 - t121;
-            covariance[1] = [t133, t132, t128, t151, t149, t144];
-            covariance[3] = [t148, t151, t141, t138, t140, t134];
+            let t82 = v3_y + t10.mul_add(a2, t50 - t58);
+            let t83 = v2_x + (t65 + t73 + t13.mul_add(z3, t12 * t14));
+            let t84 = c3.mul_add(t9, t14);
+            let t85 = v2_p + (t66 + t77);
+            let t86 = v2_y + (t67 - t73 + t16.mul_add(z3, t11 * t15));
+            let t87 = s3.neg_mul_add(t9, t15);
+            let t88 = v2_s + (t68 - t77);
+            let t89 = c3.mul_add(t10, t17);
+            let t90 = s3.mul_sub(t10, t18);
+            let t91 = c2 * s2;
+            let t92 = t2 + t2 - T::constant(1.0);
+            let t93 = t91 + t91;
+            let t94 = t83 - t86;
+            let t95 = t2.mul_sub(t94, t79 * t93);
+            let t96 = c2.mul_sub(t74, s2 * t75);
+            let t97 = s2.mul_add(t74, c2 * t75);
+            let t98 = t85 - t88;
+            let t99 = t2.mul_sub(t98, t78 * t93);
+            let t100 = t91.mul_add(t98, t78 * t92);
+            let t101 = t13 - t16;
+            let t102 = t91 * t101;
+            let t103 = t2 * t101;
+            let t104 = t20.neg_mul_add(t23, t91.mul_add(t94, t79 * t92));
+            let t105 = t20.neg_mul_add(t22, c2.mul_sub(t80, s2 * t81));
+            let t106 = t21.neg_mul_add(t25, s2.mul_add(t80, c2 * t81));
+            let t107 = v2_z + (t82 + t12.mul_add(t17, t11 * t18));
+            let t108 = v1_x + (t86 + t95 + t22.mul_add(z3, t21 * t23));
+            let t109 = t22 + (t16 + t103);
+            let t110 = t23 + c2.mul_add(t84, s2 * t87);
+            let t111 = v1_p + (t88 + t99);
+            let t112 = v1_y + (t83 - t95 + t25.mul_add(z3, t20 * t24));
+            let t113 = t103 - t13 - t25;
+            let t114 = t24 + c2.mul_sub(t87, s2 * t84);
+            let t115 = v1_s + (t85 - t99);
+            let t116 = v1_z + (t107 + t21.mul_add(t26, t20 * t27));
+            let t117 = t26 + c2.mul_sub(t89, s2 * t90);
+            let t118 = s2.mul_add(t89, c2 * t90) - t27;
+            let t119 = v1_r + (v2_r + (v3_s + (t51 - t63)));
+            let t120 = c1 * s1;
+            let t121 = t1 + t1 - T::constant(1.0);
+            let t122 = t120 + t120;
+            let t123 = s1.mul_add(t106, c1 * t104);
+            let t124 = s1.mul_sub(t104, c1 * t106);
+            let t125 = t116 - t108;
+            let t126 = t1.mul_add(t125, t105 * t122);
+            let t127 = t108 + t126;
+            let t128 = t116 - t126;
+            let t129 = t105.mul_sub(t121, t120 * t125);
+            let t130 = s1.mul_add(t97, c1 * t100);
+            let t131 = s1.mul_sub(t100, c1 * t97);
+            let t132 = t119 - t111;
+            let t133 = t1.mul_add(t132, t96 * t122);
+            let t134 = t111 + t133;
+            let t135 = t119 - t133;
+            let t136 = t96.mul_sub(t121, t120 * t132);
+            let t137 = s1.mul_add(t114, c1 * t113);
+            let t138 = s1.mul_sub(t113, c1 * t114);
+            covariance[2] = [t123, t124, t112, t137, t138, t102];
+            let t139 = s1.mul_add(t118, c1 * t109);
+            let t140 = s1.mul_sub(t109, c1 * t118);
+            covariance[5] = [t139, t140, t102, t130, t131, t115];
+            let t141 = t117 - t110;
+            let t142 = t1.mul_add(t102, t120 * t141);
+            let t143 = t1.mul_sub(t141, t102 * t120);
+            let t144 = t142 - t102;
+            let t145 = -t142;
+            let t146 = t110 + t143;
+            covariance[0] = [t127, t129, t123, t144, t146, t139];
+            covariance[4] = [t146, t145, t138, t136, t135, t131];
+            let t147 = t143 - t117;
+            covariance[1] = [t129, t128, t124, t147, t145, t140];
+            covariance[3] = [t144, t147, t137, t134, t136, t130];
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
@@ -1067,12 +1053,14 @@ pub mod puma560 {
         ) {
             let [q1, q2, q3, q4, q5, _] = *q;
             let zero = T::constant(0.0);
+            let a2 = T::constant(0.4318);
+            let a3 = T::constant(0.0203);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5]);
-            let t1 = c3.mul_sub(T::constant(0.0203), T::constant(0.4318) * s3);
-            let t2 = s3.mul_add(T::constant(0.0203), T::constant(0.4318) * c3);
-            let t3 = c2.mul_sub(T::constant(0.4318) + t1, s2 * t2);
-            let t4 = T::constant(5.017628908595749e-5) * t3;
+            let t1 = c3.mul_sub(a3, a2 * s3);
+            let t2 = s3.mul_add(a3, a2 * c3);
+            let t3 = T::constant(5.017628908595749e-5);
+            let t4 = t3 * c2.mul_sub(a2 + t1, s2 * t2);
             let t5 = c1.mul_sub(T::constant(7.528952177347921e-6), s1 * t4);
             let t6 = c1.mul_add(t4, s1 * T::constant(7.528952177347921e-6));
             displacements[0] = [t5, t6, zero, zero, zero, T::constant(5.017628908595749e-5)];
@@ -1133,61 +1121,11 @@ pub mod puma560 {
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
         ) {
-            let [q1, q2, q3, q4, q5, q6] = *q;
-            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
-                T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
-            let t1 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
-            let p2_x = c1 * t1;
-            let p2_y = s1 * t1;
-            let r2_11 = c1 * c2;
-            let r2_21 = s1 * c2;
-            let t2 = c1 * s2;
-            let t3 = s1 * s2;
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let t6 = r2_21.mul_sub(t4, t3 * t5);
-            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
-            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
-            let r3_31 = s2.mul_add(c3, c2 * s3);
-            let t7 = r2_11.mul_add(s3, t2 * c3);
-            let t8 = r2_21.mul_add(s3, t3 * c3);
-            let r3_33 = c2.mul_sub(c3, s2 * s3);
-            let t9 = s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
-            let p3_x = p2_x + t9;
-            let p3_y = p2_y + c1.neg_mul_add(T::constant(0.15005), t6);
-            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
-            let r4_21 = r3_21.mul_add(c4, c1 * s4);
-            let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11.mul_add(s4, s1 * c4);
-            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
-            let p4_x = t7.neg_mul_add(T::constant(0.4318), p3_x);
-            let p4_y = t8.neg_mul_add(T::constant(0.4318), p3_y);
-            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t7 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t8 * s5);
-            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
-            let r5_13 = -r4_11.mul_add(s5, t7 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t8 * c5);
-            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
-            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
-            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
-            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
-            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
-            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
-            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
-            *pose = [
-                [r6_11, r6_21, r6_31],
-                [r6_12, r6_22, r6_32],
-                [r5_13, r5_23, r5_33],
-                [p4_x, p4_y, p4_z],
-            ];
+            self::pose(q, s, pose);
         }
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
@@ -1197,85 +1135,12 @@ pub mod puma560 {
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; VARIABLES],
         ) {
-            let [q1, q2, q3, q4, q5, q6] = *q;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
-                T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
-            let r1_23 = -c1;
-            let t1 = c2 * T::constant(0.4318);
-            let p2_z = s2 * T::constant(0.4318);
-            let p2_x = c1 * t1;
-            let p2_y = s1 * t1;
-            let r2_11 = c1 * c2;
-            let r2_21 = s1 * c2;
-            let t2 = c1 * s2;
-            let t3 = s1 * s2;
-            let t4 = c3 * T::constant(0.0203);
-            let t5 = s3 * T::constant(0.0203);
-            let t6 = r2_21.mul_sub(t4, t3 * t5);
-            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
-            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
-            let r3_31 = s2.mul_add(c3, c2 * s3);
-            let t7 = r2_11.mul_add(s3, t2 * c3);
-            let r3_13 = -t7;
-            let t8 = r2_21.mul_add(s3, t3 * c3);
-            let r3_23 = -t8;
-            let r3_33 = c2.mul_sub(c3, s2 * s3);
-            columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
-            let t9 = s1.mul_add(T::constant(0.15005), r2_11.mul_sub(t4, t2 * t5));
-            let p3_x = p2_x + t9;
-            let p3_y = p2_y + c1.neg_mul_add(T::constant(0.15005), t6);
-            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
-            let r4_21 = r3_21.mul_add(c4, c1 * s4);
-            let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11.mul_add(s4, s1 * c4);
-            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
-            columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            let p4_x = t7.neg_mul_add(T::constant(0.4318), p3_x);
-            let p4_y = t8.neg_mul_add(T::constant(0.4318), p3_y);
-            let p4_z = r3_33.mul_add(T::constant(0.4318), p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t7 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t8 * s5);
-            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
-            let r5_13 = -r4_11.mul_add(s5, t7 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t8 * c5);
-            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
-            columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
-            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
-            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
-            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
-            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
-            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
-            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
-            *pose = [
-                [r6_11, r6_21, r6_31],
-                [r6_12, r6_22, r6_32],
-                [r5_13, r5_23, r5_33],
-                [p4_x, p4_y, p4_z],
-            ];
-            let t10 = -p4_y;
-            columns[0] = [t10, p4_x, zero, zero, zero, one];
-            let lever2_x = p4_x - p2_x;
-            let lever2_y = p4_y - p2_y;
-            let lever2_z = p4_z - p2_z;
-            let t11 = -c1.mul_add(lever2_z, c1 * p2_z);
-            let t12 = -s1.mul_add(lever2_z, s1 * p2_z);
-            let t13 = t1 + s1.mul_add(lever2_y, c1 * lever2_x);
-            columns[1] = [t11, t12, t13, s1, r1_23, zero];
-            let t14 = p4_z - p3_z;
-            let t15 = -c1.mul_add(t14, r2_11.mul_add(t5, t2 * t4));
-            let t16 = -s1.mul_add(t14, r2_21.mul_add(t5, t3 * t4));
-            let t17 = s1.mul_add(p4_y - p3_y, c1 * (p4_x - p3_x));
-            let t18 = c2.mul_sub(t4, s2 * t5) + t17;
-            columns[2] = [t15, t16, t18, s1, r1_23, zero];
+            joint_jacobian(q, s, pose, columns);
         }
     }
 }

@@ -359,6 +359,7 @@ pub mod self_ {
                 self_.atan2(q_),
                 Some_.abs().powf(T::constant(2.7)),
             ]);
+            // Frame 1: first | `frame`
             columns[0] = [cos_1, sin_1, zero, zero, zero, zero];
             let t4 = Some_ * ERRORS_;
             let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
@@ -389,6 +390,7 @@ pub mod self_ {
             let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
             let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
             let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
+            // Frame 2: x
             columns[6] = [r2_11, r2_21, r2_31, zero, zero, zero];
             columns[11] = [zero, zero, zero, r2_11, r2_21, r2_31];
             let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
@@ -412,6 +414,7 @@ pub mod self_ {
             let t17 = -(sin_1 * t13);
             let t18 = cos_1 * t13;
             let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
+            // Frame 1: first | `frame`
             columns[5] = [t17, t18, t19, cos_1, sin_1, zero];
             let t20 = t5.mul_add(t13, sin_r1_11 * lever1_y);
             let t21 = r1_12.mul_sub(t13, sin_r1_11 * lever1_x);
@@ -625,12 +628,15 @@ pub mod self_ {
             errors: &mut [[T; 6]; FRAMES],
         ) {
             let zero = T::constant(0.0);
+            // Frame 1: first | `frame`
             errors[0] = [zero; 6];
+            // Frame 2: x
             errors[1] = [zero; 6];
         }
 
         /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
         ///
         /// 63 mul, 30 add, 5 sincos, 3 other, 9 neg.
         #[inline(always)]
@@ -643,6 +649,7 @@ pub mod self_ {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
+            // Frame 2: x
             distinct[1][3] = [zero; 3];
             distinct[1][4] = [zero; 3];
             distinct[1][5] = [zero; 3];
@@ -659,6 +666,7 @@ pub mod self_ {
                 self_.atan2(q_),
                 Some_.abs().powf(T::constant(2.7)),
             ]);
+            // Frame 1: first | `frame`
             distinct[0][0] = [cos_1, sin_1, zero];
             let t4 = Some_ * ERRORS_;
             let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
@@ -689,6 +697,7 @@ pub mod self_ {
             let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
             let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
             let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
+            // Frame 2: x
             distinct[1][0] = [r2_11, r2_21, r2_31];
             let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
             let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
@@ -709,6 +718,7 @@ pub mod self_ {
             let t17 = -(sin_1 * t13);
             let t18 = cos_1 * t13;
             let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
+            // Frame 1: first | `frame`
             distinct[0][5] = [t17, t18, t19];
             let t20 = t5.mul_add(t13, sin_r1_11 * lever1_y);
             let t21 = r1_12.mul_sub(t13, sin_r1_11 * lever1_x);
@@ -990,55 +1000,7 @@ pub mod self_ {
             _u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
         ) {
-            let [Some_, self_] = *q;
-            let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let [
-                (sin_1, cos_1),
-                (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
-                (sin_2, cos_2),
-                (sin_3, cos_3),
-            ] = T::sin_cos_each([
-                None_.mul_add(T, Some_),
-                r1_11,
-                _s,
-                self_.atan2(q_),
-                Some_.abs().powf(T::constant(2.7)),
-            ]);
-            let t4 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
-            let r1_12 = sin_1 * cos_r1_11;
-            let t5 = cos_1 * cos_r1_11;
-            let t6 = sin_1 * sin_r1_11;
-            let r1_23 = cos_1 * sin_r1_11;
-            let t7 = sin_r1_11 * cos__s;
-            let t8 = sin_r1_11 * sin__s;
-            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
-            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
-            let p2_z = -(t8 * self_);
-            let p2_x = t9.mul_add(self_, p1_x);
-            let p2_y = t10.mul_add(self_, p1_y);
-            let t13 = t9.mul_sub(sin_2, t6 * cos_2);
-            let t14 = r1_23.mul_add(cos_2, t10 * sin_2);
-            let t15 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
-            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
-            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
-            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
-            let r2_12 = t11.mul_add(cos_3, t13 * sin_3);
-            let r2_22 = t14.mul_sub(sin_3, t12 * cos_3);
-            let r2_32 = -t7.mul_add(cos_3, t15 * sin_3);
-            let r2_13 = t13.mul_sub(cos_3, t11 * sin_3);
-            let r2_23 = t12.mul_add(sin_3, t14 * cos_3);
-            let r2_33 = t7.mul_sub(sin_3, t15 * cos_3);
-            *pose = [
-                [r2_11, r2_21, r2_31],
-                [r2_12, r2_22, r2_32],
-                [r2_13, r2_23, r2_33],
-                [p2_x, p2_y, p2_z],
-            ];
+            self::pose(q, s, pose);
         }
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
@@ -1053,71 +1015,7 @@ pub mod self_ {
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; VARIABLES],
         ) {
-            let [Some_, self_] = *q;
-            let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let zero = T::constant(0.0);
-            let t1_ = Some_.abs();
-            let [
-                (sin_2, cos_2),
-                (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
-                (sin_3, cos_3),
-                (sin_4, cos_4),
-            ] = T::sin_cos_each([
-                None_.mul_add(T, Some_),
-                r1_11,
-                _s,
-                self_.atan2(q_),
-                t1_.powf(T::constant(2.7)),
-            ]);
-            let t5 = Some_ * ERRORS_;
-            let p1_x = cos_2.mul_sub(q_, sin_2 * t5);
-            let p1_y = sin_2.mul_add(q_, cos_2 * t5);
-            let r1_12 = sin_2 * cos_r1_11;
-            let t6 = cos_2 * cos_r1_11;
-            let t7 = sin_2 * sin_r1_11;
-            let r1_23 = cos_2 * sin_r1_11;
-            let t8 = sin_r1_11 * cos__s;
-            let t9 = sin_r1_11 * sin__s;
-            let t10 = -t9;
-            let t11 = cos_2.mul_add(cos__s, r1_12 * sin__s);
-            let t12 = sin_2.mul_sub(cos__s, t6 * sin__s);
-            let t13 = r1_12.mul_sub(cos__s, cos_2 * sin__s);
-            let t14 = sin_2.mul_add(sin__s, t6 * cos__s);
-            let p2_z = -(t9 * self_);
-            let p2_x = t11.mul_add(self_, p1_x);
-            let p2_y = t12.mul_add(self_, p1_y);
-            let t15 = t11.mul_sub(sin_3, t7 * cos_3);
-            let t16 = r1_23.mul_add(cos_3, t12 * sin_3);
-            let t17 = cos_r1_11.mul_add(cos_3, t9 * sin_3);
-            let r2_11 = t7.mul_add(sin_3, t11 * cos_3);
-            let r2_21 = t12.mul_sub(cos_3, r1_23 * sin_3);
-            let r2_31 = cos_r1_11.mul_sub(sin_3, t9 * cos_3);
-            let r2_12 = t13.mul_add(cos_4, t15 * sin_4);
-            let r2_22 = t16.mul_sub(sin_4, t14 * cos_4);
-            let r2_32 = -t8.mul_add(cos_4, t17 * sin_4);
-            let r2_13 = t15.mul_sub(cos_4, t13 * sin_4);
-            let r2_23 = t14.mul_add(sin_4, t16 * cos_4);
-            let r2_33 = t8.mul_sub(sin_4, t17 * cos_4);
-            *pose = [
-                [r2_11, r2_21, r2_31],
-                [r2_12, r2_22, r2_32],
-                [r2_13, r2_23, r2_33],
-                [p2_x, p2_y, p2_z],
-            ];
-            let t18 = -sin_2.mul_add(ERRORS_, p2_y);
-            let t19 = cos_2.mul_add(ERRORS_, p2_x);
-            let t20 = T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002));
-            let t21 = Some_.sign() * t20;
-            let t22 = r2_11 * t21;
-            let t23 = r2_21 * t21;
-            let t24 = r2_31.mul_add(t21, T::constant(1.0));
-            columns[0] = [t18, t19, zero, t22, t23, t24];
-            let t25 = q_ / q_.mul_add(q_, self_ * self_);
-            let t26 = t13 * t25;
-            let t27 = -(t14 * t25);
-            let t28 = -(t8 * t25);
-            columns[1] = [t11, t12, t10, t26, t27, t28];
+            joint_jacobian(q, s, pose, columns);
         }
     }
 }

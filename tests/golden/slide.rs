@@ -179,6 +179,7 @@ pub mod slide {
                 [zero, zero, one],
                 [d1, zero, zero],
             ];
+            // Frame 1: carriage
             columns[0] = [one, zero, zero, zero, zero, zero];
             columns[1] = [zero, one, zero, zero, zero, zero];
             columns[2] = [zero, zero, one, zero, zero, zero];
@@ -215,19 +216,11 @@ pub mod slide {
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
             _columns: &mut [[T; 6]; PARAMETERS],
         ) {
-            let [d1] = *q;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            *pose = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [d1, zero, zero],
-            ];
+            self::pose(q, s, pose);
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
@@ -254,11 +247,13 @@ pub mod slide {
             errors: &mut [[T; 6]; FRAMES],
         ) {
             let zero = T::constant(0.0);
+            // Frame 1: carriage
             errors[0] = [zero; 6];
         }
 
         /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`. `abbe::distinct` makes the columns of it.
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
         ///
         /// 0 mul, 0 add.
         #[inline(always)]
@@ -277,6 +272,7 @@ pub mod slide {
                 [zero, zero, one],
                 [d1, zero, zero],
             ];
+            // Frame 1: carriage
             distinct[0][0] = [one, zero, zero];
             distinct[0][1] = [zero, one, zero];
             distinct[0][2] = [zero, zero, one];
@@ -355,19 +351,11 @@ pub mod slide {
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
         ) {
-            let [d1] = *q;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            *pose = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [d1, zero, zero],
-            ];
+            self::pose(q, s, pose);
         }
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
@@ -377,21 +365,12 @@ pub mod slide {
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; VARIABLES],
         ) {
-            let [d1] = *q;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            *pose = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [d1, zero, zero],
-            ];
-            columns[0] = [one, zero, zero, zero, zero, zero];
+            joint_jacobian(q, s, pose, columns);
         }
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use abbe::{Manipulator, Scalar};
 use abbe_codegen::spec::Spec;
-use abbe_codegen::{CompileError, compile_into, emit};
+use abbe_codegen::{CompileError, compile_into, print};
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::long_chain;
 use abbe_tests::golden;
@@ -73,7 +73,7 @@ fn spec(name: &str) -> Spec {
 fn generated_code_is_what_is_checked_in() {
     for name in ["long", "pps", "puma560", "self_", "slide"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{name}.rs"));
-        expect_file![path].assert_eq(&emit::rust(&spec(name)));
+        expect_file![path].assert_eq(&print::rust(&spec(name)));
     }
 }
 
@@ -81,14 +81,14 @@ fn generated_code_is_what_is_checked_in() {
 fn the_same_bytes_every_time() {
     for shipped in SHIPPED {
         let spec = spec(shipped.name);
-        assert_eq!(emit::rust(&spec), emit::rust(&Spec::parse(&spec.file, shipped.spec).unwrap()));
+        assert_eq!(print::rust(&spec), print::rust(&Spec::parse(&spec.file, shipped.spec).unwrap()));
     }
 }
 
 #[test]
 fn no_absolute_path_no_time_and_not_too_long() {
     for shipped in SHIPPED {
-        let text = emit::rust(&spec(shipped.name));
+        let text = print::rust(&spec(shipped.name));
         assert!(!text.contains(env!("CARGO_MANIFEST_DIR")), "{}", shipped.name);
         println!("{}: {} bytes", shipped.name, text.len());
         // All but the one whose 24 numbers are parameters, and the one with six errors in every frame and Euler rows.
@@ -107,7 +107,7 @@ fn build_script_door() {
     compile_into(specs.path(), out.path()).unwrap();
     let modified = |name: &str| std::fs::metadata(out.path().join(name)).unwrap().modified().unwrap();
     let generated = std::fs::read_to_string(out.path().join("abbe_pps.rs")).unwrap();
-    assert_eq!(generated, emit::rust(&spec("pps")));
+    assert_eq!(generated, print::rust(&spec("pps")));
     let before = [modified("abbe_pps.rs"), modified("abbe_slide.rs"), modified("abbe_manipulators.rs")];
     std::fs::write(specs.path().join("slide.toml"), SLIDE.replace("d1", "x1")).unwrap();
     compile_into(specs.path(), out.path()).unwrap();

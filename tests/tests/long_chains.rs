@@ -32,7 +32,7 @@ fn assert_close(what: &str, actual: &[f64], expected: &[f64]) {
 #[test]
 fn batches_are_those_of_the_straight_line_program() {
     let spec = spec();
-    let straight = Interpreter::new(spec.clone());
+    let straight = Interpreter::without_loops(spec.clone());
     let description = straight.description();
     assert_eq!(description, Long.description());
     for set in InstructionSet::all() {
@@ -68,7 +68,7 @@ fn batches_are_those_of_the_straight_line_program() {
 #[test]
 fn single_configurations_are_those_of_the_straight_line_program() {
     let spec = spec();
-    let straight = Interpreter::new(spec.clone());
+    let straight = Interpreter::without_loops(spec.clone());
     for sample in 0..COUNT {
         let q: Vec<f64> = (0..VARIABLES).map(|i| number(i + 57 * sample)).collect();
         let s: Vec<f64> = (0..PARAMETERS).map(|i| 0.4 + 0.1 * number(i + sample)).collect();
@@ -85,6 +85,22 @@ fn single_configurations_are_those_of_the_straight_line_program() {
         Long.parameter_jacobian(&q, &s, &mut looped).unwrap();
         straight.parameter_jacobian(&q, &s, &mut expected).unwrap();
         assert_close("parameter Jacobian", looped.as_flattened(), expected.as_flattened());
+    }
+}
+
+/// The interpreter runs the same loops.
+#[test]
+fn interpreted_loops_are_those_of_the_straight_line_program() {
+    let (looped, straight) = (Interpreter::new(spec()), Interpreter::without_loops(spec()));
+    for function in Function::ALL {
+        let count = function.signature().arguments_len(straight.description());
+        for sample in 0..COUNT {
+            let arguments: Vec<f64> = (0..count).map(|i| number(i + 31 * sample)).collect();
+            let [found, expected] =
+                [&looped, &straight].map(|robot| robot.evaluate(function, &arguments).unwrap());
+            assert!(expected.iter().any(|value| *value != 0.0), "{}: nothing to compare", function.name());
+            assert_close(function.name(), &found, &expected);
+        }
     }
 }
 

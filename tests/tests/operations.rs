@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use abbe::Function;
 use abbe_codegen::chain::Model;
-use abbe_codegen::program::{FunctionKind, Operations, functions};
+use abbe_codegen::program::{Operations, Routines, straight_line};
 use abbe_codegen::spec::{Class, Orientation, Spec};
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::general_chain;
@@ -14,8 +15,8 @@ fn shipped(name: &str) -> Spec {
     Spec::parse(name, shipped.spec).unwrap()
 }
 
-fn operations(spec: &Spec, kind: FunctionKind) -> Operations {
-    kind.program(&Model::new(spec)).operations()
+fn operations(spec: &Spec, kind: Function) -> Operations {
+    straight_line(kind, &Model::new(spec)).operations()
 }
 
 /// Multiplications and additions together.
@@ -29,8 +30,8 @@ fn counts_of_every_function() {
     for shipped in SHIPPED {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
         writeln!(table, "{}", shipped.name).unwrap();
-        for (kind, program) in functions(&Model::new(&spec)) {
-            writeln!(table, "  {:<23} {}", kind.name(), program.operations()).unwrap();
+        for routine in Routines::new(&spec, &Model::new(&spec)).list {
+            writeln!(table, "  {:<23} {}", routine.name, routine.operations).unwrap();
         }
     }
     expect_file!["../golden/operations.txt"].assert_eq(&table);
@@ -43,7 +44,7 @@ fn fewer_than_others_need() {
     let gantry = Spec::parse("ppprrr.toml", include_str!("../specs/ppprrr.toml")).unwrap();
     for (spec, most, revolute) in [(shipped("puma560"), 170, 6), (gantry, 91, 3), (shipped("iiwa"), 227, 7)] {
         assert_eq!(spec.orientation, Orientation::RotationVector);
-        for kind in [FunctionKind::ErrorJacobian, FunctionKind::ErrorJacobianDistinct] {
+        for kind in [Function::ErrorJacobian, Function::ErrorJacobianDistinct] {
             let count = operations(&spec, kind);
             println!("{} {}: {count}", spec.name, kind.name());
             assert!(total(count) <= most && count.sincos == revolute, "{}: {count}", spec.name);
@@ -58,7 +59,7 @@ fn what_euler_rows_cost() {
         let mut spec = Spec::parse(shipped.name, shipped.spec).unwrap();
         let mut count = |orientation| {
             spec.orientation = orientation;
-            operations(&spec, FunctionKind::ErrorJacobian)
+            operations(&spec, Function::ErrorJacobian)
         };
         let (plain, euler) = (count(Orientation::RotationVector), count(Orientation::EulerYzx));
         let frames = spec.frames.len();
@@ -72,9 +73,9 @@ fn what_euler_rows_cost() {
 #[test]
 fn accumulated_along_the_chain() {
     let puma = shipped("puma560");
-    let displacement = operations(&puma, FunctionKind::Displacement);
+    let displacement = operations(&puma, Function::Displacement);
     assert!(total(displacement) <= 170 && displacement.sincos == 6, "{displacement}");
-    let covariance = operations(&puma, FunctionKind::Covariance);
+    let covariance = operations(&puma, Function::Covariance);
     assert!(total(covariance) <= 745 && covariance.sincos == 6, "{covariance}");
 }
 
@@ -85,14 +86,14 @@ fn sources_of_the_spec_itself() {
     for shipped in SHIPPED {
         let spec = Spec::parse(shipped.name, shipped.spec).unwrap();
         let none = spec.enabled_sources().all(|source| source.class != Class::Repeatable);
-        let predicted = operations(&spec, FunctionKind::PredictedDisplacement);
-        let [real, ideal] = [FunctionKind::RealPose, FunctionKind::Pose].map(|kind| operations(&spec, kind));
+        let predicted = operations(&spec, Function::PredictedDisplacement);
+        let [real, ideal] = [Function::RealPose, Function::Pose].map(|kind| operations(&spec, kind));
         if none && spec.orientation == Orientation::RotationVector {
             assert_eq!((predicted, real), (Operations::default(), ideal), "{}", spec.name);
             without += 1;
         }
-        let any = operations(&spec, FunctionKind::Displacement);
-        let errors = operations(&spec, FunctionKind::GeneralizedErrors);
+        let any = operations(&spec, Function::Displacement);
+        let errors = operations(&spec, Function::GeneralizedErrors);
         assert!(total(predicted) <= total(any) + total(errors), "{}: {predicted}", spec.name);
     }
     assert!(without > 0, "every shipped manipulator has repeatable sources");
@@ -102,8 +103,8 @@ fn sources_of_the_spec_itself() {
 fn growth_is_linear() {
     let chain = |frames: usize| Model::new(&Spec::parse("chain.toml", &general_chain(frames)).unwrap());
     let models = [20, 60, 100].map(chain);
-    for kind in FunctionKind::ALL {
-        let counts = models.each_ref().map(|model| total(kind.program(model).operations()));
+    for kind in Function::ALL {
+        let counts = models.each_ref().map(|model| total(straight_line(kind, model).operations()));
         println!("{}: {counts:?} at 20, 60, 100 frames", kind.name());
         let [few, some, many] = counts;
         assert!(100 * (many - some) <= 101 * (some - few), "{}: {counts:?}", kind.name());

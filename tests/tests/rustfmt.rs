@@ -2,7 +2,7 @@
 
 use std::process::{Command, ExitCode};
 
-use abbe_codegen::emit;
+use abbe_codegen::print;
 use abbe_codegen::spec::Spec;
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::{coupled_joints, long_chain};
@@ -26,7 +26,7 @@ fn rustfmt_changes_nothing() -> Result<(), Missing> {
     let specs = SHIPPED.iter().map(|shipped| (shipped.name, shipped.spec));
     let generated = specs
         .chain([("long", &*long), ("coupled", coupled)])
-        .map(|(name, text)| write(name, &emit::rust(&Spec::parse(name, text).unwrap())));
+        .map(|(name, text)| write(name, &print::rust(&Spec::parse(name, text).unwrap())));
     let checked_in =
         [("self_", include_str!("../golden/self_.rs")), ("slide", include_str!("../golden/slide.rs"))];
     let checked_in = checked_in.map(|(name, text)| write(name, text));

@@ -3,9 +3,10 @@
 use std::fmt;
 use std::time::Instant;
 
+use abbe::Function;
 use abbe_codegen::chain::Model;
-use abbe_codegen::emit;
-use abbe_codegen::program::FunctionKind;
+use abbe_codegen::print;
+use abbe_codegen::program::straight_line;
 use abbe_codegen::spec::Spec;
 
 use crate::answers::{Angles, Answers, COUNT};
@@ -110,7 +111,7 @@ fn ours(robot: &str, spec: &str) -> String {
         .map(|_| {
             let start = Instant::now();
             let spec = Spec::parse(robot, spec).expect("it was compiled");
-            std::hint::black_box(emit::rust(&spec));
+            std::hint::black_box(print::rust(&spec));
             start.elapsed().as_secs_f64()
         })
         .collect();
@@ -119,12 +120,12 @@ fn ours(robot: &str, spec: &str) -> String {
     let model = Model::new(&spec);
     let counts = Kind::ALL.map(|kind| {
         let count = match kind {
-            Kind::Dense => FunctionKind::ErrorJacobian,
-            Kind::Distinct => FunctionKind::ErrorJacobianDistinct,
-            Kind::Displacement => FunctionKind::Displacement,
-            Kind::Covariance => FunctionKind::Covariance,
+            Kind::Dense => Function::ErrorJacobian,
+            Kind::Distinct => Function::ErrorJacobianDistinct,
+            Kind::Displacement => Function::Displacement,
+            Kind::Covariance => Function::Covariance,
         };
-        let count = count.program(&model).operations();
+        let count = straight_line(count, &model).operations();
         format!("{} / {}", count.mul, count.add)
     });
     let milliseconds = 1e3 * seconds[seconds.len() / 2];

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use abbe_codegen::emit;
+use abbe_codegen::print;
 use abbe_codegen::spec::Spec;
 use abbe_manipulators::SHIPPED;
 use tempfile::tempdir;
@@ -16,7 +16,7 @@ fn shipped_names_and_files_give_the_same_code() {
         let file = format!("{}.toml", shipped.name);
         let path = write(folder.path(), &file, shipped.spec);
         let code = prints(&["generate", path.to_str().unwrap(), "--lang", "rust"]);
-        assert_eq!(code, emit::rust(&Spec::read(&path).unwrap()));
+        assert_eq!(code, print::rust(&Spec::read(&path).unwrap()));
         assert_eq!(code, prints(&["generate", shipped.name]));
     }
 }

@@ -32,7 +32,7 @@ fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
     let path = Path::new(&root).join(file.value());
     match abbe_codegen::spec::Spec::read(&path) {
         Ok(spec) => {
-            let module: proc_macro2::TokenStream = abbe_codegen::emit::rust(&spec).parse()?;
+            let module: proc_macro2::TokenStream = abbe_codegen::print::rust(&spec).parse()?;
             let path = path.to_string_lossy();
             // The compiler watches files that are included.
             Ok(quote! {
@@ -49,7 +49,7 @@ fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
 
 #[cfg(test)]
 mod tests {
-    use abbe_codegen::emit;
+    use abbe_codegen::print;
     use abbe_codegen::spec::Spec;
     use proc_macro2::Span;
 
@@ -63,7 +63,7 @@ mod tests {
     fn the_macro_gives_the_code_that_the_other_doors_write() {
         let file = "../../manipulators/specs/pps.toml";
         let spec = Spec::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
-        let written: proc_macro2::TokenStream = emit::rust(&spec).parse().unwrap();
+        let written: proc_macro2::TokenStream = print::rust(&spec).parse().unwrap();
         let expanded = expanded(file).unwrap().to_string();
         let watched = expanded.strip_prefix(&written.to_string()).unwrap();
         assert!(watched.contains("include_str"));

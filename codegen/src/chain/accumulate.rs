@@ -1,6 +1,7 @@
 //! From the tip to the base: what the errors of all frames do to the tool point, without any frame's pose in `F_0`.
 
 use super::local::Local;
+use super::rows::Rows;
 use crate::graph::{Graph, Node, Vector};
 use crate::spec::Spec;
 
@@ -11,7 +12,15 @@ pub(super) struct Links {
 }
 
 /// What is accumulated, in the axes of the frame that has been reached.
-pub(super) trait Accumulated {
+pub(crate) trait Accumulated {
+    /// How many numbers it is.
+    const NUMBERS: usize;
+    /// What so many numbers are.
+    fn from_numbers(numbers: &[Node]) -> Self;
+    /// Its numbers.
+    fn numbers(&self) -> Vec<Node>;
+    /// Columns of six rows.
+    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]>;
     /// Takes in the six errors of the frame; `lever` is the tool point as seen from it.
     fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector);
     /// Goes over to the axes before a motion.

@@ -10,7 +10,7 @@ use crate::spec::Spec;
 /// `ΔX = J_e ε` along the chain.
 pub(super) fn along(graph: &mut Graph, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {
     let none = Displacement::none(graph);
-    links.accumulate(graph, errors, none).rows(graph, rows)
+    links.accumulate(graph, errors, none).column(graph, rows)
 }
 
 /// The six errors of every frame that each source causes by itself, a random one for its magnitude.

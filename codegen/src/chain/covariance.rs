@@ -15,7 +15,7 @@ type Matrix = [Vector; 3];
 /// ```text
 /// PP += diag(σ_d²) + L diag(σ_θ²) Lᵀ        PR += L diag(σ_θ²)        RR += diag(σ_θ²)
 /// ```
-pub(super) struct Covariance {
+pub(crate) struct Covariance {
     /// δ by δ.
     pp: Matrix,
     /// δ by θ.
@@ -29,9 +29,34 @@ impl Covariance {
         let zero = [[graph.zero(); 3]; 3];
         Self { pp: zero, pr: zero, rr: zero }
     }
+}
+
+/// The entries of a symmetric block that say all about it.
+const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+impl Accumulated for Covariance {
+    const NUMBERS: usize = 21;
+
+    /// The upper triangle of PP, all of PR, the upper triangle of RR.
+    fn from_numbers(numbers: &[Node]) -> Self {
+        let symmetric = |first: usize| {
+            let mut block = [[numbers[0]; 3]; 3];
+            for (k, (i, j)) in UPPER.into_iter().enumerate() {
+                (block[i][j], block[j][i]) = (numbers[first + k], numbers[first + k]);
+            }
+            block
+        };
+        let pr = [0, 1, 2].map(|i| [0, 1, 2].map(|j| numbers[6 + 3 * i + j]));
+        Self { pp: symmetric(0), pr, rr: symmetric(15) }
+    }
+
+    fn numbers(&self) -> Vec<Node> {
+        let upper = |block: &Matrix| UPPER.map(|(i, j)| block[i][j]);
+        upper(&self.pp).into_iter().chain(self.pr.concat()).chain(upper(&self.rr)).collect()
+    }
 
     /// The 6 × 6 covariance of ΔX: with B from the small rotation to rows 4–6, `PR Bᵀ` and `B RR Bᵀ`.
-    pub(super) fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
+    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
         let pr = self.pr.map(|row| rows.of(graph, row));
         let half = transposed(self.rr.map(|row| rows.of(graph, row)));
         let rr = symmetric(half.map(|row| rows.of(graph, row)));
@@ -39,16 +64,14 @@ impl Covariance {
         let lower = (0..3).map(|i| joined(transposed(pr)[i], rr[i]));
         upper.chain(lower).collect()
     }
-}
 
-impl Accumulated for Covariance {
     fn add(&mut self, graph: &mut Graph, variances: [Node; 6], [x, y, z]: Vector) {
         let (shift, turn) = vectors(variances);
         let zero = graph.zero();
         let [minus_x, minus_y, minus_z] = graph.neg_vector([x, y, z]);
         let lever = [[zero, z, minus_y], [minus_z, zero, x], [y, minus_x, zero]];
         let swing = lever.map(|row: Vector| [0, 1, 2].map(|k| graph.mul(row[k], turn[k])));
-        for (i, j) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
+        for (i, j) in UPPER {
             let part = graph.dot(swing[i], lever[j]);
             self.pp[i][j] = graph.add(self.pp[i][j], part);
             self.pp[j][i] = self.pp[i][j];

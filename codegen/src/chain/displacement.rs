@@ -11,7 +11,7 @@ use crate::graph::{Graph, Node, Vector};
 /// ```text
 /// δ ← R_i (δ + d_i + θ_i × ρ)        θ ← R_i (θ + θ_i)
 /// ```
-pub(super) struct Displacement {
+pub(crate) struct Displacement {
     /// δ.
     shift: Vector,
     /// θ.
@@ -25,12 +25,28 @@ impl Displacement {
     }
 
     /// The six rows of ΔX.
-    pub(super) fn rows(&self, graph: &mut Graph, rows: &Rows) -> [Node; 6] {
+    pub(super) fn column(&self, graph: &mut Graph, rows: &Rows) -> [Node; 6] {
         rows.column(graph, self.shift, self.turn)
     }
 }
 
 impl Accumulated for Displacement {
+    const NUMBERS: usize = 6;
+
+    fn from_numbers(numbers: &[Node]) -> Self {
+        let vector = |first: usize| [0, 1, 2].map(|i| numbers[first + i]);
+        Self { shift: vector(0), turn: vector(3) }
+    }
+
+    fn numbers(&self) -> Vec<Node> {
+        [self.shift, self.turn].concat()
+    }
+
+    /// ΔX alone.
+    fn rows(&self, graph: &mut Graph, rows: &Rows) -> Vec<[Node; 6]> {
+        vec![self.column(graph, rows)]
+    }
+
     fn add(&mut self, graph: &mut Graph, errors: [Node; 6], lever: Vector) {
         let (shift, turn) = vectors(errors);
         let swing = graph.cross(turn, lever);

@@ -7,7 +7,7 @@ use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::Component;
 
 /// What the six columns of a frame are made of: its axes, and of the rotations `e_s e_r e_p` the moments and rows 4–6.
-pub(super) struct Columns {
+pub(crate) struct Columns {
     axes: [Vector; 3],
     moments: [Vector; 3],
     rows: [Vector; 3],
@@ -25,21 +25,27 @@ pub(super) fn columns(
     mut moments: Moments<'_>,
     rows: &Rows,
 ) -> Vec<Columns> {
-    let rotations = [Component::Spin, Component::Roll, Component::Pitch].map(|component| motion(component).1);
     let of_frame = |(i, frame): (usize, &Frame)| {
         let moments = moments.of(graph, i);
-        Columns {
-            axes: frame.axes,
-            moments: rotations.map(|axis| moments[axis]),
-            rows: rotations.map(|axis| rows.of(graph, frame.axes[axis])),
-        }
+        Columns::new(graph, frame, moments, rows)
     };
     frames.iter().enumerate().map(of_frame).collect()
 }
 
 impl Columns {
+    /// Those of a frame, from the moments of its x, y and z axis.
+    pub(crate) fn new(graph: &mut Graph, frame: &Frame, moments: [Vector; 3], rows: &Rows) -> Self {
+        let rotations =
+            [Component::Spin, Component::Roll, Component::Pitch].map(|component| motion(component).1);
+        Self {
+            axes: frame.axes,
+            moments: rotations.map(|axis| moments[axis]),
+            rows: rotations.map(|axis| rows.of(graph, frame.axes[axis])),
+        }
+    }
+
     /// The six columns, every entry of them.
-    pub(super) fn dense(&self, graph: &mut Graph) -> [[Node; 6]; 6] {
+    pub(crate) fn dense(&self, graph: &mut Graph) -> [[Node; 6]; 6] {
         let zero = [graph.zero(); 3];
         Component::ALL.map(|component| {
             let ([a, b, c], [d, e, f]) = match motion(component) {
@@ -55,7 +61,7 @@ impl Columns {
 
     /// What is neither zero nor repeated: the axes, the moments of `e_s e_r e_p`, and where rows 4–6 are not the axes
     /// again, these too.
-    pub(super) fn distinct(&self, rows: &Rows) -> Vec<Node> {
+    pub(crate) fn distinct(&self, rows: &Rows) -> Vec<Node> {
         let rows = match rows {
             Rows::RotationVector => &[][..],
             Rows::EulerYzx(_) => &self.rows,

@@ -9,7 +9,7 @@ use crate::graph::{Frame, Graph, Node, Op, Vector};
 use crate::spec::Factor;
 
 /// One of the motions that make up a transform, each in the axes that those before it lead to.
-pub(super) enum Local {
+pub(crate) enum Local {
     /// A translation.
     Shift(Vector),
     /// A turn about coordinate axis 0, 1 or 2.
@@ -51,7 +51,7 @@ impl Local {
     }
 
     /// A direction in the axes before the motion.
-    pub(super) fn direction(&self, graph: &mut Graph, v: Vector) -> Vector {
+    pub(crate) fn direction(&self, graph: &mut Graph, v: Vector) -> Vector {
         match self {
             Self::Shift(_) => v,
             Self::Turn { axis, sine, cosine } => {
@@ -68,7 +68,7 @@ impl Local {
     }
 
     /// A point in the axes before the motion, from their origin.
-    pub(super) fn point(&self, graph: &mut Graph, p: Vector) -> Vector {
+    pub(crate) fn point(&self, graph: &mut Graph, p: Vector) -> Vector {
         match self {
             Self::Shift(shift) => graph.add_vectors(*shift, p),
             _ => self.direction(graph, p),

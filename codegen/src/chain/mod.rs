@@ -21,7 +21,15 @@ mod sources;
 mod symbol_jacobian;
 mod walk;
 
+pub(crate) use accumulate::Accumulated;
+pub(crate) use covariance::Covariance;
+pub(crate) use displacement::Displacement;
+pub(crate) use error_jacobian::Columns;
+pub(crate) use local::Local;
 pub use local_twist::LocalTwist;
 pub use model::{Jacobian, Model};
+pub(crate) use real::displaced;
+pub(crate) use rows::Rows;
 pub use sources::EffectNode;
+pub(crate) use symbol_jacobian::swing;
 pub use walk::transform;

@@ -1,5 +1,6 @@
 //! Everything that is generated for a manipulator, as nodes of one graph.
 
+use super::accumulate::Accumulated;
 use super::accumulate::Links;
 use super::by_source;
 use super::covariance::Covariance;
@@ -12,9 +13,9 @@ use super::rows::Rows;
 use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
-use crate::expr::Symbol;
-use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::{Class, Source, Spec};
+use crate::expr::{Elementary, Motion, Symbol};
+use crate::graph::{Frame, Graph, Node, Op, Vector};
+use crate::spec::{Class, Factor, Source, Spec};
 
 /// A Jacobian, or anything else with its rows: columns, rows as the spec's orientation says.
 #[derive(Clone, Debug)]
@@ -88,6 +89,11 @@ impl Model {
         let tool = walk(g, at, &spec.tool, &mut steps);
         name(g, &tool, "t");
 
+        for (i, frame) in spec.frames.iter().enumerate() {
+            name_lengths(g, &frame.factors, &(i + 1).to_string());
+        }
+        name_lengths(g, &spec.tool, "t");
+
         let rows = Rows::new(g, spec.orientation, tool.axes[0]);
         let margin = rows.margin();
         let moments = Moments::new(g, &frames, &tool, &steps, &ends);
@@ -122,8 +128,8 @@ impl Model {
             .map(|i| std::array::from_fn(|k| g.symbol(Symbol::Error(6 * i + k))))
             .collect();
         let none = Displacement::none(g);
-        let displaced = links.accumulate(g, &symbols, none).rows(g, &along);
-        let displacement = Jacobian { columns: vec![displaced], margin: along.margin() };
+        let columns = links.accumulate(g, &symbols, none).rows(g, &along);
+        let displacement = Jacobian { columns, margin: along.margin() };
         let none = Covariance::none(g);
         let columns = links.accumulate(g, &symbols, none).rows(g, &along);
         let covariance = Jacobian { columns, margin: along.margin() };
@@ -176,6 +182,38 @@ fn name(graph: &mut Graph, frame: &Frame, index: &str) {
     }
     for (node, axis) in frame.position.iter().zip("xyz".chars()) {
         graph.propose(*node, || format!("p{index}_{axis}"));
+    }
+}
+
+/// Names the lengths of a transform that are numbers: `x2` is that along x from frame 1 to frame 2, `a2` the radius where
+/// a matrix has `a cos θ` and `a sin θ`.
+fn name_lengths(graph: &mut Graph, factors: &[Factor], index: &str) {
+    for factor in factors {
+        match factor {
+            Factor::Elementary(Elementary { motion: Motion::Translation, axis, amount }) => {
+                let amount = graph.lower(amount);
+                name_length(graph, amount, *axis, index);
+            }
+            Factor::Matrix(matrix) => {
+                for (axis, row) in matrix.rows.iter().enumerate() {
+                    let amount = graph.lower(&row[3]);
+                    name_length(graph, amount, axis, index);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn name_length(graph: &mut Graph, amount: Node, axis: usize, index: &str) {
+    let letter = ["x", "y", "z"][axis];
+    match graph.op(amount) {
+        Op::Constant(bits) => graph.propose_number(f64::from_bits(bits), || format!("{letter}{index}")),
+        Op::Mul(a, b) => {
+            let factor = graph.value(a).or(graph.value(b));
+            factor.into_iter().for_each(|value| graph.propose_number(value, || format!("a{index}")));
+        }
+        _ => {}
     }
 }
 

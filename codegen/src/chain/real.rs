@@ -11,16 +11,21 @@ pub(super) fn real_pose(graph: &mut Graph, spec: &Spec, errors: &[[Node; 6]]) ->
     let mut pose = graph.identity();
     for (frame, errors) in spec.frames.iter().zip(errors) {
         pose = walk(graph, pose, &frame.factors, &mut unused);
-        // E = T(e_x, e_y, e_z) R_y(e_s) R_z(e_r) R_x(e_p): the order of ε.
-        for (component, error) in Component::ALL.into_iter().zip(errors) {
-            if *error == graph.zero() {
-                continue;
-            }
-            pose = match motion(component) {
-                (Motion::Translation, axis) => graph.moved(&pose, axis, *error),
-                (Motion::Rotation, axis) => graph.turned(&pose, axis, *error),
-            };
-        }
+        pose = displaced(graph, pose, errors);
     }
     walk(graph, pose, &spec.tool, &mut unused)
+}
+
+/// A pose and `E = T(e_x, e_y, e_z) R_y(e_s) R_z(e_r) R_x(e_p)`, in the order of ε.
+pub(crate) fn displaced(graph: &mut Graph, mut pose: Frame, errors: &[Node; 6]) -> Frame {
+    for (component, error) in Component::ALL.into_iter().zip(errors) {
+        if *error == graph.zero() {
+            continue;
+        }
+        pose = match motion(component) {
+            (Motion::Translation, axis) => graph.moved(&pose, axis, *error),
+            (Motion::Rotation, axis) => graph.turned(&pose, axis, *error),
+        };
+    }
+    pose
 }

@@ -4,7 +4,7 @@ use crate::graph::{Graph, Node, Vector};
 use crate::spec::Orientation;
 
 /// What turns a small rotation ω in `F_0` into rows 4–6.
-pub(super) enum Rows {
+pub(crate) enum Rows {
     /// ω itself.
     RotationVector,
     /// Changes of spin σ, roll ρ and pitch π.
@@ -17,9 +17,9 @@ pub(super) enum Rows {
 /// ω = σ̇ ŷ + ρ̇ R_y(σ) ẑ + π̇ R_T x̂
 /// π̇ = (r11 ωx + r31 ωz) / cos² ρ      ρ̇ = (r11 ωz − r31 ωx) / cos ρ      σ̇ = ωy − r21 π̇
 /// ```
-pub(super) struct EulerYzx {
-    /// `cos ρ = √(r11² + r31²)`: where it is 0 there are no rows.
-    margin: Node,
+pub(crate) struct EulerYzx {
+    /// `cos ρ = √(r11² + r31²)`: where it is 0 there are no rows. None if only its parts are known.
+    margin: Option<Node>,
     /// `(r11, r31) / cos ρ`.
     roll: [Node; 2],
     /// `(r11, r31) / cos² ρ`.
@@ -30,7 +30,7 @@ pub(super) struct EulerYzx {
 
 impl Rows {
     /// `first_axis` is the first column of `R_T`.
-    pub(super) fn new(graph: &mut Graph, orientation: Orientation, first_axis: Vector) -> Self {
+    pub(crate) fn new(graph: &mut Graph, orientation: Orientation, first_axis: Vector) -> Self {
         if orientation == Orientation::RotationVector {
             return Self::RotationVector;
         }
@@ -43,14 +43,38 @@ impl Rows {
         let inverse = graph.div(one, margin);
         let roll = [r11, r31].map(|entry| graph.mul(entry, inverse));
         let pitch = roll.map(|entry| graph.mul(entry, inverse));
-        Self::EulerYzx(EulerYzx { margin, roll, pitch, first_axis })
+        Self::EulerYzx(EulerYzx { margin: Some(margin), roll, pitch, first_axis })
+    }
+
+    /// How many numbers Euler rows take.
+    pub(crate) const PARTS: usize = 7;
+
+    /// What Euler rows take; nothing if rows are a rotation vector.
+    pub(crate) fn parts(&self) -> Vec<Node> {
+        match self {
+            Self::RotationVector => Vec::new(),
+            Self::EulerYzx(EulerYzx { roll, pitch, first_axis, .. }) => {
+                [&roll[..], pitch, first_axis].concat()
+            }
+        }
+    }
+
+    /// Euler rows from their parts; their margin is not known.
+    pub(crate) fn from_parts(parts: &[Node]) -> Self {
+        let first_axis = [parts[4], parts[5], parts[6]];
+        Self::EulerYzx(EulerYzx {
+            margin: None,
+            roll: [parts[0], parts[1]],
+            pitch: [parts[2], parts[3]],
+            first_axis,
+        })
     }
 
     /// `cos ρ` where the rows are Euler angles.
-    pub(super) fn margin(&self) -> Option<Node> {
+    pub(crate) fn margin(&self) -> Option<Node> {
         match self {
             Self::RotationVector => None,
-            Self::EulerYzx(euler) => Some(euler.margin),
+            Self::EulerYzx(euler) => euler.margin,
         }
     }
 
@@ -75,7 +99,7 @@ impl Rows {
     }
 
     /// A column from the velocity of the tool point and the rotation ω.
-    pub(super) fn column(&self, graph: &mut Graph, velocity: Vector, omega: Vector) -> [Node; 6] {
+    pub(crate) fn column(&self, graph: &mut Graph, velocity: Vector, omega: Vector) -> [Node; 6] {
         let [x, y, z] = velocity;
         let [four, five, six] = self.of(graph, omega);
         [x, y, z, four, five, six]

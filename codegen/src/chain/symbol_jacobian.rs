@@ -60,7 +60,7 @@ pub(super) fn with_symbols(graph: &Graph, steps: Vec<Step>) -> Vec<(Step, Vec<Sy
 }
 
 /// `v + ω × (p_T − p)`.
-fn swing(graph: &mut Graph, velocity: Vector, omega: Vector, tool: Vector, at: Vector) -> Vector {
+pub(crate) fn swing(graph: &mut Graph, velocity: Vector, omega: Vector, tool: Vector, at: Vector) -> Vector {
     if omega == [graph.zero(); 3] {
         return velocity;
     }

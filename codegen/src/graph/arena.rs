@@ -62,6 +62,7 @@ impl Op {
 pub struct Graph {
     ops: IndexSet<Op>,
     names: IndexMap<Node, String>,
+    numbers: IndexMap<u64, String>,
 }
 
 impl Graph {
@@ -100,6 +101,18 @@ impl Graph {
         if !matches!(self.op(node), Op::Constant(_) | Op::Symbol(_)) {
             self.names.entry(node).or_insert_with(name);
         }
+    }
+
+    /// Proposes a name for a number where it recurs; the first proposal stays, and 0, 1 and −1 need none.
+    pub fn propose_number(&mut self, value: f64, name: impl FnOnce() -> String) {
+        if value != 0.0 && value.abs() != 1.0 {
+            self.numbers.entry(value.to_bits()).or_insert_with(name);
+        }
+    }
+
+    /// The name that generated code should give a number.
+    pub fn name_of_number(&self, value: f64) -> Option<&str> {
+        self.numbers.get(&value.to_bits()).map(String::as_str)
     }
 
     /// The value of a constant node.

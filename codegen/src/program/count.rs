@@ -49,6 +49,30 @@ impl Program {
     }
 }
 
+impl Operations {
+    /// So many times as many.
+    pub fn times(self, count: usize) -> Self {
+        self.each(Self::default(), |a, _| a * count)
+    }
+
+    /// Both together.
+    pub fn plus(self, other: Self) -> Self {
+        self.each(other, |a, b| a + b)
+    }
+
+    fn each(self, other: Self, f: impl Fn(usize, usize) -> usize) -> Self {
+        Self {
+            mul: f(self.mul, other.mul),
+            add: f(self.add, other.add),
+            neg: f(self.neg, other.neg),
+            div: f(self.div, other.div),
+            sincos: f(self.sincos, other.sincos),
+            sqrt: f(self.sqrt, other.sqrt),
+            other: f(self.other, other.other),
+        }
+    }
+}
+
 /// `138 mul, 79 add, 6 sincos`: multiplications and additions always, the rest where there is any.
 impl fmt::Display for Operations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,14 +1,20 @@
-//! Straight-line programs: what to compute, in which order, in no particular language.
+//! Programs: what to compute, in which order, in no particular language.
 //!
-//! A [`Program`] is one function of the variables, parameters and inputs: [`Step`]s, each after those it uses,
-//! and the values it returns. `functions` lists the functions of a manipulator.
+//! A [`Program`] is straight-line: [`Step`]s, each after those it uses, and the values it returns. `outputs` says which
+//! nodes are the outputs of which function; a [`Routine`] is how a function is computed: mostly one program, of long
+//! chains several with loops around them (`loops`). [`Routines`] are all functions of a manipulator.
 
 mod count;
-mod functions;
 mod fuse;
+mod loops;
 mod order;
+mod outputs;
+mod routine;
+mod routines;
 mod straight_line;
 
 pub use count::Operations;
-pub use functions::{FunctionKind, functions};
+pub use outputs::straight_line;
+pub use routine::{Array, Block, Place, Repeated, Role, Routine, Row, Stage, Sums, Table};
+pub use routines::Routines;
 pub use straight_line::{Action, Operand, Program, Step};

@@ -1,5 +1,7 @@
 //! From the nodes of a result to the steps that compute it.
 
+use indexmap::IndexMap;
+
 use crate::expr::{Function, Symbol};
 use crate::graph::{Graph, Node, Op};
 
@@ -78,6 +80,8 @@ pub struct Program {
     pub steps: Vec<Step>,
     /// The values it returns.
     pub outputs: Vec<Operand>,
+    /// Numbers that recur, and what generated code should call them.
+    pub numbers: Vec<(f64, String)>,
     /// How many registers the steps define.
     pub registers: usize,
     /// How often each register is used, as an operand or output.
@@ -96,7 +100,13 @@ impl Program {
                 op.operands().for_each(|operand| needed[operand.index()] = true);
             }
         }
-        let mut program = Self { steps: Vec::new(), outputs: Vec::new(), registers: 0, uses: Vec::new() };
+        let mut program = Self {
+            steps: Vec::new(),
+            outputs: Vec::new(),
+            numbers: Vec::new(),
+            registers: 0,
+            uses: Vec::new(),
+        };
         let mut values: Vec<Option<Operand>> = vec![None; count];
         for index in 0..count {
             if needed[index] && values[index].is_none() {
@@ -108,7 +118,20 @@ impl Program {
         program.count_uses();
         program.fuse();
         program.sines_first();
+        program.name_numbers(graph);
         program
+    }
+
+    fn name_numbers(&mut self, graph: &Graph) {
+        let mut uses: IndexMap<u64, usize> = IndexMap::new();
+        for operand in self.steps.iter().flat_map(|step| step.action.operands()) {
+            if let Operand::Constant(value) = operand {
+                *uses.entry(value.to_bits()).or_default() += 1;
+            }
+        }
+        let recurring = uses.into_iter().filter(|(_, uses)| *uses > 1).map(|(bits, _)| f64::from_bits(bits));
+        let named = recurring.filter_map(|value| Some((value, graph.name_of_number(value)?.to_owned())));
+        self.numbers = named.collect();
     }
 
     fn translate(

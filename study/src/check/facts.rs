@@ -1,7 +1,7 @@
 //! What a spec says, in the order of the file.
 
 use abbe_codegen::chain::Model;
-use abbe_codegen::program::{Operations, functions};
+use abbe_codegen::program::{Operations, Routines};
 use abbe_codegen::spec::{Class, Distribution, Effect, Orientation, Spec, VariableKind};
 use serde::Serialize;
 
@@ -175,10 +175,12 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 fn operations(spec: &Spec) -> Vec<Function> {
-    let counted = functions(&Model::new(spec)).into_iter().map(|(kind, program)| {
-        let operations = program.operations();
+    let routines = Routines::new(spec, &Model::new(spec));
+    let functions = routines.list.into_iter().filter(|routine| routine.function.is_some());
+    let counted = functions.map(|routine| {
+        let operations = routine.operations;
         let Operations { mul, add, neg, div, sincos, sqrt, other } = operations;
-        Function { function: kind.name(), mul, add, neg, div, sincos, sqrt, other, operations }
+        Function { function: routine.name, mul, add, neg, div, sincos, sqrt, other, operations }
     });
     counted.collect()
 }

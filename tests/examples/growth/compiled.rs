@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use abbe_codegen::emit;
+use abbe_codegen::print;
 use abbe_codegen::spec::Spec;
 use abbe_tests::chains::general_chain;
 
@@ -34,7 +34,7 @@ pub(crate) fn report(lengths: &[usize]) -> Result<(), Box<dyn Error>> {
         let spec =
             Spec::parse("chain.toml", &general_chain(frames)).map_err(|mistakes| mistakes.to_string())?;
         write(name, "Cargo.toml", &package(name, ""))?;
-        write(name, "src/lib.rs", &emit::rust(&spec))?;
+        write(name, "src/lib.rs", &print::rust(&spec))?;
         dependencies.push_str(&format!("{name} = {{ path = \"../{name}\" }}\n"));
         runs.push_str(&format!("    run!({name});\n"));
     }

@@ -8,9 +8,10 @@ mod compiled;
 use std::hint::black_box;
 use std::time::Instant;
 
+use abbe::Function;
 use abbe_codegen::chain::Model;
-use abbe_codegen::program::{FunctionKind, functions};
-use abbe_codegen::{emit, spec::Spec};
+use abbe_codegen::program::{Routines, straight_line};
+use abbe_codegen::{print, spec::Spec};
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::general_chain;
 
@@ -44,9 +45,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             (spec, model)
         };
         let (nodes, (spec, model)) = quickest(read);
-        let (steps, programs) = quickest(|| functions(&model));
-        let (written, module) = quickest(|| emit::module(&spec, &model, &programs));
-        let count = FunctionKind::ErrorJacobian.program(&model).operations();
+        let (steps, routines) = quickest(|| Routines::new(&spec, &model));
+        let (written, module) = quickest(|| print::rust::module(&spec, &model, &routines));
+        let count = straight_line(Function::ErrorJacobian, &model).operations();
         println!(
             "{name:<12} {:>6} {:>7} {:>7} {nodes:>9.2} {steps:>9.2} {written:>9.2} {:>9.2} {:>9.1}",
             spec.frames.len(),

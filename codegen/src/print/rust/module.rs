@@ -1,30 +1,24 @@
 //! The module of a manipulator.
 
 use super::face;
-use super::header::header;
+use super::functions::raw_function;
 use super::literal::looks_like_named;
-use super::long::helpers;
-use super::raw::raw_function;
-use super::writer::Writer;
+use super::tables::tables;
 use crate::chain::Model;
-use crate::program::{FunctionKind, Operand, Program, functions};
+use crate::print::header::header;
+use crate::print::layout::Writer;
+use crate::program::{Operand, Program, Routines, Stage};
 use crate::spec::{Class, Spec};
 
 /// The counts that arrays have as sizes.
 const SIZES: [&str; 8] =
     ["DISTINCT", "EFFECTS", "ERRORS", "FRAMES", "INPUTS", "PARAMETERS", "SOURCES", "VARIABLES"];
 
-/// The source of a manipulator's module, `pub mod name { … }`: formatted, the same bytes every time.
-pub fn rust(spec: &Spec) -> String {
-    let model = Model::new(spec);
-    module(spec, &model, &functions(&model))
-}
-
-/// The source of the module from the programs of its functions.
-pub fn module(spec: &Spec, model: &Model, functions: &[(FunctionKind, Program)]) -> String {
-    let mut writer = Writer::new();
-    header(&mut writer, spec, functions);
-    allowed_lints(spec, functions).into_iter().for_each(|lint| writer.lines(&format!("#[allow({lint})]")));
+/// The source of the module from the routines of its functions.
+pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
+    let mut writer = Writer::new("///");
+    header(&mut writer, spec, routines);
+    allowed_lints(spec, routines).into_iter().for_each(|lint| writer.lines(&format!("#[allow({lint})]")));
     writer.open(&format!("pub mod {}", spec.name));
     writer.imports("::abbe", &used_types(spec, model));
     writer.blank();
@@ -38,12 +32,16 @@ pub fn module(spec: &Spec, model: &Model, functions: &[(FunctionKind, Program)])
     writer.open("pub mod raw");
     writer.imports("super", &SIZES);
     writer.lines("use ::abbe::Scalar;");
-    for (kind, program) in functions {
+    let (functions, helpers): (Vec<_>, Vec<_>) =
+        routines.list.iter().partition(|routine| routine.function.is_some());
+    for routine in functions {
         writer.blank();
-        raw_function(&mut writer, spec, *kind, program);
+        raw_function(&mut writer, spec, routines, routine);
     }
-    if spec.is_long() {
-        helpers(&mut writer, spec, model);
+    tables(&mut writer, routines);
+    for routine in helpers {
+        writer.blank();
+        raw_function(&mut writer, spec, routines, routine);
     }
     writer.close("}");
     writer.close("}");
@@ -51,14 +49,15 @@ pub fn module(spec: &Spec, model: &Model, functions: &[(FunctionKind, Program)])
 }
 
 /// What a program does not call, and lints that numbers and names of the spec would trip.
-fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<&'static str> {
+fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
     let mut allowed = vec!["dead_code"];
     let names = spec.parameters.iter().map(|p| &p.name).chain(spec.inputs.iter().map(|i| &i.name));
     let mut names = names.chain(spec.variables.iter().map(|v| &v.name));
     if names.any(|name| name.contains(|c: char| c.is_ascii_uppercase()) || name.contains("__")) {
         allowed.push("non_snake_case");
     }
-    let steps = functions.iter().flat_map(|(_, program)| &program.steps);
+    let programs = || programs(routines);
+    let steps = programs().flat_map(|program| &program.steps);
     let operands = steps.flat_map(|step| step.action.operands());
     let constants = operands.filter_map(|operand| match operand {
         Operand::Constant(value) => Some(value),
@@ -67,15 +66,28 @@ fn allowed_lints(spec: &Spec, functions: &[(FunctionKind, Program)]) -> Vec<&'st
     let values = spec.parameters.iter().map(|p| p.value).chain(spec.inputs.iter().map(|i| i.value));
     let limits = spec.variables.iter().flat_map(|v| [v.limits[0], v.limits[1], v.home]);
     let ranges = spec.inputs.iter().flat_map(|i| i.range);
-    let outputs =
-        functions.iter().flat_map(|(_, program)| &program.outputs).filter_map(|output| match output {
-            Operand::Constant(value) => Some(*value),
-            _ => None,
-        });
-    if constants.chain(values).chain(limits).chain(ranges).chain(outputs).any(looks_like_named) {
+    let outputs = programs().flat_map(|program| &program.outputs).filter_map(|output| match output {
+        Operand::Constant(value) => Some(*value),
+        _ => None,
+    });
+    let sums = routines.sums.iter();
+    let sums = sums.flat_map(|sums| sums.constants.iter().copied().chain(sums.factors.iter().map(|f| f.2)));
+    if constants.chain(values).chain(limits).chain(ranges).chain(outputs).chain(sums).any(looks_like_named) {
         allowed.push("clippy::approx_constant");
     }
+    if spec.is_long() {
+        // Loops go over rows of several arrays at once.
+        allowed.push("clippy::needless_range_loop");
+    }
     allowed
+}
+
+fn programs(routines: &Routines) -> impl Iterator<Item = &Program> {
+    let stages = routines.list.iter().flat_map(|routine| &routine.stages);
+    stages.filter_map(|stage| match stage {
+        Stage::Block(block) => Some(&block.program),
+        _ => None,
+    })
 }
 
 fn used_types(spec: &Spec, model: &Model) -> Vec<&'static str> {
@@ -118,7 +130,7 @@ mod tests {
             name = "a | b"
             transform = "Tx(1)"
         "#;
-        let module = rust(&Spec::parse("arm.toml", text).unwrap());
+        let module = crate::print::rust(&Spec::parse("arm.toml", text).unwrap());
         let above = module.split("pub mod arm {").next().unwrap();
         assert!(above.contains("two lines and"), "{above}");
         assert!(above.contains("| 1 | a \\| b | fixed |"), "{above}");

@@ -1,9 +1,8 @@
 //! What stands above a generated module.
 
-use super::long::loop_body;
+use super::layout::Writer;
 use super::text::escaped;
-use super::writer::Writer;
-use crate::program::{FunctionKind, Program};
+use crate::program::{Block, Routine, Routines, Stage};
 use crate::spec::{Orientation, Spec};
 
 /// The names of rows 1–6.
@@ -17,7 +16,7 @@ fn rows(orientation: Orientation) -> &'static str {
 }
 
 /// The module's documentation.
-pub(super) fn header(writer: &mut Writer, spec: &Spec, functions: &[(FunctionKind, Program)]) {
+pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     let mut paragraph = |text: &str| {
         if !text.is_empty() {
             writer.documentation(text);
@@ -51,10 +50,14 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, functions: &[(FunctionKin
     row("");
     row("| function | operations |");
     row("|---|---|");
-    for (kind, program) in functions {
-        match loop_body(spec, *kind, program) {
-            Some(_) => row(&format!("| `{}` | a loop over the frames |", kind.name())),
-            None => row(&format!("| `{}` | {} |", kind.name(), program.operations())),
-        }
+    for routine in routines.list.iter().filter(|routine| routine.function.is_some()) {
+        row(&format!("| `{}` | {} |", routine.name, operations(routine)));
     }
+}
+
+/// What a function takes, and whether that is in loops.
+pub(super) fn operations(routine: &Routine) -> String {
+    let is_loop = |stage: &Stage| matches!(stage, Stage::Block(Block { repeated: Some(_), .. }));
+    let loops = if routine.stages.iter().any(is_loop) { ", in a loop over the frames" } else { "" };
+    format!("{}{loops}", routine.operations)
 }

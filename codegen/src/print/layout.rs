@@ -1,4 +1,4 @@
-//! Lines of Rust, laid out so that rustfmt leaves them as they are.
+//! Lines, laid out as rustfmt does: what is narrow on one line, else one below the other.
 
 use super::text::wrapped;
 
@@ -18,11 +18,14 @@ const STEP: usize = 4;
 pub(super) struct Writer {
     text: String,
     depth: usize,
+    /// How a line of documentation begins.
+    comment: &'static str,
 }
 
 impl Writer {
-    pub(super) fn new() -> Self {
-        Self { text: String::new(), depth: 0 }
+    /// No lines yet; those of documentation begin with `comment`.
+    pub(super) fn new(comment: &'static str) -> Self {
+        Self { text: String::new(), depth: 0, comment }
     }
 
     pub(super) fn finish(self) -> String {
@@ -60,15 +63,21 @@ impl Writer {
 
     /// A paragraph of documentation, in as many lines as it takes.
     pub(super) fn documentation(&mut self, paragraph: &str) {
-        for line in wrapped(paragraph, LINE - self.indent() - "/// ".len()) {
+        for line in wrapped(paragraph, LINE - self.indent() - self.comment.len() - 1) {
             self.documentation_line(&line);
         }
     }
 
     /// A line of documentation as it is; an empty one parts paragraphs.
     pub(super) fn documentation_line(&mut self, line: &str) {
-        let line = line.replace(char::is_control, " ");
-        self.lines(format!("/// {line}").trim_end());
+        let line = line.replace(char::is_control, " ").replace("*/", "* /");
+        self.lines(format!("{} {line}", self.comment).trim_end());
+    }
+
+    /// A line beside the code, cut where it is too long.
+    pub(super) fn comment(&mut self, text: &str) {
+        let line: String = format!("// {text}").chars().take(LINE - self.indent()).collect();
+        self.lines(line.trim_end());
     }
 
     /// `use path::{first, second, …};`.
@@ -82,22 +91,21 @@ impl Writer {
         self.lines(&(lines + "};"));
     }
 
-    /// A function: `name(first, second, …) result {`, with all that stands before its arguments as the name.
-    pub(super) fn function(&mut self, name: &str, arguments: &[String], result: &str, body: &[String]) {
+    /// The head of a function, `name(first, second, …) result {`, with all that stands before its arguments as the name;
+    /// an empty one is closed at once.
+    pub(super) fn function(&mut self, name: &str, arguments: &[String], result: &str, is_empty: bool) {
         let head = format!("{name}({}){result} {{", arguments.join(", "));
-        let one_line = fits(self.indent(), width(&head));
-        match (one_line, body.is_empty()) {
-            (true, true) => return self.lines(&format!("{head}}}")),
-            (true, false) => self.lines(&head),
-            (false, _) => {
-                let mut lines = format!("{name}(\n");
-                one_below_the_other(&mut lines, arguments);
-                self.lines(&(lines + ")" + result + " {"));
+        if fits(self.indent(), width(&head)) {
+            self.lines(if is_empty { format!("{head}}}") } else { head }.as_str());
+        } else {
+            let mut lines = format!("{name}(\n");
+            one_below_the_other(&mut lines, arguments);
+            self.lines(&(lines + ")" + result + " {"));
+            if is_empty {
+                self.lines("}");
             }
         }
-        self.depth += 1;
-        body.iter().for_each(|lines| self.lines(lines));
-        self.close("}");
+        self.depth += usize::from(!is_empty);
     }
 
     /// `before[first, second, …]after`.

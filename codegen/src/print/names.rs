@@ -2,42 +2,14 @@
 
 use std::collections::HashSet;
 
+use abbe::Function;
+
 use crate::expr::Symbol;
-use crate::program::{Action, Operand, Program};
+use crate::program::{Action, Array, Operand, Program, Routine};
 use crate::spec::{Component, Spec};
 
-/// Names that arguments and constants have, or that are no names in a pattern.
-const TAKEN: [&str; 27] = [
-    "q",
-    "s",
-    "u",
-    "zero",
-    "one",
-    "pose",
-    "transforms",
-    "columns",
-    "effects",
-    "errors",
-    "variances",
-    "distinct",
-    "displacement",
-    "displacements",
-    "covariance",
-    "FRAMES",
-    "ERRORS",
-    "VARIABLES",
-    "PARAMETERS",
-    "INPUTS",
-    "EFFECTS",
-    "DISTINCT",
-    "SOURCES",
-    "None",
-    "Some",
-    "Ok",
-    "Err",
-];
-
-/// The names of one function.
+/// The names of one routine.
+#[derive(Clone)]
 pub(super) struct Names<'s> {
     spec: &'s Spec,
     used: HashSet<String>,
@@ -47,13 +19,20 @@ pub(super) struct Names<'s> {
     inputs: Vec<String>,
     /// Six per frame.
     errors: Vec<String>,
+    /// What the body of a loop reads.
+    locals: Vec<String>,
 }
 
 impl<'s> Names<'s> {
-    pub(super) fn new(spec: &'s Spec) -> Self {
-        let used = TAKEN.iter().map(|name| (*name).to_owned()).collect();
-        let (variables, parameters, inputs, errors) = (vec![], vec![], vec![], vec![]);
-        let mut names = Self { spec, used, counter: 0, variables, parameters, inputs, errors };
+    /// No name is reserved, or that of an array.
+    pub(super) fn new(spec: &'s Spec, routine: &Routine, reserved: &str) -> Self {
+        let signatures = Function::ALL.map(Function::signature);
+        let arrays =
+            signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
+        let arrays = arrays.map(|array| array.name).chain(routine.arrays.iter().map(|array| array.name));
+        let used = reserved.split_whitespace().chain(arrays).map(str::to_owned).collect();
+        let (variables, parameters, inputs, errors, locals) = (vec![], vec![], vec![], vec![], vec![]);
+        let mut names = Self { spec, used, counter: 0, variables, parameters, inputs, errors, locals };
         names.variables = spec.variables.iter().map(|variable| names.free(&variable.name)).collect();
         names.parameters = spec.parameters.iter().map(|parameter| names.free(&parameter.name)).collect();
         names.inputs = spec.inputs.iter().map(|input| names.free(&input.name)).collect();
@@ -73,7 +52,33 @@ impl<'s> Names<'s> {
         }
     }
 
-    /// A variable, parameter, input or generalized error.
+    /// Another block begins, which reads other numbers.
+    pub(super) fn forget_locals(&mut self) {
+        self.locals.clear();
+    }
+
+    /// Names those numbers of a row that are used: of a pose by row and column, of errors by component, else x, y, z or
+    /// counted.
+    pub(super) fn name_locals(&mut self, array: &Array, used: &[bool]) -> Vec<Option<String>> {
+        let letter = if array.name == "transforms" { "a" } else { &array.name[..1] };
+        let singular = array.name.trim_end_matches('s');
+        let proposed = |i: usize| match (used.len(), array.name) {
+            (12, _) if i < 9 => format!("{letter}_{}{}", i % 3 + 1, i / 3 + 1),
+            (12, _) => format!("{letter}_{}", ["x", "y", "z"][i - 9]),
+            (6, "errors" | "variances") => {
+                format!("{letter}_{}", Component::ALL[i].name().trim_start_matches("e_"))
+            }
+            (3, _) => format!("{singular}_{}", ["x", "y", "z"][i]),
+            (1, _) => singular.to_owned(),
+            _ => format!("{singular}_{}", i + 1),
+        };
+        let names: Vec<Option<String>> =
+            used.iter().enumerate().map(|(i, used)| used.then(|| self.free(&proposed(i)))).collect();
+        self.locals.extend(names.iter().map(|name| name.clone().unwrap_or_default()));
+        names
+    }
+
+    /// A variable, parameter, input, generalized error, or what a loop reads.
     pub(super) fn symbol(&self, symbol: Symbol) -> &str {
         match symbol {
             Symbol::Variable(i) => &self.variables[i],
@@ -81,6 +86,7 @@ impl<'s> Names<'s> {
             Symbol::Input(i) => &self.inputs[i],
             // Named before the body is written, in the functions that have them.
             Symbol::Error(i) => &self.errors[i],
+            Symbol::Local(i) => &self.locals[i],
         }
     }
 

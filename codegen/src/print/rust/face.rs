@@ -1,10 +1,10 @@
 //! What users of a generated module see: constants, parameters, inputs, the checked functions, the trait.
 
 use super::literal::number;
-use super::text::escaped;
-use super::writer::{Writer, array, call};
 use crate::chain::EffectNode;
 use crate::expr::LengthUnit;
+use crate::print::layout::{Writer, array, call};
+use crate::print::text::escaped;
 use crate::spec::{Class, Distribution, Orientation, Spec, VariableKind};
 
 /// Types that a generated module has or uses already.

@@ -1,0 +1,210 @@
+//! The expressions of a program.
+//!
+//! A step that is used once and has no name of its own is written where it is used, as long as the expression
+//! stays narrow; the order of the arithmetic, and so every bit of the result, stays the same.
+
+use std::borrow::Cow;
+
+use super::layout::{NARROW, width};
+use super::names::Names;
+use super::statements::Statement;
+use crate::program::{Action, Operand, Program, Step};
+
+/// How strongly the outermost operator of an expression binds.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+pub(super) enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+/// What a value is written as.
+#[derive(Clone)]
+pub(super) struct Expression {
+    pub(super) text: String,
+    pub(super) binding: Binding,
+    /// Whether it is no more than a name.
+    is_name: bool,
+}
+
+/// The operators, numbers and reserved names of a language.
+pub(super) trait Syntax {
+    /// Names that it has itself, or that its functions use, with spaces between them.
+    fn reserved(&self) -> &'static str;
+    /// A number as an operand.
+    fn number(&self, value: f64) -> Expression;
+    /// 0 and 1 as results.
+    fn zero_and_one(&self) -> [&'static str; 2];
+    /// An action on operands that are written already.
+    fn action(&self, action: Action, operands: &[Expression]) -> Expression;
+}
+
+/// A result of a program.
+pub(super) struct Value {
+    pub(super) text: String,
+    /// After how many statements it is known.
+    pub(super) ready: usize,
+    /// Whether it is zero in every configuration.
+    pub(super) is_zero: bool,
+}
+
+/// The statements of a program, and its outputs.
+pub(super) fn written(
+    program: &Program,
+    names: &mut Names<'_>,
+    syntax: &dyn Syntax,
+) -> (Vec<Statement>, Vec<Value>) {
+    let mut writer = Writer {
+        names,
+        syntax,
+        numbers: vec![],
+        registers: vec![None; program.registers],
+        statements: vec![],
+    };
+    for (value, name) in &program.numbers {
+        let named = writer.bind(Some(name), syntax.number(*value).text);
+        writer.numbers.push((*value, named));
+    }
+    let mut ready = vec![0; program.registers];
+    // Results are written as they are, without arithmetic.
+    let mut returned = vec![false; program.registers];
+    for output in &program.outputs {
+        if let Operand::Register(register) = output {
+            returned[*register] = true;
+        }
+    }
+    let mut steps = program.steps.iter().peekable();
+    while let Some(step) = steps.next() {
+        if let Action::SinCos(angle) = step.action {
+            let mut pairs = vec![(step.register, angle)];
+            while let Some(Step { register, action: Action::SinCos(angle), .. }) =
+                steps.next_if(|step| matches!(step.action, Action::SinCos(_)))
+            {
+                pairs.push((*register, *angle));
+            }
+            writer.sines_and_cosines(&pairs, program);
+            for (register, _) in pairs {
+                ready[register..register + 2].fill(writer.statements.len());
+            }
+            continue;
+        }
+        let expression = writer.write(step.action);
+        let once = program.uses[step.register] == 1 && !returned[step.register];
+        if once && step.name.is_none() && width(&expression.text) <= NARROW {
+            writer.registers[step.register] = Some(expression);
+        } else {
+            writer.registers[step.register] = Some(writer.bind(step.name.as_deref(), expression.text));
+            ready[step.register] = writer.statements.len();
+        }
+    }
+    let value = |output: &Operand| Value {
+        text: writer.output(*output),
+        ready: if let Operand::Register(register) = output { ready[*register] } else { 0 },
+        is_zero: *output == Operand::Constant(0.0),
+    };
+    let values = program.outputs.iter().map(value).collect();
+    (writer.statements, values)
+}
+
+struct Writer<'w, 's> {
+    names: &'w mut Names<'s>,
+    syntax: &'w dyn Syntax,
+    /// Numbers that have names.
+    numbers: Vec<(f64, Expression)>,
+    /// How each register is written where it is used: its name, or the whole expression.
+    registers: Vec<Option<Expression>>,
+    statements: Vec<Statement>,
+}
+
+impl Writer<'_, '_> {
+    /// A statement that gives a value its name, and what stands for it from here on.
+    fn bind(&mut self, name: Option<&str>, value: String) -> Expression {
+        let name = self.names.step(name);
+        self.statements.push(Statement::Let { name: name.clone(), value });
+        Expression::name(name)
+    }
+
+    fn sines_and_cosines(&mut self, pairs: &[(usize, Operand)], program: &Program) {
+        let mut angles: Vec<Expression> = pairs.iter().map(|(_, angle)| self.operand(*angle)).collect();
+        if let [angle] = &mut angles[..]
+            && !angle.is_name
+            && width(&angle.at_least(Binding::Atom)) + ".sin_cos()".len() > NARROW
+        {
+            *angle = self.bind(None, angle.text.clone());
+        }
+        let mut written = Vec::with_capacity(pairs.len());
+        for ((register, angle), expression) in pairs.iter().zip(angles) {
+            let (sine, cosine) = self.names.sine_and_cosine(*angle, program);
+            self.registers[*register] = Some(Expression::name(sine.clone()));
+            self.registers[*register + 1] = Some(Expression::name(cosine.clone()));
+            written.push(([sine, cosine], expression));
+        }
+        self.statements.push(Statement::SinCos(written));
+    }
+
+    /// The expression of an action. Of its operands that would make it too wide, the widest get statements of their own.
+    fn write(&mut self, action: Action) -> Expression {
+        let mut operands: Vec<Expression> = action.operands().map(|operand| self.operand(operand)).collect();
+        loop {
+            let expression = self.syntax.action(action, &operands);
+            if width(&expression.text) > NARROW {
+                let compound = operands.iter_mut().filter(|operand| !operand.is_name);
+                if let Some(widest) = compound.max_by_key(|operand| width(&operand.text)) {
+                    *widest = self.bind(None, widest.text.clone());
+                    continue;
+                }
+            }
+            return expression;
+        }
+    }
+
+    fn operand(&self, operand: Operand) -> Expression {
+        match operand {
+            Operand::Constant(value) => {
+                let named = self.numbers.iter().find(|(number, _)| number.to_bits() == value.to_bits());
+                named.map_or_else(|| self.syntax.number(value), |(_, name)| name.clone())
+            }
+            Operand::Symbol(symbol) => Expression::name(self.names.symbol(symbol).to_owned()),
+            // Every step comes after those it uses.
+            Operand::Register(register) => self.registers[register].clone().expect("a step that came before"),
+        }
+    }
+
+    fn output(&self, operand: Operand) -> String {
+        let [zero, one] = self.syntax.zero_and_one();
+        match operand {
+            Operand::Constant(0.0) => zero.to_owned(),
+            Operand::Constant(1.0) => one.to_owned(),
+            operand => self.operand(operand).text,
+        }
+    }
+}
+
+impl Expression {
+    pub(super) fn new(text: String, binding: Binding) -> Self {
+        Self { text, binding, is_name: false }
+    }
+
+    fn name(text: String) -> Self {
+        Self { text, binding: Binding::Atom, is_name: true }
+    }
+
+    /// The expression as an operand of something that needs at least this binding.
+    pub(super) fn at_least(&self, binding: Binding) -> Cow<'_, str> {
+        if self.binding >= binding {
+            Cow::Borrowed(&self.text)
+        } else {
+            Cow::Owned(format!("({})", self.text))
+        }
+    }
+}
+
+/// Two operands and a sign between them. The right one needs a stronger operator, so that nothing is reassociated.
+pub(super) fn infix(a: &Expression, sign: &str, b: &Expression) -> Expression {
+    let (own, right) = match sign {
+        "+" | "-" => (Binding::Sum, Binding::Product),
+        _ => (Binding::Product, Binding::Sign),
+    };
+    Expression::new(format!("{} {sign} {}", a.at_least(own), b.at_least(right)), own)
+}

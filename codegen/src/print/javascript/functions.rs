@@ -1,0 +1,237 @@
+//! Routines as functions.
+
+use super::operators::{JavaScript, number};
+use crate::print::header::operations;
+use crate::print::layout::{NARROW, Writer, width};
+use crate::print::statements::{Statement, Statements};
+use crate::program::{Array, Place, Role, Routine, Routines, Row, Stage};
+use crate::spec::Spec;
+
+/// One function.
+pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
+    let Statements { list, .. } = Statements::new(spec, &routines.description, routine, &JavaScript);
+    writer.blank();
+    documentation(writer, routines, routine);
+    let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
+    let arguments: Vec<&str> = given.map(|array| array.name).collect();
+    let export = if routine.function.is_some() { "export " } else { "" };
+    writer.open(&format!("{export}function {}({})", routine.name, arguments.join(", ")));
+    let mut printer = Printer { writer, routines, routine };
+    list.iter().for_each(|statement| printer.statement(statement));
+    let margin = match list.last() {
+        Some(Statement::Return(value)) => Some(value.as_str()),
+        _ => None,
+    };
+    printer.results(margin);
+    writer.close("}");
+}
+
+fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
+    writer.lines("/**");
+    if let Some(function) = routine.function {
+        let signature = function.signature();
+        writer.documentation(signature.documentation);
+        writer.documentation_line("");
+        let numbers = |array: &abbe::function::Array| {
+            let shape = array.shape.iter().map(|count| count.value(&routines.description).to_string());
+            format!(
+                "{} Numbers: {}; {}.",
+                array.documentation,
+                shape.collect::<Vec<_>>().join(" × "),
+                array.unit
+            )
+        };
+        for array in signature.arguments {
+            writer.documentation(&format!("@param {{Float64Array}} {} {}", array.name, numbers(array)));
+        }
+        let margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
+        match signature.results {
+            [array] if !margin => {
+                writer.documentation(&format!("@returns {{Float64Array}} {}", numbers(array)))
+            }
+            several => {
+                writer.documentation("@returns {object} These by their names:");
+                for array in several {
+                    writer.documentation(&format!("- `{}`: {}", array.name, numbers(array)));
+                }
+                if margin {
+                    writer.documentation("- `margin`: `cos ρ`; where that is 0, rows 4–6 are not finite.");
+                }
+            }
+        }
+        writer.documentation_line("");
+    }
+    writer.documentation(&format!("{}.", operations(routine)));
+    writer.lines(" */");
+}
+
+struct Printer<'p> {
+    writer: &'p mut Writer,
+    routines: &'p Routines,
+    routine: &'p Routine,
+}
+
+impl Printer<'_> {
+    /// What an array is called: not as a function that is called beside it.
+    fn name(&self, array: usize) -> String {
+        let name = self.routine.arrays[array].name;
+        let is_called = |stage: &Stage| matches!(stage, Stage::Call { routine, .. } if *routine == name);
+        format!("{name}{}", if self.routine.stages.iter().any(is_called) { "_" } else { "" })
+    }
+
+    fn len(&self, array: usize) -> usize {
+        self.routine.arrays[array].len(&self.routines.description)
+    }
+
+    /// Number k of row `index` of a place.
+    fn place(&self, Place { array, row }: Place, index: usize, k: usize) -> String {
+        let declared = &self.routine.arrays[array];
+        let len = match row {
+            Row::All => declared.row_len(&self.routines.description),
+            _ => declared.place_len(row, &self.routines.description),
+        };
+        let plus = |factor: String, k: usize| if k == 0 { factor } else { format!("{factor} + {k}") };
+        let times = |factor: usize, what: &str| {
+            if factor == 1 { what.to_owned() } else { format!("{factor} * {what}") }
+        };
+        let at = match row {
+            Row::All => (len * index + k).to_string(),
+            Row::Last => (self.len(array) - len + k).to_string(),
+            Row::Each { stride, offset } => plus(times(stride * len, "i"), offset * len + k),
+            Row::Listed { table, column } => {
+                let entry = format!("{}[{}]", self.routines.tables[table].name, plus("2 * i".into(), column));
+                plus(times(len, &entry), k)
+            }
+        };
+        format!("{}[{at}]", self.name(array))
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Unpack { names, from } => {
+                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
+                let entry = |(k, name): (usize, &String)| format!("{name} = {}", self.place(*from, 0, k));
+                let entries: Vec<String> = named.map(entry).collect();
+                self.filled("const ", &entries, ", ");
+            }
+            Statement::Comment(text) => self.writer.comment(text),
+            Statement::Let { name, value } => self.writer.lines(&format!("const {name} = {value};")),
+            Statement::SinCos(pairs) => {
+                for ([sine, cosine], angle) in pairs {
+                    let angle = &angle.text;
+                    let line = format!("const {sine} = Math.sin({angle}), {cosine} = Math.cos({angle});");
+                    self.writer.lines(&line);
+                }
+            }
+            Statement::Declare(array) => {
+                let value = match self.routine.arrays[*array].role {
+                    Role::Identity => "Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0)".to_owned(),
+                    _ => format!("new Float64Array({})", self.len(*array)),
+                };
+                self.writer.lines(&format!("const {} = {value};", self.name(*array)));
+            }
+            // What is cleared has only begun.
+            Statement::Clear(_) => {}
+            Statement::Copy { from, to } => {
+                let line = format!("{}.set({});", self.name(*to), self.name(*from));
+                self.writer.lines(&line);
+            }
+            Statement::Assign { to, values, fresh: true, .. } => {
+                let values: Vec<&str> = values.iter().map(|value| value.text.as_str()).collect();
+                let line = format!("const {} = Float64Array.of({});", self.name(to.array), values.join(", "));
+                self.writer.lines(&line);
+            }
+            Statement::Assign { to, index, values, fresh: false } => {
+                // A result begins as zeros.
+                let is_result = self.routine.arrays[to.array].role == Role::Result;
+                let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
+                let entry = |(k, value): (usize, &crate::print::expressions::Value)| {
+                    format!("{} = {}", self.place(*to, *index, k), value.text)
+                };
+                let entries: Vec<String> = values.map(entry).collect();
+                self.filled("", &entries, "; ");
+            }
+            Statement::Call { routine, arrays, .. } => self.call(routine, arrays),
+            Statement::Sums { sums, terms, entries } => {
+                let name = self.routines.sums[*sums].name;
+                let [terms, entries] = [terms, entries].map(|array| self.name(*array));
+                self.writer.lines(&format!("{entries}.set({name}_CONSTANTS);"));
+                self.writer.open(&format!("for (let k = 0; k < {name}_FACTORS.length; k += 3)"));
+                let factor = format!("{name}_FACTORS[k + 2] * {terms}[{name}_FACTORS[k + 1]]");
+                self.writer.lines(&format!("{entries}[{name}_FACTORS[k]] += {factor};"));
+                self.writer.close("}");
+            }
+            Statement::For { repeated, body } => {
+                let count = repeated.count.value(&self.routines.description);
+                let head = match repeated.backwards {
+                    false => format!("for (let i = 0; i < {count}; i++)"),
+                    true => format!("for (let i = {}; i >= 0; i--)", number(count as f64 - 1.0)),
+                };
+                self.writer.open(&head);
+                body.iter().for_each(|statement| self.statement(statement));
+                self.writer.close("}");
+            }
+            // With the results.
+            Statement::Return(_) => {}
+        }
+    }
+
+    /// Entries one after the other, as many as a line holds.
+    fn filled(&mut self, before: &str, entries: &[String], between: &str) {
+        let mut line = String::new();
+        for entry in entries {
+            if !line.is_empty() && width(&line) + width(entry) > NARROW + 20 {
+                self.writer.lines(&format!("{before}{line};"));
+                line.clear();
+            }
+            if !line.is_empty() {
+                line.push_str(between);
+            }
+            line.push_str(entry);
+        }
+        if !line.is_empty() {
+            self.writer.lines(&format!("{before}{line};"));
+        }
+    }
+
+    fn call(&mut self, routine: &str, arrays: &[usize]) {
+        let callee = self.routines.named(routine);
+        let is_given = |(_, array): &(&usize, &Array)| array.role == Role::Argument;
+        let (given, filled): (Vec<_>, Vec<_>) = arrays.iter().zip(&callee.arrays).partition(is_given);
+        let given: Vec<String> = given.into_iter().map(|(array, _)| self.name(*array)).collect();
+        let results = match &filled[..] {
+            [(array, _)] => self.name(**array),
+            several => {
+                let entry = |(array, found): &(&usize, &Array)| match self.name(**array) {
+                    name if name == found.name => name,
+                    name => format!("{}: {name}", found.name),
+                };
+                format!("{{ {} }}", several.iter().map(entry).collect::<Vec<_>>().join(", "))
+            }
+        };
+        self.writer.lines(&format!("const {results} = {routine}({});", given.join(", ")));
+    }
+
+    /// What is returned: the only result, or all by their names.
+    fn results(&mut self, margin: Option<&str>) {
+        let arrays = self.routine.arrays.iter().enumerate();
+        let results = arrays.filter(|(_, array)| array.role == Role::Result).map(|(index, array)| {
+            let value =
+                if self.len(index) == 0 { "new Float64Array(0)".to_owned() } else { self.name(index) };
+            (array.name, value)
+        });
+        let margin = margin.map(|value| ("margin", value.to_owned()));
+        let results: Vec<(&str, String)> = results.chain(margin).collect();
+        let line = match &results[..] {
+            [(_, value)] => format!("return {value};"),
+            several => {
+                let entry = |(name, value): &(&str, String)| match name == value {
+                    true => value.clone(),
+                    false => format!("{name}: {value}"),
+                };
+                format!("return {{ {} }};", several.iter().map(entry).collect::<Vec<_>>().join(", "))
+            }
+        };
+        self.writer.lines(&line);
+    }
+}

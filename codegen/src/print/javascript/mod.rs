@@ -1,0 +1,101 @@
+//! JavaScript: an ES module of pure functions on `Float64Array`.
+//!
+//! Every function makes its results anew, flat and in the order in which the Rust arrays have their numbers. One result
+//! is returned as it is, several by their names. `functions` prints routines, `operators` what expressions are made of.
+
+mod functions;
+mod operators;
+
+use self::functions::function;
+use self::operators::number;
+use super::header::header;
+use super::layout::Writer;
+use crate::program::{Routines, Sums};
+use crate::spec::Spec;
+
+/// The source of a manipulator's module.
+pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
+    let mut writer = Writer::new(" *");
+    writer.lines("/**");
+    header(&mut writer, spec, routines);
+    writer.lines(" */");
+    description(&mut writer, routines);
+    for table in &routines.tables {
+        let rows: Vec<String> =
+            table.rows.iter().map(|[first, second]| format!("{first}, {second}")).collect();
+        constant(&mut writer, table.documentation, table.name, &rows);
+    }
+    for Sums { name, constants, factors } in &routines.sums {
+        let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
+        constant(&mut writer, "What is constant in each entry.", &format!("{name}_CONSTANTS"), &values);
+        let row =
+            |(entry, term, factor): &(usize, usize, f64)| format!("{entry}, {term}, {}", number(*factor));
+        let rows: Vec<String> = factors.iter().map(row).collect();
+        let what = "Entry, term, and the factor with which the term is added.";
+        constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
+    }
+    for routine in &routines.list {
+        function(&mut writer, spec, routines, routine);
+    }
+    writer.finish()
+}
+
+/// Names, units, limits, values.
+fn description(writer: &mut Writer, routines: &Routines) {
+    let description = &routines.description;
+    let record = |fields: &[(&str, String)]| {
+        let fields: Vec<String> = fields.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+        format!("{{ {} }}", fields.join(", "))
+    };
+    let pair = |[lower, upper]: [f64; 2]| format!("[{}, {}]", number(lower), number(upper));
+    writer.blank();
+    comment(writer, "Names, units, limits and nominal values, in the order of the arguments.");
+    writer.open("export const description =");
+    writer.lines(&format!("name: {},", quoted(&description.name)));
+    writer.lines(&format!("title: {},", quoted(&description.title)));
+    writer.lines(&format!("length: {},", quoted(description.length.symbol())));
+    writer.lines(&format!("orientation: {},", quoted(description.orientation.name())));
+    let mut list = |name: &str, entries: Vec<String>| {
+        writer.lines(&format!("{name}: ["));
+        entries.iter().for_each(|entry| writer.lines(&format!("    {entry},")));
+        writer.lines("],");
+    };
+    list("frames", description.frames.iter().map(|frame| quoted(&frame.name)).collect());
+    let variables = description.variables.iter().map(|variable| {
+        let kind = format!("{:?}", variable.kind).to_ascii_lowercase();
+        let (limits, home) = (pair(variable.limits), number(variable.home));
+        let name = quoted(&variable.name);
+        record(&[("name", name), ("kind", quoted(&kind)), ("limits", limits), ("home", home)])
+    });
+    list("variables", variables.collect());
+    let parameters = description.parameters.iter().map(|parameter| {
+        let (name, unit) = (quoted(&parameter.name), quoted(&parameter.unit));
+        record(&[("name", name), ("nominal", number(parameter.nominal)), ("unit", unit)])
+    });
+    list("parameters", parameters.collect());
+    let inputs = description.inputs.iter().map(|input| {
+        let (name, unit) = (quoted(&input.name), quoted(&input.unit));
+        let (nominal, range) = (number(input.nominal), pair(input.range));
+        record(&[("name", name), ("nominal", nominal), ("range", range), ("unit", unit)])
+    });
+    list("inputs", inputs.collect());
+    list("sources", description.sources.iter().map(|source| quoted(&source.name)).collect());
+    writer.close("};");
+}
+
+fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {
+    writer.blank();
+    comment(writer, documentation);
+    writer.array(&format!("const {name} = "), values, ";");
+}
+
+fn comment(writer: &mut Writer, text: &str) {
+    writer.lines("/**");
+    writer.documentation(text);
+    writer.lines(" */");
+}
+
+/// A text on one line, as both languages write it.
+fn quoted(text: &str) -> String {
+    format!("{:?}", text.replace(char::is_control, " "))
+}

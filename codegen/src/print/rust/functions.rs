@@ -1,0 +1,291 @@
+//! The array functions of a module: generic over the scalar, without checks.
+
+use abbe::function::Count;
+
+use super::operators::Rust;
+use crate::print::expressions::{Expression, Value};
+use crate::print::header::operations;
+use crate::print::layout::{Writer, array, fits, pattern, width};
+use crate::print::statements::{Statement, Statements};
+use crate::program::{Array, Place, Role, Routine, Routines, Row};
+use crate::spec::Spec;
+
+/// One function.
+pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
+    let Statements { list, used, constants } = Statements::new(spec, &routines.description, routine, &Rust);
+    let has_margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
+    documentation(writer, routine, has_margin);
+    writer.lines("#[inline(always)]");
+    let outside = |(array, _): &(&Array, &bool)| matches!(array.role, Role::Argument | Role::Result);
+    let arguments: Vec<String> = routine.arrays.iter().zip(&used).filter(outside).map(argument).collect();
+    let visibility = if routine.function.is_some() { "pub " } else { "" };
+    let name = format!("{visibility}fn {}<T: Scalar>", routine.name);
+    writer.function(&name, &arguments, if has_margin { " -> T" } else { "" }, list.is_empty());
+    if list.is_empty() {
+        return;
+    }
+    let mut printer = Printer { writer, routines, routine };
+    let given = list.iter().take_while(|statement| printer.unpacks_argument(statement)).count();
+    for (index, statement) in list.iter().enumerate() {
+        if index == given {
+            printer.constants(constants);
+        }
+        printer.statement(statement, index + 1 == list.len());
+    }
+    if given == list.len() {
+        printer.constants(constants);
+    }
+    printer.writer.close("}");
+}
+
+/// `name: &[T; SIZE]`, or mutable; what is not used says so.
+fn argument((array, used): (&Array, &bool)) -> String {
+    let unused = if *used { "" } else { "_" };
+    let reference = if array.role == Role::Argument { "&" } else { "&mut " };
+    let element = |element: String, count: &Count| format!("[{element}; {}]", size(*count));
+    let kind = array.shape.iter().rev().fold("T".to_owned(), element);
+    format!("{unused}{}: {reference}{kind}", array.name)
+}
+
+/// A dimension by its name.
+fn size(count: Count) -> String {
+    match count {
+        Count::Exactly(count) => return count.to_string(),
+        Count::Frames => "FRAMES",
+        Count::FramesAndTool => "FRAMES + 1",
+        Count::Errors => "ERRORS",
+        Count::Distinct => "DISTINCT",
+        Count::Variables => "VARIABLES",
+        Count::Parameters => "PARAMETERS",
+        Count::Inputs => "INPUTS",
+        Count::Effects => "EFFECTS",
+        Count::Sources => "SOURCES",
+    }
+    .to_owned()
+}
+
+fn documentation(writer: &mut Writer, routine: &Routine, has_margin: bool) {
+    let Some(function) = routine.function else {
+        return writer.documentation(&format!("{}.", operations(routine)));
+    };
+    writer.documentation(function.signature().documentation);
+    writer.documentation_line("");
+    if has_margin {
+        writer.documentation("Returns `cos ρ`; where that is 0, rows 4–6 are not finite.");
+        writer.documentation_line("");
+    }
+    writer.documentation(&format!("{}.", operations(routine)));
+}
+
+struct Printer<'p> {
+    writer: &'p mut Writer,
+    routines: &'p Routines,
+    routine: &'p Routine,
+}
+
+impl Printer<'_> {
+    fn unpacks_argument(&self, statement: &Statement) -> bool {
+        matches!(statement, Statement::Unpack { from: Place { array, row: Row::All }, .. }
+            if self.routine.arrays[*array].role == Role::Argument)
+    }
+
+    /// The names that 0 and 1 have where they are results.
+    fn constants(&mut self, [zero, one]: [bool; 2]) {
+        for (used, line) in [(zero, "let zero = T::constant(0.0);"), (one, "let one = T::constant(1.0);")] {
+            if used {
+                self.writer.lines(line);
+            }
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement, is_last: bool) {
+        match statement {
+            Statement::Unpack { names, from } => self.unpack(names, *from),
+            Statement::Comment(text) => self.writer.comment(text),
+            Statement::Let { name, value } => self.writer.lines(&format!("let {name} = {value};")),
+            Statement::SinCos(pairs) => self.sines_and_cosines(pairs),
+            Statement::Declare(array) => self.declare(*array),
+            Statement::Clear(array) => {
+                let array = &self.routine.arrays[*array];
+                let value = self.zeros(array);
+                let reference = if array.role == Role::Result { "*" } else { "" };
+                self.writer.lines(&format!("{reference}{} = {value};", array.name));
+            }
+            Statement::Copy { from, to } => {
+                let [from, to] = [from, to].map(|array| self.routine.arrays[*array].name);
+                self.writer.lines(&format!("*{to} = {from};"));
+            }
+            Statement::Assign { to, index, values, fresh } => self.assign(*to, *index, values, *fresh),
+            Statement::Call { routine, arrays, fresh } => self.call(routine, arrays, fresh, is_last),
+            Statement::Sums { sums, terms, entries } => self.sums(*sums, *terms, *entries),
+            Statement::For { repeated, body } => {
+                let count = match repeated.count {
+                    Count::FramesAndTool => "=FRAMES".to_owned(),
+                    count => size(count),
+                };
+                let range =
+                    if repeated.backwards { format!("(0..{count}).rev()") } else { format!("0..{count}") };
+                self.writer.open(&format!("for i in {range}"));
+                body.iter().for_each(|statement| self.statement(statement, false));
+                self.writer.close("}");
+            }
+            Statement::Return(value) => self.writer.lines(value),
+        }
+    }
+
+    fn unpack(&mut self, names: &[Option<String>], from: Place) {
+        let array = &self.routine.arrays[from.array];
+        let indent = self.writer.indent();
+        let mut entries: Vec<String> =
+            names.iter().map(|name| name.clone().unwrap_or_else(|| "_".to_owned())).collect();
+        let nested = from.row == Row::All && array.shape.len() > 1 || array.row_rank() > 1;
+        if nested && let Some(Count::Exactly(inner)) = array.shape.last() {
+            let join = |entries: &[String]| match entries.iter().all(|entry| entry == "_") {
+                true if array.role != Role::Argument => "_".to_owned(),
+                _ => format!("[{}]", entries.join(", ")),
+            };
+            entries = entries.chunks(*inner).map(join).collect();
+        }
+        let place = self.place(from, 0);
+        if let ([Some(name)], Row::Each { .. }) = (names, from.row) {
+            return self.writer.lines(&format!("let {name} = {place};"));
+        }
+        let names = pattern(indent, "let ", &entries, " =");
+        let last = names.lines().last().map_or(0, width);
+        let fits = fits(indent, last + width(&place) + " ;".len());
+        self.writer.lines(&if fits { format!("{names} {place};") } else { format!("{names}\n    {place};") });
+    }
+
+    /// `let (s1, c1) = q1.sin_cos();`, or many together.
+    fn sines_and_cosines(&mut self, pairs: &[([String; 2], Expression)]) {
+        let indent = self.writer.indent();
+        let names: Vec<String> = pairs.iter().map(|([s, c], _)| format!("({s}, {c})")).collect();
+        if let [(_, angle)] = pairs {
+            let angle = angle.at_least(crate::print::expressions::Binding::Atom);
+            return self.writer.lines(&format!("let {} = {angle}.sin_cos();", names[0]));
+        }
+        let angles: Vec<String> = pairs.iter().map(|(_, angle)| angle.text.clone()).collect();
+        let names = pattern(indent, "let ", &names, " =");
+        let last = names.lines().last().map_or(0, width);
+        let value = array(indent, "T::sin_cos_each(", &angles, ");");
+        let first = value.lines().next().map_or(0, width);
+        if fits(indent, last + 1 + first) {
+            self.writer.lines(&format!("{names} {value}"));
+        } else {
+            self.writer.lines(&format!("{names}\n    {}", value.replace('\n', "\n    ")));
+        }
+    }
+
+    /// `[[zero; 3]; 4]`.
+    fn zeros(&self, array: &Array) -> String {
+        let nested = |element: String, count: &Count| format!("[{element}; {}]", size(*count));
+        array.shape.iter().rev().fold("zero".to_owned(), nested)
+    }
+
+    fn declare(&mut self, array: usize) {
+        let array = &self.routine.arrays[array];
+        let value = match array.role {
+            Role::Zeros => self.zeros(array),
+            Role::Identity => {
+                let rows = ["[one, zero, zero]", "[zero, one, zero]", "[zero, zero, one]", "[zero; 3]"];
+                let before = format!("let mut {} = ", array.name);
+                return self.writer.array(&before, &rows.map(str::to_owned), ";");
+            }
+            Role::Argument | Role::Result | Role::Margin => return,
+        };
+        self.writer.lines(&format!("let mut {} = {value};", array.name));
+    }
+
+    fn assign(&mut self, to: Place, index: usize, values: &[Value], fresh: bool) {
+        let target = &self.routine.arrays[to.array];
+        let begins = match (fresh, self.routine.writes(to.array) > 1) {
+            (true, true) => "let mut ",
+            (true, false) => "let ",
+            (false, _) => "",
+        };
+        let before = format!("{begins}{} = ", self.place(to, index));
+        let indent = self.writer.indent();
+        let text =
+            |values: &[Value]| -> Vec<String> { values.iter().map(|value| value.text.clone()).collect() };
+        let entries: Vec<String> = match (target.row_rank(), target.shape.last()) {
+            (2, Some(Count::Exactly(inner))) => {
+                values.chunks(*inner).map(|row| array(indent + 4, "", &text(row), "")).collect()
+            }
+            _ if !values.is_empty() && values.iter().all(|value| value.is_zero) => {
+                vec![format!("zero; {}", values.len())]
+            }
+            _ => text(values),
+        };
+        self.writer.array(&before, &entries, ";");
+    }
+
+    /// A row of an array, or all of it.
+    fn place(&self, Place { array, row }: Place, index: usize) -> String {
+        let array = &self.routine.arrays[array];
+        let outer = &array.shape[..array.shape.len() - array.row_rank()];
+        let inner = |row: usize| match outer {
+            [_, count] => {
+                let count = count.value(&self.routines.description);
+                format!("[{}][{}]", row / count, row % count)
+            }
+            _ => format!("[{row}]"),
+        };
+        let name = array.name;
+        match row {
+            Row::All if outer.is_empty() || (index == 0 && array.role == Role::Argument) => {
+                let reference = matches!(array.role, Role::Argument | Role::Result);
+                format!("{}{name}", if reference { "*" } else { "" })
+            }
+            Row::All => format!("{name}{}", inner(index)),
+            Row::Last => format!("{name}[FRAMES]"),
+            Row::Each { stride: 1, .. } => format!("{name}[i]"),
+            Row::Each { offset, .. } if outer.len() == 2 => format!("{name}[i][{offset}]"),
+            Row::Each { stride, offset: 0 } => format!("{name}[{stride} * i]"),
+            Row::Each { stride, offset } => format!("{name}[{stride} * i + {offset}]"),
+            Row::Listed { table, column } => {
+                format!("{name}[{}[i].{column}]", self.routines.tables[table].name)
+            }
+        }
+    }
+
+    fn call(&mut self, routine: &str, arrays: &[usize], fresh: &[usize], is_last: bool) {
+        fresh.iter().for_each(|array| self.declare(*array));
+        let callee = self.routines.named(routine);
+        let mut arguments = Vec::new();
+        let mut margin = false;
+        for (array, wanted) in arrays.iter().zip(&callee.arrays) {
+            let array = &self.routine.arrays[*array];
+            let is_local = matches!(array.role, Role::Zeros | Role::Identity);
+            let mutable = if wanted.role == Role::Argument { "&" } else { "&mut " };
+            match wanted.role {
+                Role::Margin => margin = true,
+                // A single row of what has several dimensions.
+                _ if array.shape.len() > wanted.shape.len() => {
+                    arguments.push(format!("&mut {}[0]", array.name))
+                }
+                _ if is_local => arguments.push(format!("{mutable}{}", array.name)),
+                _ => arguments.push(array.name.to_owned()),
+            }
+        }
+        // A result may have the name of the function.
+        let path = if self.routine.arrays.iter().any(|array| array.name == routine) { "self::" } else { "" };
+        let call = format!("{path}{routine}({})", arguments.join(", "));
+        let _ = is_last;
+        self.writer.lines(&if margin { format!("let margin = {call};") } else { format!("{call};") });
+    }
+
+    fn sums(&mut self, sums: usize, terms: usize, entries: usize) {
+        let name = self.routines.sums[sums].name;
+        let [terms, entries] = [terms, entries].map(|array| &self.routine.arrays[array]);
+        let flattened = ".as_flattened_mut()".repeat(entries.shape.len() - 1);
+        let terms = terms.name;
+        self.writer.lines(&format!("let entries = {}{flattened};", entries.name));
+        self.writer.open(&format!("for (entry, constant) in entries.iter_mut().zip({name}_CONSTANTS)"));
+        self.writer.lines("*entry = T::constant(constant);");
+        self.writer.close("}");
+        self.writer.open(&format!("for (entry, term, factor) in {name}_FACTORS"));
+        self.writer
+            .lines(&format!("entries[entry] = {terms}[term].mul_add(T::constant(factor), entries[entry]);"));
+        self.writer.close("}");
+    }
+}

@@ -1,0 +1,51 @@
+//! Operators and numbers of a generic scalar `T`.
+
+use super::literal::number;
+use crate::print::expressions::{Binding, Expression, Syntax, infix};
+use crate::program::{Action, Operand};
+
+pub(super) struct Rust;
+
+impl Syntax for Rust {
+    /// Constants of a module, and what is no name in a pattern.
+    fn reserved(&self) -> &'static str {
+        "zero one FRAMES ERRORS VARIABLES PARAMETERS INPUTS EFFECTS DISTINCT SOURCES None Some Ok Err"
+    }
+
+    fn number(&self, value: f64) -> Expression {
+        Expression::new(format!("T::constant({})", number(value)), Binding::Atom)
+    }
+
+    fn zero_and_one(&self) -> [&'static str; 2] {
+        ["zero", "one"]
+    }
+
+    fn action(&self, action: Action, operands: &[Expression]) -> Expression {
+        let method = |name: &str, of: &Expression, arguments: &[&Expression]| {
+            let arguments: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
+            let text = format!("{}.{name}({})", of.at_least(Binding::Atom), arguments.join(", "));
+            Expression::new(text, Binding::Atom)
+        };
+        // A number that is constant is the second factor.
+        let fused = |name: &str, a: Operand| match (a, operands) {
+            (Operand::Constant(_), [a, b, c]) => method(name, b, &[a, c]),
+            _ => method(name, &operands[0], &[&operands[1], &operands[2]]),
+        };
+        match action {
+            Action::Neg(_) => {
+                Expression::new(format!("-{}", operands[0].at_least(Binding::Sign)), Binding::Sign)
+            }
+            Action::Add(..) => infix(&operands[0], "+", &operands[1]),
+            Action::Sub(..) => infix(&operands[0], "-", &operands[1]),
+            Action::Mul(..) => infix(&operands[0], "*", &operands[1]),
+            Action::Div(..) => infix(&operands[0], "/", &operands[1]),
+            Action::MulAdd(a, ..) => fused("mul_add", a),
+            Action::MulSub(a, ..) => fused("mul_sub", a),
+            Action::NegMulAdd(a, ..) => fused("neg_mul_add", a),
+            Action::Pow(..) => method("powf", &operands[0], &[&operands[1]]),
+            Action::Atan2(..) => method("atan2", &operands[0], &[&operands[1]]),
+            Action::Call(function, _) => method(function.name(), &operands[0], &[]),
+            Action::SinCos(_) => method("sin_cos", &operands[0], &[]),
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! What a routine does, as small statements of any language.
+
+use std::collections::HashSet;
+
+use abbe::Description;
+use abbe::function::Count;
+
+use super::expressions::{Expression, Syntax, Value, written};
+use super::names::Names;
+use crate::expr::Symbol;
+use crate::program::{Block, Operand, Place, Program, Repeated, Role, Routine, Row, Stage};
+use crate::spec::Spec;
+
+/// One statement. Arrays are indices of the routine's.
+pub(super) enum Statement {
+    /// Names for the numbers of a place; those without use have none.
+    Unpack { names: Vec<Option<String>>, from: Place },
+    /// What comes next.
+    Comment(String),
+    /// A name for a value.
+    Let { name: String, value: String },
+    /// Names for sine and cosine of angles.
+    SinCos(Vec<([String; 2], Expression)>),
+    /// An array that is not given begins.
+    Declare(usize),
+    /// Zeros for an array.
+    Clear(usize),
+    /// One array becomes another one.
+    Copy { from: usize, to: usize },
+    /// Row `index` of a place becomes these; a `fresh` array begins with them.
+    Assign { to: Place, index: usize, values: Vec<Value>, fresh: bool },
+    /// Another routine; of the arrays that it fills, those that begin here.
+    Call { routine: &'static str, arrays: Vec<usize>, fresh: Vec<usize> },
+    /// Entries of an array as sums of terms.
+    Sums { sums: usize, terms: usize, entries: usize },
+    /// For every row.
+    For { repeated: Repeated, body: Vec<Statement> },
+    /// The margin is returned.
+    Return(String),
+}
+
+/// The statements of a routine.
+pub(super) struct Statements {
+    pub(super) list: Vec<Statement>,
+    /// Which of its arrays it uses.
+    pub(super) used: Vec<bool>,
+    /// Whether 0 and 1 are results.
+    pub(super) constants: [bool; 2],
+}
+
+impl Statements {
+    pub(super) fn new(
+        spec: &Spec,
+        description: &Description,
+        routine: &Routine,
+        syntax: &dyn Syntax,
+    ) -> Self {
+        let names = Names::new(spec, routine, syntax.reserved());
+        let mut writer = Writer {
+            routine,
+            description,
+            syntax,
+            outermost: names.clone(),
+            names,
+            begun: routine.arrays.iter().map(|array| array.role == Role::Argument).collect(),
+            whole: Vec::new(),
+            constants: [false; 2],
+            margin: None,
+        };
+        let mut list = writer.arguments();
+        writer.outermost = writer.names.clone();
+        for stage in &routine.stages {
+            writer.stage(stage, &mut list);
+        }
+        if let Some(margin) = writer.margin.take() {
+            // What would be named only to be returned is returned as it is.
+            let named = |last: &mut Statement| matches!(last, Statement::Let { name, .. } if *name == margin);
+            let value = match list.pop_if(named) {
+                Some(Statement::Let { value, .. }) => value,
+                _ => margin,
+            };
+            list.push(Statement::Return(value));
+        }
+        let used = (0..routine.arrays.len()).map(|array| uses(routine, description, array)).collect();
+        Self { list, used, constants: writer.constants }
+    }
+}
+
+struct Writer<'w> {
+    routine: &'w Routine,
+    description: &'w Description,
+    syntax: &'w dyn Syntax,
+    names: Names<'w>,
+    /// Those of the arguments alone.
+    outermost: Names<'w>,
+    /// Which arrays are there already.
+    begun: Vec<bool>,
+    /// Of these, which the block at hand fills at once.
+    whole: Vec<usize>,
+    constants: [bool; 2],
+    margin: Option<String>,
+}
+
+impl Writer<'_> {
+    /// Names for those numbers of the arguments that programs use as symbols.
+    fn arguments(&mut self) -> Vec<Statement> {
+        let mut statements = Vec::new();
+        let used = symbols(self.routine);
+        for (array, argument) in self.routine.arrays.iter().enumerate() {
+            let symbol = match (argument.role, argument.name) {
+                (Role::Argument, "q") => Symbol::Variable,
+                (Role::Argument, "s") => Symbol::Parameter,
+                (Role::Argument, "u") => Symbol::Input,
+                (Role::Argument, "errors" | "variances") => {
+                    if used.iter().any(|symbol| matches!(symbol, Symbol::Error(_))) {
+                        self.names.name_errors(argument.name);
+                    }
+                    Symbol::Error
+                }
+                _ => continue,
+            };
+            let symbols: Vec<Symbol> = (0..argument.len(self.description)).map(symbol).collect();
+            if symbols.iter().any(|symbol| used.contains(symbol)) {
+                let name = |symbol| used.contains(symbol).then(|| self.names.symbol(*symbol).to_owned());
+                let names = symbols.iter().map(name).collect();
+                statements.push(Statement::Unpack { names, from: Place { array, row: Row::All } });
+            }
+        }
+        statements
+    }
+
+    /// The arrays that have not begun begin.
+    fn begin(&mut self, arrays: impl Iterator<Item = usize>) -> Vec<usize> {
+        let margin = |array: usize| self.routine.arrays[array].role == Role::Margin;
+        let empty = |array: usize| self.routine.arrays[array].len(self.description) == 0;
+        let mut fresh: Vec<usize> = Vec::new();
+        for array in arrays.filter(|array| !margin(*array) && !empty(*array)) {
+            if !std::mem::replace(&mut self.begun[array], true) {
+                fresh.push(array);
+            }
+        }
+        fresh
+    }
+
+    fn declare(&mut self, arrays: Vec<usize>, statements: &mut Vec<Statement>) {
+        self.take_zeros(&arrays);
+        statements.extend(arrays.into_iter().map(Statement::Declare));
+    }
+
+    /// What begins as zeros or as no motion takes their names.
+    fn take_zeros(&mut self, arrays: &[usize]) {
+        for array in arrays {
+            let role = self.routine.arrays[*array].role;
+            self.constants[0] |= matches!(role, Role::Zeros | Role::Identity);
+            self.constants[1] |= role == Role::Identity;
+        }
+    }
+
+    fn stage(&mut self, stage: &Stage, statements: &mut Vec<Statement>) {
+        match stage {
+            Stage::Block(block) => {
+                let places = block.reads.iter().chain(&block.writes).map(|place| place.array);
+                let fresh = self.begin(places);
+                let (whole, others): (Vec<_>, Vec<_>) =
+                    fresh.into_iter().partition(|array| self.is_filled_at_once(block, *array));
+                self.whole = whole;
+                self.declare(others, statements);
+                match block.repeated {
+                    None => self.block(block, statements),
+                    Some(repeated) => {
+                        // A loop is a scope of its own: it may use names again.
+                        let names = std::mem::replace(&mut self.names, self.outermost.clone());
+                        let mut body = Vec::new();
+                        self.block(block, &mut body);
+                        self.names = names;
+                        statements.push(Statement::For { repeated, body });
+                    }
+                }
+            }
+            Stage::Call { routine, arrays } => {
+                let fresh = self.begin(arrays.iter().copied());
+                self.take_zeros(&fresh);
+                let margin = arrays.iter().find(|array| self.routine.arrays[**array].role == Role::Margin);
+                self.margin = margin.map(|_| "margin".to_owned()).or(self.margin.take());
+                statements.push(Statement::Call { routine, arrays: arrays.clone(), fresh });
+            }
+            Stage::Sums { sums, terms, entries } => {
+                let fresh = self.begin([*entries].into_iter());
+                self.declare(fresh, statements);
+                let (sums, terms, entries) = (*sums, *terms, *entries);
+                statements.push(Statement::Sums { sums, terms, entries });
+            }
+            Stage::Copy { from, to } => {
+                let fresh = self.begin([*to].into_iter());
+                self.declare(fresh, statements);
+                statements.push(Statement::Copy { from: *from, to: *to });
+            }
+            Stage::Clear(array) => {
+                let fresh = self.begin([*array].into_iter());
+                self.declare(fresh, statements);
+                self.constants[0] = true;
+                statements.push(Statement::Clear(*array));
+            }
+        }
+    }
+
+    /// Whether an array that is not seen from outside begins with what a block writes.
+    fn is_filled_at_once(&self, block: &Block, array: usize) -> bool {
+        let place = Place { array, row: Row::All };
+        self.routine.arrays[array].role == Role::Zeros
+            && block.repeated.is_none()
+            && block.writes.contains(&place)
+    }
+
+    /// The frame that a row of a result belongs to.
+    fn frame_of(&self, place: &Place, index: usize, rows: usize) -> Option<usize> {
+        let array = &self.routine.arrays[place.array];
+        let by_frames = matches!(array.shape[0], Count::Frames | Count::Errors) && array.shape.len() > 1;
+        (by_frames && place.row == Row::All).then(|| index / (rows / self.description.frames.len()))
+    }
+
+    fn comment(&self, frame: usize) -> Statement {
+        let name = self.description.frames[frame].name.replace(char::is_control, " ");
+        Statement::Comment(format!("Frame {}: {}", frame + 1, name.trim()))
+    }
+
+    fn block(&mut self, block: &Block, statements: &mut Vec<Statement>) {
+        let used = used_symbols(&block.program);
+        let mut number = 0;
+        self.names.forget_locals();
+        for place in &block.reads {
+            let array = &self.routine.arrays[place.array];
+            let count = array.place_len(place.row, self.description);
+            let taken: Vec<bool> =
+                (number..number + count).map(|local| used.contains(&Symbol::Local(local))).collect();
+            let names = self.names.name_locals(array, &taken);
+            number += count;
+            if taken.contains(&true) {
+                statements.push(Statement::Unpack { names, from: *place });
+            }
+        }
+        for (constant, value) in self.constants.iter_mut().zip([0.0, 1.0]) {
+            *constant |= block.program.outputs.contains(&Operand::Constant(value));
+        }
+        let (body, values) = written(&block.program, &mut self.names, self.syntax);
+        let mut values = values.into_iter();
+        let mut assignments: Vec<Assignment> = Vec::new();
+        for place in &block.writes {
+            let array = &self.routine.arrays[place.array];
+            if array.role == Role::Margin {
+                self.margin = values.next().map(|value| value.text);
+                continue;
+            }
+            let row = array.row_len(self.description);
+            let rows = match place.row {
+                // What has one row has it even if there is nothing in it.
+                Row::All if array.shape.len() == array.row_rank() => 1,
+                Row::All => array.len(self.description) / row,
+                _ => 1,
+            };
+            let fresh = self.whole.contains(&place.array);
+            for index in 0..rows {
+                let values: Vec<Value> = values.by_ref().take(row).collect();
+                let ready = values.iter().map(|value| value.ready).max().unwrap_or(0);
+                let frame = self.frame_of(place, index, rows);
+                let statement = Statement::Assign { to: *place, index, values, fresh };
+                assignments.push(Assignment { ready, frame, statement });
+            }
+        }
+        // What is known is written at once, so that it need not be kept; in a loop, after everything is known.
+        if block.repeated.is_some() {
+            assignments.iter_mut().for_each(|assignment| assignment.ready = body.len());
+        }
+        assignments.sort_by_key(|assignment| assignment.ready);
+        let mut assignments = assignments.into_iter().peekable();
+        let mut frame = None;
+        let mut body = body.into_iter();
+        for count in 0..=body.len() {
+            statements.extend(count.checked_sub(1).and_then(|_| body.next()));
+            while let Some(assignment) = assignments.next_if(|assignment| assignment.ready == count) {
+                if assignment.frame.is_some() && assignment.frame != frame {
+                    statements.extend(assignment.frame.map(|frame| self.comment(frame)));
+                    frame = assignment.frame;
+                }
+                statements.push(assignment.statement);
+            }
+        }
+    }
+}
+
+/// A statement that writes a row.
+struct Assignment {
+    /// After how many statements of the program its values are known.
+    ready: usize,
+    /// The frame that the row belongs to.
+    frame: Option<usize>,
+    statement: Statement,
+}
+
+fn symbols(routine: &Routine) -> HashSet<Symbol> {
+    let programs = routine.stages.iter().filter_map(|stage| match stage {
+        Stage::Block(block) => Some(&block.program),
+        _ => None,
+    });
+    programs.flat_map(used_symbols).collect()
+}
+
+fn used_symbols(program: &Program) -> HashSet<Symbol> {
+    let operands = program.steps.iter().flat_map(|step| step.action.operands());
+    let symbol = |operand| match operand {
+        Operand::Symbol(symbol) => Some(symbol),
+        _ => None,
+    };
+    operands.chain(program.outputs.iter().copied()).filter_map(symbol).collect()
+}
+
+/// Whether anything reads or writes an array.
+fn uses(routine: &Routine, description: &Description, array: usize) -> bool {
+    let as_symbols = symbols(routine).into_iter().any(|symbol| {
+        let name = match symbol {
+            Symbol::Variable(_) => "q",
+            Symbol::Parameter(_) => "s",
+            Symbol::Input(_) => "u",
+            Symbol::Error(_) => return matches!(routine.arrays[array].name, "errors" | "variances"),
+            Symbol::Local(_) => return false,
+        };
+        name == routine.arrays[array].name
+    });
+    let declared = &routine.arrays[array];
+    let some = declared.len(description) > 0 || declared.shape.len() == declared.row_rank();
+    let in_stage = |stage: &Stage| match stage {
+        Stage::Block(block) => block.reads.iter().chain(&block.writes).any(|place| place.array == array),
+        Stage::Call { arrays, .. } => arrays.contains(&array),
+        Stage::Sums { terms, entries, .. } => [*terms, *entries].contains(&array),
+        Stage::Clear(cleared) => *cleared == array,
+        Stage::Copy { from, to } => [*from, *to].contains(&array),
+    };
+    as_symbols || some && routine.stages.iter().any(in_stage)
+}

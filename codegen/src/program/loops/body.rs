@@ -1,0 +1,66 @@
+//! The body of a loop while it is built: rows that are read become symbols of a graph of its own.
+
+use crate::expr::Symbol;
+use crate::graph::{Frame, Graph, Node, Vector};
+use crate::program::{Block, Place, Program, Repeated, Row, Stage};
+
+#[derive(Default)]
+pub(super) struct Body {
+    pub(super) graph: Graph,
+    reads: Vec<Place>,
+    numbers: usize,
+    writes: Vec<Place>,
+    outputs: Vec<Node>,
+}
+
+impl Body {
+    pub(super) fn new() -> Self {
+        Self::default()
+    }
+
+    /// So many numbers of a row.
+    pub(super) fn read(&mut self, array: usize, row: Row, count: usize) -> Vec<Node> {
+        self.reads.push(Place { array, row });
+        let first = self.numbers;
+        self.numbers += count;
+        (first..self.numbers).map(|number| self.graph.symbol(Symbol::Local(number))).collect()
+    }
+
+    pub(super) fn vector(&mut self, array: usize, row: Row) -> Vector {
+        let numbers = self.read(array, row, 3);
+        [0, 1, 2].map(|i| numbers[i])
+    }
+
+    pub(super) fn six(&mut self, array: usize, row: Row) -> [Node; 6] {
+        let numbers = self.read(array, row, 6);
+        [0, 1, 2, 3, 4, 5].map(|i| numbers[i])
+    }
+
+    /// Velocity and rotation.
+    pub(super) fn twist(&mut self, array: usize, row: Row) -> [Vector; 2] {
+        let [a, b, c, d, e, f] = self.six(array, row);
+        [[a, b, c], [d, e, f]]
+    }
+
+    pub(super) fn frame(&mut self, array: usize, row: Row) -> Frame {
+        let numbers = self.read(array, row, 12);
+        let vector = |i: usize| [numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]];
+        Frame { axes: [0, 1, 2].map(vector), position: vector(3) }
+    }
+
+    /// What becomes of a row.
+    pub(super) fn write(&mut self, array: usize, row: Row, nodes: &[Node]) {
+        self.writes.push(Place { array, row });
+        self.outputs.extend(nodes);
+    }
+
+    pub(super) fn write_frame(&mut self, array: usize, row: Row, frame: &Frame) {
+        let numbers: Vec<Node> = frame.axes.iter().flatten().chain(&frame.position).copied().collect();
+        self.write(array, row, &numbers);
+    }
+
+    pub(super) fn stage(self, repeated: Option<Repeated>) -> Stage {
+        let Self { graph, reads, writes, outputs, .. } = self;
+        Stage::Block(Block { reads, program: Program::new(&graph, &outputs), writes, repeated })
+    }
+}

@@ -1,0 +1,89 @@
+//! What is not the same in all transforms: entries as sums of constants and of constants times few terms.
+
+use std::collections::BTreeMap;
+
+use indexmap::IndexSet;
+
+use crate::chain::LocalTwist;
+use crate::graph::{Frame, Graph, Node, Op};
+use crate::program::{Sums, Table};
+
+/// Sums and tables as they are collected.
+pub(super) struct Sum<'g> {
+    graph: &'g Graph,
+    /// All that is not constant.
+    pub(super) terms: IndexSet<Node>,
+    pub(super) sums: Vec<Sums>,
+    pub(super) tables: Vec<Table>,
+}
+
+/// What symbols do to transforms.
+pub(super) struct Twists {
+    /// How many of them there are.
+    pub(super) count: usize,
+    /// Index of the table that says which transform moves which column.
+    pub(super) table: usize,
+    /// Index of the sums of their entries.
+    pub(super) sums: usize,
+}
+
+impl<'g> Sum<'g> {
+    pub(super) fn new(graph: &'g Graph) -> Self {
+        Self { graph, terms: IndexSet::new(), sums: Vec::new(), tables: Vec::new() }
+    }
+
+    /// The entries of all transforms.
+    pub(super) fn motions(&mut self, transforms: &[Frame]) -> usize {
+        let entries = transforms.iter().flat_map(|frame| frame.axes.iter().flatten().chain(&frame.position));
+        let entries: Vec<Node> = entries.copied().collect();
+        self.entries("MOTION", &entries)
+    }
+
+    /// The velocities and rotations that symbols cause.
+    pub(super) fn twists(&mut self, [table, name]: [&'static str; 2], twists: &[LocalTwist]) -> Twists {
+        let rows = twists.iter().map(|twist| [twist.transform, twist.column]).collect();
+        let documentation = "Transform and column of everything that a symbol moves.";
+        self.tables.push(Table { name: table, documentation, rows });
+        let entries: Vec<Node> = twists.iter().flat_map(|twist| twist.twist).collect();
+        let sums = self.entries(name, &entries);
+        Twists { count: twists.len(), table: self.tables.len() - 1, sums }
+    }
+
+    fn entries(&mut self, name: &'static str, entries: &[Node]) -> usize {
+        let (mut constants, mut factors) = (Vec::with_capacity(entries.len()), Vec::new());
+        for (entry, node) in entries.iter().enumerate() {
+            let (mut constant, mut sum) = (0.0, BTreeMap::new());
+            self.add(*node, 1.0, &mut constant, &mut sum);
+            constants.push(constant);
+            factors.extend(sum.into_iter().filter(|(_, k)| *k != 0.0).map(|(term, k)| (entry, term, k)));
+        }
+        self.sums.push(Sums { name, constants, factors });
+        self.sums.len() - 1
+    }
+
+    fn add(&mut self, node: Node, factor: f64, constant: &mut f64, sum: &mut BTreeMap<usize, f64>) {
+        let term = match self.graph.op(node) {
+            Op::Constant(bits) => {
+                *constant += factor * f64::from_bits(bits);
+                return;
+            }
+            Op::Neg(a) => return self.add(a, -factor, constant, sum),
+            Op::Add(a, b) => {
+                self.add(a, factor, constant, sum);
+                return self.add(b, factor, constant, sum);
+            }
+            Op::Sub(a, b) => {
+                self.add(a, factor, constant, sum);
+                return self.add(b, -factor, constant, sum);
+            }
+            Op::Mul(a, b) if self.graph.value(a).is_some() => {
+                return self.add(b, factor * self.graph.value(a).unwrap_or(f64::NAN), constant, sum);
+            }
+            Op::Mul(a, b) if self.graph.value(b).is_some() => {
+                return self.add(a, factor * self.graph.value(b).unwrap_or(f64::NAN), constant, sum);
+            }
+            _ => self.terms.insert_full(node).0,
+        };
+        *sum.entry(term).or_default() += factor;
+    }
+}

@@ -1,0 +1,137 @@
+//! The functions of a manipulator as routines.
+
+use abbe::function::{Count, Signature};
+use abbe::{Description, Function};
+
+use super::loops::Loops;
+use super::outputs::{Outputs, fewest};
+use super::routine::{Array, Block, Place, Role, Routine, Row, Stage, Sums, Table};
+use super::{Operations, Program};
+use crate::chain::{EffectNode, Model};
+use crate::spec::{Orientation, Spec};
+
+/// All functions of a manipulator, and what they share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Routines {
+    /// What the manipulator says about itself; what arrays have as sizes.
+    pub description: Description,
+    /// The functions in the order of [`Function::ALL`], then what helps them.
+    pub list: Vec<Routine>,
+    /// What loops go over.
+    pub tables: Vec<Table>,
+    /// What is summed.
+    pub sums: Vec<Sums>,
+}
+
+impl Routines {
+    /// The routines of all functions: each as another one where that gives the same, as loops where the chain is long,
+    /// else as a straight-line program.
+    pub fn new(spec: &Spec, model: &Model) -> Self {
+        Self::with(spec, model, spec.is_long().then(|| Loops::new(spec, model)))
+    }
+
+    /// The same without loops, however long the chain is: what loops are checked against.
+    pub fn without_loops(spec: &Spec, model: &Model) -> Self {
+        Self::with(spec, model, None)
+    }
+
+    fn with(spec: &Spec, model: &Model, mut loops: Option<Loops<'_>>) -> Self {
+        let description = spec.describe(model.effects.iter().map(EffectNode::effect));
+        let mut list: Vec<Routine> = Vec::new();
+        let mut known: Vec<(Function, Outputs)> = Vec::new();
+        for function in Function::ALL {
+            let signature = function.signature();
+            let mut arrays = arguments_and_results(signature, spec.orientation);
+            let (outputs, program) = fewest(function, model);
+            let same = known.iter().find(|(other, found)| is_same(*other, found, signature, &outputs));
+            let stages = if let Some((other, _)) = same {
+                vec![as_other(*other, &arrays, &description)]
+            } else {
+                let looped = loops.as_mut().filter(|_| program.steps.len() > spec.frames.len());
+                match looped.and_then(|loops| loops.stages(function, &mut arrays)) {
+                    Some(stages) => stages,
+                    None => vec![at_once(&arrays, program)],
+                }
+            };
+            let operations = Operations::default();
+            list.push(Routine { function: Some(function), name: signature.name, arrays, stages, operations });
+            known.push((function, outputs));
+        }
+        let (helpers, tables, sums) = loops.map_or_else(Default::default, Loops::finish);
+        list.extend(helpers);
+        let mut routines = Self { description, list, tables, sums };
+        for index in 0..routines.list.len() {
+            routines.list[index].operations = routines.operations(&routines.list[index]);
+        }
+        routines
+    }
+
+    /// The routine of that name.
+    pub fn named(&self, name: &str) -> &Routine {
+        self.list.iter().find(|routine| routine.name == name).expect("what is called is there")
+    }
+
+    /// The routine of a function.
+    pub fn function(&self, function: Function) -> &Routine {
+        self.named(function.name())
+    }
+
+    /// What one call of a routine takes, that of others in it.
+    fn operations(&self, routine: &Routine) -> Operations {
+        let stage = |stage: &Stage| match stage {
+            Stage::Block(Block { program, repeated, .. }) => program
+                .operations()
+                .times(repeated.map_or(1, |repeated| repeated.count.value(&self.description))),
+            Stage::Call { routine, .. } => self.operations(self.named(routine)),
+            Stage::Sums { sums, .. } => {
+                let count = self.sums[*sums].factors.len();
+                Operations { mul: count, add: count, ..Operations::default() }
+            }
+            Stage::Clear(_) | Stage::Copy { .. } => Operations::default(),
+        };
+        routine.stages.iter().map(stage).fold(Operations::default(), Operations::plus)
+    }
+}
+
+/// The arrays of a signature, in its order, and the margin.
+fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec<Array> {
+    let array = |role| {
+        move |array: &abbe::function::Array| Array { name: array.name, shape: array.shape.to_vec(), role }
+    };
+    let arguments = signature.arguments.iter().map(array(Role::Argument));
+    let results = signature.results.iter().map(array(Role::Result));
+    let margin = Array { name: "margin", shape: vec![Count::Exactly(1)], role: Role::Margin };
+    arguments.chain(results).chain(signature.has_margin(orientation).then_some(margin)).collect()
+}
+
+/// A program that fills all results.
+fn at_once(arrays: &[Array], program: Program) -> Stage {
+    let filled = |(_, array): &(usize, &Array)| array.role != Role::Argument;
+    let writes = arrays.iter().enumerate().filter(filled).map(|(array, _)| Place { array, row: Row::All });
+    Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })
+}
+
+/// Whether a function that came before gives the same, by more than chance, from no more than this one takes.
+fn is_same(other: Function, found: &Outputs, signature: &Signature, outputs: &Outputs) -> bool {
+    let some = |signature: &Signature, outputs: &Outputs| -> Vec<_> {
+        let results = signature.results.iter().zip(&outputs.results);
+        let some = results.filter(|(_, nodes)| !nodes.is_empty());
+        some.map(|(array, nodes)| (array.quantity, nodes.clone())).collect()
+    };
+    let takes = other.signature().arguments;
+    found.margin == outputs.margin
+        && some(other.signature(), found) == some(signature, outputs)
+        && found.results.iter().all(|result| !result.is_empty())
+        && takes.iter().all(|array| signature.arguments.contains(array))
+}
+
+/// The call of that function.
+fn as_other(other: Function, arrays: &[Array], description: &Description) -> Stage {
+    let signature = other.signature();
+    let given = signature.arguments.iter().map(|wanted| {
+        arrays.iter().position(|array| array.name == wanted.name).expect("it takes no more than this one")
+    });
+    let filled = arrays.iter().enumerate().filter(|(_, array)| array.role != Role::Argument);
+    let filled = filled.filter(|(_, array)| array.len(description) > 0).map(|(index, _)| index);
+    Stage::Call { routine: signature.name, arrays: given.chain(filled).collect() }
+}
