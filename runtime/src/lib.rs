@@ -35,6 +35,7 @@ mod component;
 mod description;
 pub mod distinct;
 mod error;
+mod floats;
 pub mod function;
 mod manipulator;
 #[cfg(feature = "nalgebra")]

@@ -4,11 +4,10 @@
 //! `cos r = 1 + r² (−1/2 + r² C(r²))` with the minimax polynomials of fdlibm (below 2⁻⁵⁸), then the quadrant `n`.
 //! Below 1.7 ulp for `|x| ≤` [`REACH`].
 
-mod pair;
+#[cfg(any(test, not(feature = "lanes")))]
+pub(crate) mod pair;
 
 use core::ops::{Add, Mul, Sub};
-
-use pair::Pair;
 
 /// How far from zero [`near`] holds: beyond it `n` has more bits than its products with π/2 leave free.
 pub(crate) const REACH: f64 = 1e5;
@@ -66,6 +65,14 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     fn odd(self) -> Self;
     /// The bits moved up by so many places.
     fn shifted<const PLACES: u32>(self) -> Self;
+}
+
+/// Two numbers that are computed with side by side.
+pub(crate) trait Pair: Real {
+    /// Both of them.
+    fn new(numbers: [f64; 2]) -> Self;
+    /// The numbers.
+    fn numbers(self) -> [f64; 2];
 }
 
 impl Real for f64 {
@@ -136,7 +143,7 @@ pub(crate) fn scalar(x: f64) -> (f64, f64) {
 
 /// Sine and cosine of several `f64`, with the bits of [`scalar`]: pairs of angles share instructions.
 #[inline(always)]
-pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
+pub(crate) fn each<P: Pair, const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
     let mut all = true;
     for x in &angles {
         all &= x.abs() <= REACH;
@@ -148,7 +155,8 @@ pub(crate) fn each<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
     for i in (0..N).step_by(2) {
         // Two at a time, the last one twice if their number is odd.
         let j = (i + 1).min(N - 1);
-        let (Pair(sines), Pair(cosines)) = near(Pair([angles[i], angles[j]]));
+        let (sines, cosines) = near(P::new([angles[i], angles[j]]));
+        let (sines, cosines) = (sines.numbers(), cosines.numbers());
         results[j] = (sines[1], cosines[1]);
         results[i] = (sines[0], cosines[0]);
     }

@@ -7,12 +7,28 @@ use pulp::NullaryFnOnce;
 use pulp::x86::{V3, V4};
 
 use super::Register;
+use crate::sin_cos;
 
-/// The two lanes that every machine has.
+/// The register with two lanes that every machine has.
 #[cfg(target_arch = "x86_64")]
-type Pair = super::x86::Sse2;
+type Two = super::x86::Sse2;
 #[cfg(not(target_arch = "x86_64"))]
-type Pair = [f64; 2];
+type Two = [f64; 2];
+
+/// Two lanes, wherever this runs.
+pub(crate) type Pair = super::Lanes<Two>;
+
+impl sin_cos::Pair for Pair {
+    #[inline(always)]
+    fn new([first, second]: [f64; 2]) -> Self {
+        Self::from_fn(|lane| if lane == 0 { first } else { second })
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f64; 2] {
+        [self.to_slice()[0], self.to_slice()[1]]
+    }
+}
 
 /// Work on lanes, to be compiled for every instruction set.
 ///
@@ -90,7 +106,7 @@ impl InstructionSet {
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
-            Level::Baseline => kernel.run::<Pair>(),
+            Level::Baseline => kernel.run::<Two>(),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2(v3) => v3.vectorize(With::<K, super::x86::Avx2>::new(kernel)),
             #[cfg(target_arch = "x86_64")]

@@ -52,6 +52,7 @@ mod tiles;
 mod x86;
 
 pub use functions::*;
+pub(crate) use instruction_set::Pair;
 pub use instruction_set::{InstructionSet, Kernel};
 pub use one_by_one::OneByOne;
 #[cfg(feature = "analysis")]

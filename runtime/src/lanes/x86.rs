@@ -15,7 +15,7 @@ use super::register::by_array;
 /// Two lanes: SSE2.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
-pub(super) struct Sse2(__m128d);
+pub(crate) struct Sse2(__m128d);
 
 /// Four lanes: AVX2 and FMA.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

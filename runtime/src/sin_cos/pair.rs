@@ -1,21 +1,21 @@
-//! Two numbers side by side: compilers find the instructions for pairs that every common machine has (SSE2, NEON).
+//! Two numbers in an array: where there are no lanes, compilers find what instructions for pairs there are.
 
 use core::ops::{Add, Mul, Sub};
 
-use super::Real;
+use super::{Pair, Real};
 
 /// Two numbers.
 #[derive(Clone, Copy)]
-pub(super) struct Pair(pub(super) [f64; 2]);
+pub(crate) struct Array([f64; 2]);
 
-impl Pair {
+impl Array {
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         Self([f(self.0[0], other.0[0]), f(self.0[1], other.0[1])])
     }
 }
 
-impl Add for Pair {
+impl Add for Array {
     type Output = Self;
 
     #[inline(always)]
@@ -24,7 +24,7 @@ impl Add for Pair {
     }
 }
 
-impl Sub for Pair {
+impl Sub for Array {
     type Output = Self;
 
     #[inline(always)]
@@ -33,7 +33,7 @@ impl Sub for Pair {
     }
 }
 
-impl Mul for Pair {
+impl Mul for Array {
     type Output = Self;
 
     #[inline(always)]
@@ -42,7 +42,19 @@ impl Mul for Pair {
     }
 }
 
-impl Real for Pair {
+impl Pair for Array {
+    #[inline(always)]
+    fn new(numbers: [f64; 2]) -> Self {
+        Self(numbers)
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f64; 2] {
+        self.0
+    }
+}
+
+impl Real for Array {
     const FUSED: bool = false;
 
     #[inline(always)]

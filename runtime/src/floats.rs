@@ -1,0 +1,64 @@
+//! `f64` and `f32` as scalars.
+
+use crate::Scalar;
+#[cfg(feature = "lanes")]
+use crate::lanes::Pair;
+use crate::sin_cos;
+#[cfg(not(feature = "lanes"))]
+use crate::sin_cos::pair::Array as Pair;
+
+macro_rules! scalar {
+    ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
+        impl Scalar for $float {
+            #[inline]
+            fn constant(value: f64) -> Self {
+                value as $float
+            }
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
+            }
+            $(
+                #[inline(always)]
+                fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+                    sin_cos::$each::<Pair, N>(angles)
+                }
+            )?
+            $(
+                #[inline]
+                fn $function(self) -> Self {
+                    #[cfg(feature = "std")]
+                    { $float::$function(self) }
+                    #[cfg(not(feature = "std"))]
+                    { libm::$libm(self) }
+                }
+            )+
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                #[cfg(feature = "std")]
+                { $float::atan2(self, x) }
+                #[cfg(not(feature = "std"))]
+                { libm::$atan2(self, x) }
+            }
+            #[inline]
+            fn sign(self) -> Self {
+                if self > 0.0 { 1.0 } else if self < 0.0 { -1.0 } else { self * 0.0 }
+            }
+            #[inline]
+            fn powf(self, exponent: Self) -> Self {
+                #[cfg(feature = "std")]
+                { $float::powf(self, exponent) }
+                #[cfg(not(feature = "std"))]
+                { libm::$pow(self, exponent) }
+            }
+        }
+    };
+}
+
+scalar!(f64, sin_cos::scalar, each; tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs;
+    atan2, pow);
+#[cfg(feature = "std")]
+scalar!(f32, f32::sin_cos; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf; atan2f, powf);
+#[cfg(not(feature = "std"))]
+scalar!(f32, libm::sincosf; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf;
+    atan2f, powf);
