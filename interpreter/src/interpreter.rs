@@ -141,7 +141,7 @@ impl Manipulator for Interpreter {
     }
 
     fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        count(Quantity::Errors, self.routines.description.effects.len(), effects.len())?;
+        count(Quantity::Effects, self.routines.description.effects.len(), effects.len())?;
         effects.copy_from_slice(&self.run(Function::Effects, &[q, s, u])?);
         Ok(())
     }

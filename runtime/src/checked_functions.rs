@@ -228,10 +228,10 @@ macro_rules! checked_face {
                 let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
                 let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
                 let u = $crate::checks::argument($crate::Quantity::Inputs, u)?;
-                let effects = $crate::checks::result($crate::Quantity::Errors, effects)?;
+                let effects = $crate::checks::result($crate::Quantity::Effects, effects)?;
                 $crate::checks::inputs(&DESCRIPTION.inputs, u)?;
                 raw::effects(q, s, u, effects);
-                $crate::checks::finite($crate::Quantity::Errors, effects)
+                $crate::checks::finite($crate::Quantity::Effects, effects)
             }
 
             fn generalized_errors(

@@ -20,7 +20,9 @@ pub enum Quantity {
     Pose,
     /// A Jacobian.
     Jacobian,
-    /// The generalized errors of the sources.
+    /// What the sources cause: one value per [`Effect`](crate::Effect).
+    Effects,
+    /// Generalized errors, six per frame, or their variances.
     Errors,
     /// The rows of arguments of a batch.
     Arguments,
@@ -42,7 +44,8 @@ impl fmt::Display for Quantity {
             Self::Inputs => "input",
             Self::Pose => "pose entry",
             Self::Jacobian => "Jacobian column",
-            Self::Errors => "effect of a source",
+            Self::Effects => "effect of a source",
+            Self::Errors => "generalized error",
             Self::Arguments => "row of arguments",
             Self::Results => "row of results",
             Self::Configurations => "configuration of a batch",

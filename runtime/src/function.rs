@@ -167,7 +167,7 @@ impl Function {
                 arguments: &[Q, S, U],
                 results: &[Array {
                     name: "effects",
-                    quantity: Quantity::Errors,
+                    quantity: Quantity::Effects,
                     shape: &[Count::Effects],
                     unit: "length unit, rad",
                     documentation: "Of a repeatable source the error, of a random one its magnitude.",

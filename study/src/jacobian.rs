@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use abbe::analysis::sampling;
-use abbe::{Component, Description, Manipulator, Pose};
+use abbe::{Class, Component, Description, Error, Manipulator, Pose, Quantity};
 use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, Span};
 use abbe_codegen::document::Document;
 use abbe_codegen::expr::{Dimension, parse_value};
@@ -69,6 +69,7 @@ impl Jacobian {
             .error_jacobian(&q, &s, &mut columns)
             .and_then(|pose| interpreter.generalized_errors(&q, &s, &u, &mut errors).map(|()| pose))
             .map_err(|error| {
+                let error = first_effect(&interpreter, [&q, &s, &u], error);
                 mistake::not_evaluated(&self.machine.origin, "this configuration", &error, &description)
             })?;
         Ok(Report::new(&description, Arc::clone(spec), q, &pose, &columns, &errors))
@@ -100,6 +101,27 @@ impl Report {
             generalized_errors: errors.as_flattened().iter().map(|error| error + 0.0).collect(),
             spec,
         }
+    }
+}
+
+/// The effect that makes a generalized error not finite, if it is the first such effect.
+fn first_effect(interpreter: &Interpreter, [q, s, u]: [&[f64]; 3], error: Error) -> Error {
+    let description = interpreter.description();
+    let mut effects = vec![0.0; description.effects.len()];
+    match (error, interpreter.effects(q, s, u, &mut effects)) {
+        (
+            Error::NotFinite { quantity: Quantity::Errors, index },
+            Err(first @ Error::NotFinite { quantity: Quantity::Effects, index: effect }),
+        ) => {
+            let effect = &description.effects[effect];
+            let causes = 6 * effect.frame + effect.component.index() == index;
+            if causes && description.sources[effect.source].class == Class::Repeatable {
+                first
+            } else {
+                error
+            }
+        }
+        _ => error,
     }
 }
 

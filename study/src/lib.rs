@@ -22,6 +22,22 @@
 //!   use it, reports hold numbers.
 //! - The spec of a [`Machine`] is changed once, by [`Machine::change`], before the job starts.
 //!
+//! A study in ten lines:
+//!
+//! ```
+//! use abbe_study::analyze::Analyze;
+//! use abbe_study::{Machine, Study};
+//!
+//! let machine = Machine::find("pps")?; // or the path of a spec of your own
+//! let study = Study::find(None, &machine)?; // the one that is shipped with it
+//! let report = Analyze::new(machine, study).run(&mut ())?;
+//! assert_eq!(report.budget.configurations, 999);
+//! let [first, ..] = &report.budget.tighten_first()[..] else { panic!("there are sources") };
+//! println!("radius {:.3} mm; tighten first: {}", report.budget.combined.radius.value, report.source(*first).name);
+//! # assert_eq!(report.source(*first).name, "assembly");
+//! # Ok::<(), abbe_codegen::diagnostic::Diagnostics>(())
+//! ```
+//!
 //! [`Machine`] is a spec with its name, and its generated code if it is shipped; [`Changes`] what differs from it in one
 //! run; [`study_file`] the study files, [`workspace`] the configurations that they ask for; [`data`] measurements.
 

@@ -146,7 +146,7 @@ impl<'a> Block<'a> {
                     if let Some(source) = (0..description.sources.len()).find(infinite) {
                         let effect = description.effects.iter().position(|effect| effect.source == source);
                         let index = effect.unwrap_or(0);
-                        return Err(self.at(place, Error::NotFinite { quantity: Quantity::Errors, index }));
+                        return Err(self.at(place, Error::NotFinite { quantity: Quantity::Effects, index }));
                     }
                     self.indices[kept] = index;
                     self.write(kept, &here);

@@ -1,0 +1,140 @@
+//! Jobs, called as anything but the command would call them.
+
+use abbe::lanes::{Batches, Tiles};
+use abbe::{Description, Error, Function, Manipulator, Pose};
+use abbe_interpreter::Interpreter;
+use abbe_study::analyze::{Agreement, Analyze};
+use abbe_study::check::{Check, laws};
+use abbe_study::jacobian::Jacobian;
+use abbe_study::study_file::{CombinedFigure, Subject};
+use abbe_study::{Changes, Machine, Notes, Study};
+
+/// What a job said.
+#[derive(Default)]
+struct Heard {
+    notes: Vec<String>,
+    stop: bool,
+}
+
+impl Notes for Heard {
+    fn note(&mut self, note: &str) {
+        self.notes.push(note.to_owned());
+    }
+
+    fn stop(&self) -> bool {
+        self.stop
+    }
+}
+
+fn changed(name: &str, set: &str) -> Machine {
+    let mut machine = Machine::find(name).unwrap();
+    let changes = Changes::read(&[set.to_owned()], &[], &[], &machine.spec).unwrap();
+    machine.change(&changes);
+    machine
+}
+
+#[test]
+fn the_papers_radius_without_a_process() {
+    let machine = Machine::find("pps").unwrap();
+    let study = Study::find(None, &machine).unwrap();
+    let mut job = Analyze::new(machine, study);
+    job.figures = true;
+    let report = job.run(&mut ()).unwrap();
+    let (published, agreement) = report.published(&Subject::Combined(CombinedFigure::Both)).unwrap();
+    assert!(published.figures[3].is_some());
+    assert!(matches!(agreement, Agreement::Met | Agreement::Missed { .. }));
+    assert_eq!(report.figures.as_ref().unwrap().figures.len(), report.study.figures.len());
+    let json = serde_json::to_value(&report).unwrap();
+    assert_eq!(json["combined"]["radius"], report.budget.combined.radius.value);
+    // The ledger stands in the order of its ranks.
+    let ranks = json["ledger"]["sources"].as_array().unwrap().iter().map(|entry| entry["rank"].as_u64());
+    assert!(ranks.map(Option::unwrap).eq(1..=report.budget.sources.len() as u64));
+    let figures = serde_json::to_value(&report.figures).unwrap();
+    assert!(figures["figures"][0]["data"].is_object() || figures["figures"][0]["data"].is_string());
+}
+
+/// A difference that print cannot show is not said to be 0.
+#[test]
+fn first_order_is_never_off_by_0() {
+    let machine = Machine::find("wam").unwrap();
+    let study = Study::find(None, &machine).unwrap();
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    assert!(report.first_order.largest > 0.0);
+    let conclusions = report.conclusions().join(" ");
+    assert!(conclusions.contains("by less than 0.00001 mm"), "{conclusions}");
+    assert!(!conclusions.contains("by at most 0 mm"), "{conclusions}");
+}
+
+#[test]
+fn the_right_source_is_blamed() {
+    let machine = changed("pps", "arm_EI=0");
+    let refused = Jacobian { machine: machine.clone(), q: None }.run(&mut ()).unwrap_err().to_string();
+    assert!(refused.contains("the source \"arm deflection\" has no finite value"), "{refused}");
+    let study = Study::find(None, &machine).unwrap();
+    let refused = Analyze::new(machine, study).run(&mut ()).unwrap_err().to_string();
+    assert!(refused.contains("the source \"arm deflection\" has no finite value"), "{refused}");
+}
+
+#[test]
+fn what_is_beyond_limits_is_noted_and_a_job_can_be_stopped() {
+    let machine = Machine::find("puma560").unwrap();
+    let mut heard = Heard::default();
+    let q = Some(vec![100.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    Jacobian { machine: machine.clone(), q }.run(&mut heard).unwrap();
+    assert!(heard.notes[0].contains("is outside its limits"), "{:?}", heard.notes);
+    let mut heard = Heard { stop: true, ..Heard::default() };
+    assert!(Check { machine }.run(&mut heard).unwrap_err().to_string().contains("stopped"));
+}
+
+/// A manipulator whose batches forget the last configuration.
+struct Forgetful(Interpreter);
+
+impl Manipulator for Forgetful {
+    fn description(&self) -> &Description {
+        self.0.description()
+    }
+    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
+        self.0.transforms(q, s, transforms)
+    }
+    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
+        self.0.pose(q, s)
+    }
+    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        self.0.error_jacobian(q, s, columns)
+    }
+    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        self.0.joint_jacobian(q, s, columns)
+    }
+    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        self.0.parameter_jacobian(q, s, columns)
+    }
+    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
+        self.0.effects(q, s, u, effects)
+    }
+    fn generalized_errors(
+        &self,
+        q: &[f64],
+        s: &[f64],
+        u: &[f64],
+        errors: &mut [[f64; 6]],
+    ) -> Result<(), Error> {
+        self.0.generalized_errors(q, s, u, errors)
+    }
+}
+
+impl Batches for Forgetful {
+    fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
+        self.0.batch(function, arguments, results)?;
+        results.set_value(0, arguments.count() - 1, 1e9);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_batch_that_is_wrong_fails_its_law_and_no_other() {
+    let spec = Machine::find("scara").unwrap().spec;
+    assert!(laws(&Interpreter::new(spec.clone()), 20).iter().all(|law| law.holds));
+    let failed = laws(&Forgetful(Interpreter::new(spec)), 20);
+    let failed = failed.iter().filter(|law| !law.holds).map(|law| law.law).collect::<Vec<_>>();
+    assert_eq!(failed, ["batches = single evaluations"]);
+}
