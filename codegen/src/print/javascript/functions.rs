@@ -47,7 +47,7 @@ fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
         let margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
         match signature.results {
             [array] if !margin => {
-                writer.documentation(&format!("@returns {{Float64Array}} {}", numbers(array)))
+                writer.documentation(&format!("@returns {{Float64Array}} {}", numbers(array)));
             }
             several => {
                 writer.documentation("@returns {object} These by their names:");

@@ -261,7 +261,7 @@ impl Printer<'_> {
                 Role::Margin => margin = true,
                 // A single row of what has several dimensions.
                 _ if array.shape.len() > wanted.shape.len() => {
-                    arguments.push(format!("&mut {}[0]", array.name))
+                    arguments.push(format!("&mut {}[0]", array.name));
                 }
                 _ if is_local => arguments.push(format!("{mutable}{}", array.name)),
                 _ => arguments.push(array.name.to_owned()),

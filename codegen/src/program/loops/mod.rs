@@ -408,6 +408,7 @@ impl Draft<'_, '_> {
 }
 
 /// Which frames a loop keeps.
+#[derive(Clone, Copy)]
 enum Kept {
     /// Those that transforms are reached from.
     Before(usize),
