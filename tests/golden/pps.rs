@@ -41,7 +41,7 @@
 /// | `predicted_displacement` | 77 mul, 103 add, 8 div, 4 sincos, 1 sqrt |
 /// | `source_displacements` | 88 mul, 105 add, 8 div, 4 sincos, 1 sqrt, 4 neg |
 /// | `real_pose` | 304 mul, 190 add, 7 div, 8 sincos |
-/// | `compensator_step` | 340 mul, 214 add, 7 div, 8 sincos, 4 neg |
+/// | `compensator_step` | 340 mul, 216 add, 7 div, 11 sincos, 4 neg |
 #[allow(dead_code)]
 #[allow(non_snake_case)]
 pub mod pps {
@@ -1913,12 +1913,12 @@ pub mod pps {
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
         /// variable.
         ///
-        /// 340 mul, 214 add, 7 div, 8 sincos, 4 neg.
+        /// 340 mul, 216 add, 7 div, 11 sincos, 4 neg.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
-            _u: &[T; INPUTS],
+            u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; VARIABLES],
         ) {
@@ -1931,251 +1931,54 @@ pub mod pps {
                 x,
                 y,
                 z,
-                tip_load,
-                tip_lever,
-                arm_EI,
-                arm_GJ,
-                assembly_shift,
-                assembly_turn,
+                _,
+                _,
+                _,
+                _,
+                _,
+                _,
             ] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
+            real_pose(q, s, u, pose);
             columns[0] = [one, zero, zero, zero, zero, zero];
             columns[1] = [zero, one, zero, zero, zero, zero];
             columns[2] = [zero, zero, one, zero, zero, zero];
-            let t1 = d1 * T::constant(::core::f64::consts::PI);
-            let [
-                (s4, c4),
-                (s5, c5),
-                (s6, c6),
-                (sin_2, cos_2),
-                (sin_assembly_turn, cos_assembly_turn),
-            ] = T::sin_cos_each([q4, q5, q6, t1 / T::constant(1600.0), assembly_turn]);
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
             let p5_y = p2_y + roll_offset;
             let r5_11 = c4 * c5;
-            let t3 = s4 * c5;
-            let r5_31 = -t3;
-            let t4 = c4 * s5;
+            let t1 = s4 * c5;
+            let r5_31 = -t1;
+            let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let r6_22 = c5 * c6;
-            let r6_12 = s4.mul_sub(s6, t4 * c6);
+            let r6_12 = s4.mul_sub(s6, t2 * c6);
             let r6_32 = r5_32.mul_add(c6, c4 * s6);
-            let r6_13 = t4.mul_add(s6, s4 * c6);
+            let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_33 = c4.mul_sub(c6, r5_32 * s6);
             let p6_x = r6_12.mul_add(couch_offset, d1);
             let p6_y = r6_22.mul_add(couch_offset, p5_y);
             let p6_z = r6_32.mul_add(couch_offset, p3_z);
             let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
-            let t5 = r6_22.mul_add(y, s5.mul_add(x, p6_y));
-            let pt_y = (c5 * s6).neg_mul_add(z, t5);
-            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t3.neg_mul_add(x, p6_z)));
+            let t3 = r6_22.mul_add(y, s5.mul_add(x, p6_y));
+            let pt_y = (c5 * s6).neg_mul_add(z, t3);
+            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
             let lever1_x = pt_x - d1;
-            let t6 = -lever1_x;
-            let t7 = p3_z - pt_z;
-            let lever4_z = -t7;
-            columns[3] = [lever4_z, zero, t6, zero, one, zero];
-            let t8 = c4.mul_add(lever1_x, s4 * t7);
+            let t4 = -lever1_x;
+            let t5 = p3_z - pt_z;
+            let lever4_z = -t5;
+            columns[3] = [lever4_z, zero, t4, zero, one, zero];
+            let t6 = c4.mul_add(lever1_x, s4 * t5);
             let lever5_y = pt_y - p5_y;
-            let t9 = t3.mul_sub(lever5_y, s5 * t7);
-            let t10 = r5_11.mul_sub(t7, t3 * lever1_x);
-            let t11 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
-            columns[5] = [t9, t10, t11, r5_11, s5, r5_31];
-            let t12 = -(c4 * lever5_y);
-            let t13 = s4 * lever5_y;
-            columns[4] = [t12, t8, t13, s4, zero, c4];
-            let t14 = T::constant(0.060706) * sin_2;
-            let t15 = c4 * tip_lever;
-            let t16 = cos_2.mul_add(T::constant(0.000119), T::constant(6.2e-5));
-            let t17 = p3_z / T::constant(3.0) + t15 / T::constant(2.0);
-            let t18 = tip_load * (p3_z * p3_z) / arm_EI;
-            let t19 = t18.neg_mul_add(t17, assembly_shift);
-            let t20 = p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ;
-            let t21 = t15 + p3_z / T::constant(2.0);
-            let (sin_22, cos_22) = (t16 - assembly_turn).sin_cos();
-            let t23 = cos_22 * cos_assembly_turn;
-            let t24 = sin_22 * cos_assembly_turn;
-            let t25 = cos_22 * sin_assembly_turn;
-            let t26 = sin_22 * sin_assembly_turn;
-            let t27 = cos_assembly_turn * cos_assembly_turn;
-            let t28 = sin_assembly_turn * cos_assembly_turn;
-            let t29 = cos_assembly_turn.mul_add(t25, t26);
-            let t30 = cos_assembly_turn.neg_mul_add(t26, t25);
-            let t31 = sin_assembly_turn.neg_mul_add(t25, t24);
-            let t32 = sin_assembly_turn.mul_add(t26, t23);
-            let t33 = d1.mul_add(T::constant(6.2e-5), t14) + assembly_shift;
-            let t34 = p2_y.mul_add(t29, d1 + assembly_shift);
-            let t35 = p2_y.mul_add(t27, assembly_shift);
-            let t36 = assembly_shift.neg_mul_add(t23, t34);
-            let t37 = assembly_shift.mul_add(sin_assembly_turn, t35);
-            let t38 = assembly_shift.mul_add(t24, p2_y.mul_sub(t30, t33));
-            let t39 = assembly_shift.mul_add(t29, t36);
-            let t40 = assembly_shift.mul_add(t27, t37);
-            let t41 = assembly_shift.mul_add(t30, t38);
-            let t42 = cos_assembly_turn.mul_sub(t31, sin_assembly_turn * t23);
-            let t43 = cos_assembly_turn * t28;
-            let t44 = sin_assembly_turn.mul_sub(sin_assembly_turn, t43);
-            let t45 = cos_assembly_turn.mul_add(t32, sin_assembly_turn * t24);
-            let t46 = sin_assembly_turn.mul_add(t31, cos_assembly_turn * t23);
-            let t47 = sin_assembly_turn.mul_add(t28, t28);
-            let t48 = sin_assembly_turn.mul_sub(t32, cos_assembly_turn * t24);
-            let t49 = cos_assembly_turn.mul_sub(t46, sin_assembly_turn * t29);
-            let t50 = cos_assembly_turn.mul_add(t47, sin_assembly_turn * t27);
-            let t51 = cos_assembly_turn.mul_sub(t48, sin_assembly_turn * t30);
-            let t52 = sin_assembly_turn.mul_add(t46, cos_assembly_turn * t29);
-            let t53 = cos_assembly_turn.mul_sub(t27, sin_assembly_turn * t47);
-            let t54 = sin_assembly_turn.mul_add(t48, cos_assembly_turn * t30);
-            let t55 = cos_assembly_turn.mul_sub(t52, sin_assembly_turn * t42);
-            let t56 = cos_assembly_turn.mul_sub(t53, sin_assembly_turn * t44);
-            let t57 = cos_assembly_turn.mul_sub(t54, sin_assembly_turn * t45);
-            let t58 = sin_assembly_turn.mul_add(t52, cos_assembly_turn * t42);
-            let t59 = sin_assembly_turn.mul_add(t53, cos_assembly_turn * t44);
-            let t60 = sin_assembly_turn.mul_add(t54, cos_assembly_turn * t45);
-            let t61 = p3_z.mul_add(t58, assembly_shift.neg_mul_add(t31, t39));
-            let t62 = p3_z.mul_add(t59, assembly_shift.mul_add(t28, t40));
-            let t63 = p3_z.mul_add(t60, assembly_shift.neg_mul_add(t32, t41));
-            let t64 = t19.mul_add(t55, assembly_shift.neg_mul_add(t49, t61));
-            let t65 = t19.mul_add(t56, assembly_shift.mul_add(t50, t62));
-            let t66 = t19.mul_add(t57, assembly_shift.neg_mul_add(t51, t63));
-            let t67 = cos_assembly_turn.mul_sub(t58, sin_assembly_turn * t49);
-            let t68 = cos_assembly_turn.mul_add(t59, sin_assembly_turn * t50);
-            let t69 = cos_assembly_turn.mul_sub(t60, sin_assembly_turn * t51);
-            let t70 = sin_assembly_turn.mul_add(t58, cos_assembly_turn * t49);
-            let t71 = sin_assembly_turn.mul_sub(t59, cos_assembly_turn * t50);
-            let t72 = sin_assembly_turn.mul_add(t60, cos_assembly_turn * t51);
-            let (sin_73, cos_73) = (t20 + assembly_turn).sin_cos();
-            let t74 = t70.mul_sub(cos_73, t55 * sin_73);
-            let t75 = t71.mul_sub(cos_73, t56 * sin_73);
-            let t76 = t72.mul_sub(cos_73, t57 * sin_73);
-            let t77 = t70.mul_add(sin_73, t55 * cos_73);
-            let t78 = t71.mul_add(sin_73, t56 * cos_73);
-            let t79 = t72.mul_add(sin_73, t57 * cos_73);
-            let t80 = (p3_z * tip_load / arm_EI).mul_add(t21, assembly_turn);
-            let (sin_81, cos_81) = t80.sin_cos();
-            let t82 = t77.mul_add(cos_81, t67 * sin_81);
-            let t83 = t78.mul_add(cos_81, t68 * sin_81);
-            let t84 = t79.mul_add(cos_81, t69 * sin_81);
-            let t85 = t67.mul_sub(cos_81, t77 * sin_81);
-            let t86 = t68.mul_sub(cos_81, t78 * sin_81);
-            let t87 = t69.mul_sub(cos_81, t79 * sin_81);
-            let t88 = c4.mul_add(t85, s4 * t74);
-            let t89 = c4.mul_add(t86, s4 * t75);
-            let t90 = c4.mul_add(t87, s4 * t76);
-            let t91 = c4.mul_sub(t74, s4 * t85);
-            let t92 = c4.mul_sub(t75, s4 * t86);
-            let t93 = c4.mul_sub(t76, s4 * t87);
-            let t94 = assembly_shift.mul_add(t58, t64);
-            let t95 = assembly_shift.mul_add(t59, t65);
-            let t96 = assembly_shift.mul_add(t60, t66);
-            let t97 = assembly_shift.neg_mul_add(t91, t94);
-            let t98 = assembly_shift.neg_mul_add(t92, t95);
-            let t99 = assembly_shift.neg_mul_add(t93, t96);
-            let t100 = assembly_shift.mul_add(t82, t97);
-            let t101 = assembly_shift.mul_add(t83, t98);
-            let t102 = assembly_shift.mul_add(t84, t99);
-            let t103 = cos_assembly_turn.mul_sub(t88, sin_assembly_turn * t91);
-            let t104 = cos_assembly_turn.mul_sub(t89, sin_assembly_turn * t92);
-            let t105 = cos_assembly_turn.mul_sub(t90, sin_assembly_turn * t93);
-            let t106 = sin_assembly_turn.mul_add(t88, cos_assembly_turn * t91);
-            let t107 = sin_assembly_turn.mul_add(t89, cos_assembly_turn * t92);
-            let t108 = sin_assembly_turn.mul_add(t90, cos_assembly_turn * t93);
-            let t109 = cos_assembly_turn.mul_sub(t106, sin_assembly_turn * t82);
-            let t110 = cos_assembly_turn.mul_sub(t107, sin_assembly_turn * t83);
-            let t111 = cos_assembly_turn.mul_sub(t108, sin_assembly_turn * t84);
-            let t112 = sin_assembly_turn.mul_add(t106, cos_assembly_turn * t82);
-            let t113 = sin_assembly_turn.mul_add(t107, cos_assembly_turn * t83);
-            let t114 = sin_assembly_turn.mul_add(t108, cos_assembly_turn * t84);
-            let t115 = cos_assembly_turn.mul_add(t112, sin_assembly_turn * t103);
-            let t116 = cos_assembly_turn.mul_add(t113, sin_assembly_turn * t104);
-            let t117 = cos_assembly_turn.mul_add(t114, sin_assembly_turn * t105);
-            let t118 = cos_assembly_turn.mul_sub(t103, sin_assembly_turn * t112);
-            let t119 = cos_assembly_turn.mul_sub(t104, sin_assembly_turn * t113);
-            let t120 = cos_assembly_turn.mul_sub(t105, sin_assembly_turn * t114);
-            let t121 = assembly_shift.neg_mul_add(t88, t100);
-            let t122 = assembly_shift.neg_mul_add(t89, t101);
-            let t123 = assembly_shift.neg_mul_add(t90, t102);
-            let t124 = c5.mul_add(t109, s5 * t115);
-            let t125 = c5.mul_add(t110, s5 * t116);
-            let t126 = c5.mul_add(t111, s5 * t117);
-            let t127 = c5.mul_sub(t115, s5 * t109);
-            let t128 = c5.mul_sub(t116, s5 * t110);
-            let t129 = c5.mul_sub(t117, s5 * t111);
-            let t130 = roll_offset.mul_add(t115, t121);
-            let t131 = roll_offset.mul_add(t116, t122);
-            let t132 = roll_offset.mul_add(t117, t123);
-            let t133 = assembly_shift.neg_mul_add(t124, t130);
-            let t134 = assembly_shift.neg_mul_add(t125, t131);
-            let t135 = assembly_shift.neg_mul_add(t126, t132);
-            let t136 = assembly_shift.neg_mul_add(t127, t133);
-            let t137 = assembly_shift.neg_mul_add(t128, t134);
-            let t138 = assembly_shift.neg_mul_add(t129, t135);
-            let t139 = cos_assembly_turn.mul_sub(t118, sin_assembly_turn * t124);
-            let t140 = cos_assembly_turn.mul_sub(t119, sin_assembly_turn * t125);
-            let t141 = cos_assembly_turn.mul_sub(t120, sin_assembly_turn * t126);
-            let t142 = sin_assembly_turn.mul_add(t118, cos_assembly_turn * t124);
-            let t143 = sin_assembly_turn.mul_add(t119, cos_assembly_turn * t125);
-            let t144 = sin_assembly_turn.mul_add(t120, cos_assembly_turn * t126);
-            let t145 = cos_assembly_turn.mul_add(t142, sin_assembly_turn * t127);
-            let t146 = cos_assembly_turn.mul_add(t143, sin_assembly_turn * t128);
-            let t147 = cos_assembly_turn.mul_add(t144, sin_assembly_turn * t129);
-            let t148 = cos_assembly_turn.mul_sub(t127, sin_assembly_turn * t142);
-            let t149 = cos_assembly_turn.mul_sub(t128, sin_assembly_turn * t143);
-            let t150 = cos_assembly_turn.mul_sub(t129, sin_assembly_turn * t144);
-            let t151 = cos_assembly_turn.mul_add(t148, sin_assembly_turn * t139);
-            let t152 = cos_assembly_turn.mul_add(t149, sin_assembly_turn * t140);
-            let t153 = cos_assembly_turn.mul_add(t150, sin_assembly_turn * t141);
-            let t154 = cos_assembly_turn.mul_sub(t139, sin_assembly_turn * t148);
-            let t155 = cos_assembly_turn.mul_sub(t140, sin_assembly_turn * t149);
-            let t156 = cos_assembly_turn.mul_sub(t141, sin_assembly_turn * t150);
-            let t157 = c6.mul_add(t151, s6 * t154);
-            let t158 = c6.mul_add(t152, s6 * t155);
-            let t159 = c6.mul_add(t153, s6 * t156);
-            let t160 = c6.mul_sub(t154, s6 * t151);
-            let t161 = c6.mul_sub(t155, s6 * t152);
-            let t162 = c6.mul_sub(t156, s6 * t153);
-            let t163 = assembly_shift.mul_add(t118, t136);
-            let t164 = assembly_shift.mul_add(t119, t137);
-            let t165 = assembly_shift.mul_add(t120, t138);
-            let t166 = couch_offset.mul_add(t157, t163);
-            let t167 = couch_offset.mul_add(t158, t164);
-            let t168 = couch_offset.mul_add(t159, t165);
-            let t169 = assembly_shift.mul_add(t145, t166);
-            let t170 = assembly_shift.mul_add(t146, t167);
-            let t171 = assembly_shift.mul_add(t147, t168);
-            let t172 = assembly_shift.neg_mul_add(t157, t169);
-            let t173 = assembly_shift.neg_mul_add(t158, t170);
-            let t174 = assembly_shift.neg_mul_add(t159, t171);
-            let t175 = cos_assembly_turn.mul_add(t160, sin_assembly_turn * t145);
-            let t176 = cos_assembly_turn.mul_add(t161, sin_assembly_turn * t146);
-            let t177 = cos_assembly_turn.mul_add(t162, sin_assembly_turn * t147);
-            let t178 = cos_assembly_turn.mul_sub(t145, sin_assembly_turn * t160);
-            let t179 = cos_assembly_turn.mul_sub(t146, sin_assembly_turn * t161);
-            let t180 = cos_assembly_turn.mul_sub(t147, sin_assembly_turn * t162);
-            let t181 = cos_assembly_turn.mul_add(t178, sin_assembly_turn * t157);
-            let t182 = cos_assembly_turn.mul_add(t179, sin_assembly_turn * t158);
-            let t183 = cos_assembly_turn.mul_add(t180, sin_assembly_turn * t159);
-            let t184 = cos_assembly_turn.mul_sub(t157, sin_assembly_turn * t178);
-            let t185 = cos_assembly_turn.mul_sub(t158, sin_assembly_turn * t179);
-            let t186 = cos_assembly_turn.mul_sub(t159, sin_assembly_turn * t180);
-            let t187 = cos_assembly_turn.mul_add(t184, sin_assembly_turn * t175);
-            let t188 = cos_assembly_turn.mul_add(t185, sin_assembly_turn * t176);
-            let t189 = cos_assembly_turn.mul_add(t186, sin_assembly_turn * t177);
-            let t190 = cos_assembly_turn.mul_sub(t175, sin_assembly_turn * t184);
-            let t191 = cos_assembly_turn.mul_sub(t176, sin_assembly_turn * t185);
-            let t192 = cos_assembly_turn.mul_sub(t177, sin_assembly_turn * t186);
-            let t193 = x.mul_add(t181, assembly_shift.neg_mul_add(t160, t172));
-            let t194 = x.mul_add(t182, assembly_shift.neg_mul_add(t161, t173));
-            let t195 = x.mul_add(t183, assembly_shift.neg_mul_add(t162, t174));
-            let t196 = z.mul_add(t190, y.mul_add(t187, t193));
-            let t197 = z.mul_add(t191, y.mul_add(t188, t194));
-            let t198 = z.mul_add(t192, y.mul_add(t189, t195));
-            *pose = [
-                [t181, t182, t183],
-                [t187, t188, t189],
-                [t190, t191, t192],
-                [t196, t197, t198],
-            ];
+            let t7 = t1.mul_sub(lever5_y, s5 * t5);
+            let t8 = r5_11.mul_sub(t5, t1 * lever1_x);
+            let t9 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
+            columns[5] = [t7, t8, t9, r5_11, s5, r5_31];
+            let t10 = -(c4 * lever5_y);
+            let t11 = s4 * lever5_y;
+            columns[4] = [t10, t6, t11, s4, zero, c4];
         }
     }
 }

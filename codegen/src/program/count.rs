@@ -50,6 +50,11 @@ impl Program {
 }
 
 impl Operations {
+    /// By what two ways to compute the same are compared: all that takes time.
+    pub fn weight(self) -> usize {
+        self.mul + self.add + self.div + self.sincos
+    }
+
     /// So many times as many.
     pub fn times(self, count: usize) -> Self {
         self.each(Self::default(), |a, _| a * count)

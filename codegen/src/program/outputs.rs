@@ -27,11 +27,7 @@ pub(super) fn fewest(function: Function, model: &Model) -> (Outputs, Program) {
         let program = Program::new(&model.graph, &nodes);
         (outputs, program)
     });
-    let operations = |(_, program): &(Outputs, Program)| {
-        let count = program.operations();
-        count.mul + count.add + count.div + count.sincos
-    };
-    ways.min_by_key(operations).expect("every function has outputs")
+    ways.min_by_key(|(_, program)| program.operations().weight()).expect("every function has outputs")
 }
 
 /// The outputs of a function, and where there are two ways to compute them, both.

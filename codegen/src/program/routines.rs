@@ -50,7 +50,8 @@ impl Routines {
                 let looped = loops.as_mut().filter(|_| program.steps.len() > spec.frames.len());
                 match looped.and_then(|loops| loops.stages(function, &mut arrays)) {
                     Some(stages) => stages,
-                    None => vec![at_once(&arrays, program)],
+                    None => composed(function, model, &mut arrays, &program, &description)
+                        .unwrap_or_else(|| vec![at_once(&arrays, program)]),
                 }
             };
             let operations = Operations::default();
@@ -109,6 +110,60 @@ fn at_once(arrays: &[Array], program: Program) -> Stage {
     let filled = |(_, array): &(usize, &Array)| array.role != Role::Argument;
     let writes = arrays.iter().enumerate().filter(filled).map(|(array, _)| Place { array, row: Row::All });
     Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })
+}
+
+/// The stages of a function that is made of others, where that takes about as many operations as by itself.
+fn composed(
+    function: Function,
+    model: &Model,
+    arrays: &mut Vec<Array>,
+    program: &Program,
+    description: &Description,
+) -> Option<Vec<Stage>> {
+    match function {
+        Function::PredictedDisplacement => {
+            let parts = [Function::GeneralizedErrors, Function::Displacement];
+            let [errors, displacement] = parts.map(|function| fewest(function, model).1.operations());
+            if errors.plus(displacement).weight() > program.operations().weight() {
+                return None;
+            }
+            let shape = vec![Count::Frames, Count::Exactly(6)];
+            arrays.push(Array { name: "errors", shape, role: Role::Zeros });
+            let stages = parts.map(|function| {
+                let routine = function.name();
+                let places = arrays.iter().enumerate();
+                let local = arrays.len() - 1;
+                let filled = |role: Role| role == Role::Result || role == Role::Margin;
+                let arrays = match function {
+                    Function::GeneralizedErrors => {
+                        let given = places.filter(|(_, array)| array.role == Role::Argument);
+                        given.map(|(index, _)| index).chain([local]).collect()
+                    }
+                    _ => {
+                        let given = places.clone().filter(|(_, array)| ["q", "s"].contains(&array.name));
+                        let filled = places.filter(|(_, array)| filled(array.role));
+                        let given = given.map(|(index, _)| index).chain([local]);
+                        given.chain(filled.map(|(index, _)| index)).collect()
+                    }
+                };
+                Stage::Call { routine, arrays }
+            });
+            Some(stages.into())
+        }
+        // The real chain and the nominal twists have hardly anything in common.
+        Function::CompensatorStep => {
+            let columns = arrays.iter().position(|array| array.name == "columns")?;
+            let others = (0..arrays.len()).filter(|index| *index != columns).collect();
+            let call = Stage::Call { routine: Function::RealPose.name(), arrays: others };
+            if arrays[columns].is_empty(description) {
+                return Some(vec![call]);
+            }
+            let program = Program::new(&model.graph, &model.joint_twists.concat());
+            let writes = vec![Place { array: columns, row: Row::All }];
+            Some(vec![call, Stage::Block(Block { reads: vec![], program, writes, repeated: None })])
+        }
+        _ => None,
+    }
 }
 
 /// Whether a function that came before gives the same, by more than chance, from no more than this one takes.
