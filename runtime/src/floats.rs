@@ -1,11 +1,7 @@
 //! `f64` and `f32` as scalars.
 
 use crate::Scalar;
-#[cfg(feature = "lanes")]
-use crate::lanes::Pair;
-use crate::sin_cos;
-#[cfg(not(feature = "lanes"))]
-use crate::sin_cos::pair::Array as Pair;
+use crate::sin_cos::{self, Two};
 
 macro_rules! scalar {
     ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
@@ -21,7 +17,7 @@ macro_rules! scalar {
             $(
                 #[inline(always)]
                 fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-                    sin_cos::$each::<Pair, N>(angles)
+                    sin_cos::$each::<Two, N>(angles)
                 }
             )?
             $(

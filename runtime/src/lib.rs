@@ -46,6 +46,8 @@ mod shared;
 mod sin_cos;
 #[cfg(feature = "lanes")]
 mod twist;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 #[cfg(feature = "analysis")]
 pub mod analysis;

@@ -4,8 +4,8 @@
 //! `cos r = 1 + r² (−1/2 + r² C(r²))` with the minimax polynomials of fdlibm (below 2⁻⁵⁸), then the quadrant `n`.
 //! Below 1.7 ulp for `|x| ≤` [`REACH`].
 
-#[cfg(any(test, not(feature = "lanes")))]
-pub(crate) mod pair;
+#[cfg(any(test, not(target_arch = "x86_64")))]
+mod array;
 
 use core::ops::{Add, Mul, Sub};
 
@@ -74,6 +74,13 @@ pub(crate) trait Pair: Real {
     /// The numbers.
     fn numbers(self) -> [f64; 2];
 }
+
+/// Two numbers, as this machine computes with them best.
+#[cfg(target_arch = "x86_64")]
+pub(crate) type Two = crate::x86::Sse2;
+/// Two numbers, as this machine computes with them best.
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) type Two = array::Array;
 
 impl Real for f64 {
     const FUSED: bool = false;

@@ -7,28 +7,12 @@ use pulp::NullaryFnOnce;
 use pulp::x86::{V3, V4};
 
 use super::Register;
-use crate::sin_cos;
 
 /// The register with two lanes that every machine has.
 #[cfg(target_arch = "x86_64")]
-type Two = super::x86::Sse2;
+type Two = crate::x86::Sse2;
 #[cfg(not(target_arch = "x86_64"))]
 type Two = [f64; 2];
-
-/// Two lanes, wherever this runs.
-pub(crate) type Pair = super::Lanes<Two>;
-
-impl sin_cos::Pair for Pair {
-    #[inline(always)]
-    fn new([first, second]: [f64; 2]) -> Self {
-        Self::from_fn(|lane| if lane == 0 { first } else { second })
-    }
-
-    #[inline(always)]
-    fn numbers(self) -> [f64; 2] {
-        [self.to_slice()[0], self.to_slice()[1]]
-    }
-}
 
 /// Work on lanes, to be compiled for every instruction set.
 ///
@@ -108,9 +92,9 @@ impl InstructionSet {
         match self.0 {
             Level::Baseline => kernel.run::<Two>(),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2(v3) => v3.vectorize(With::<K, super::x86::Avx2>::new(kernel)),
+            Level::Avx2(v3) => v3.vectorize(With::<K, crate::x86::Avx2>::new(kernel)),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512(v4) => v4.vectorize(With::<K, super::x86::Avx512>::new(kernel)),
+            Level::Avx512(v4) => v4.vectorize(With::<K, crate::x86::Avx512>::new(kernel)),
         }
     }
 }

@@ -48,15 +48,14 @@ mod run;
 #[cfg(test)]
 mod tests;
 mod tiles;
-#[cfg(target_arch = "x86_64")]
-mod x86;
 
 pub use functions::*;
-pub(crate) use instruction_set::Pair;
 pub use instruction_set::{InstructionSet, Kernel};
 pub use one_by_one::OneByOne;
 #[cfg(feature = "analysis")]
 pub(crate) use one_by_one::one_by_one;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use register::by_array;
 pub use register::{Lanes, Mask, Register};
 #[doc(hidden)]
 pub use rows::{Rows, put_margin};

@@ -130,7 +130,7 @@ macro_rules! by_array {
         }
     };
 }
-pub(super) use by_array;
+pub(crate) use by_array;
 
 /// A number per lane: the [`Scalar`] of a batch.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

@@ -1,32 +1,39 @@
 //! The registers of SSE2, AVX2 and AVX-512: the only `unsafe` of the project.
 //!
-//! An instruction may be used where the machine has it. All have SSE2. The other two types are named nowhere but in
-//! [`InstructionSet::run`](super::InstructionSet::run), which has asked the machine; a kernel gets them as a type
-//! parameter and cannot exist without them. Nothing here reads or writes memory: all values come and go in registers.
+//! An instruction may be used where the machine has it. All have SSE2, in which sines and cosines go two by two. The other
+//! two types are named nowhere but in `lanes::InstructionSet::run`, which has asked the machine; a kernel gets them as a
+//! type parameter and cannot exist without them. Nothing here reads or writes memory: all values come and go in registers.
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;
+use core::ops::{Add, Mul, Sub};
 
+#[cfg(feature = "lanes")]
 use bytemuck::{Pod, Zeroable};
 
-use super::Register;
-use super::register::by_array;
+#[cfg(feature = "lanes")]
+use crate::lanes::{Register, by_array};
+use crate::sin_cos::{Pair, Real};
 
 /// Two lanes: SSE2.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "lanes", derive(Pod, Zeroable))]
 #[repr(transparent)]
 pub(crate) struct Sse2(__m128d);
 
 /// Four lanes: AVX2 and FMA.
+#[cfg(feature = "lanes")]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
-pub(super) struct Avx2(__m256d);
+pub(crate) struct Avx2(__m256d);
 
 /// Eight lanes: AVX-512 F and DQ.
+#[cfg(feature = "lanes")]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(transparent)]
-pub(super) struct Avx512(__m512d);
+pub(crate) struct Avx512(__m512d);
 
+#[cfg(feature = "lanes")]
 macro_rules! instructions {
     ($($name:ident($($argument:ident),+) $instruction:expr;)+) => {$(
         #[inline(always)]
@@ -37,6 +44,88 @@ macro_rules! instructions {
     )+};
 }
 
+macro_rules! operator {
+    ($trait:ident::$name:ident $instruction:ident) => {
+        impl $trait for Sse2 {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                // SAFETY: the machine has the instruction, see above.
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        }
+    };
+}
+
+operator!(Add::add _mm_add_pd);
+operator!(Sub::sub _mm_sub_pd);
+operator!(Mul::mul _mm_mul_pd);
+
+impl Real for Sse2 {
+    const FUSED: bool = false;
+
+    #[inline(always)]
+    fn number(value: f64) -> Self {
+        Self::new([value; 2])
+    }
+
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    #[inline(always)]
+    fn times_from(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
+
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        // SAFETY: the machine has the instruction, see above.
+        Self(unsafe { _mm_xor_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        // SAFETY: the machine has the instruction, see above.
+        Self(unsafe { _mm_and_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn odd(self) -> Self {
+        // SAFETY: the machine has the instructions, see above.
+        Self(unsafe {
+            let lowest = _mm_and_si128(_mm_castpd_si128(self.0), _mm_set1_epi64x(1));
+            _mm_castsi128_pd(_mm_sub_epi64(_mm_setzero_si128(), lowest))
+        })
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(self) -> Self {
+        // SAFETY: the machine has the instruction, see above.
+        Self(unsafe {
+            let places = _mm_cvtsi32_si128(PLACES as i32);
+            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(self.0), places))
+        })
+    }
+}
+
+impl Pair for Sse2 {
+    #[inline(always)]
+    fn new([first, second]: [f64; 2]) -> Self {
+        // SAFETY: the machine has the instruction, see above.
+        Self(unsafe { _mm_set_pd(second, first) })
+    }
+
+    #[inline(always)]
+    fn numbers(self) -> [f64; 2] {
+        // SAFETY: the machine has the instructions, see above.
+        unsafe { [_mm_cvtsd_f64(self.0), _mm_cvtsd_f64(_mm_unpackhi_pd(self.0, self.0))] }
+    }
+}
+
+#[cfg(feature = "lanes")]
 impl Register for Sse2 {
     by_array!(2, fused: false);
 
@@ -56,22 +145,20 @@ impl Register for Sse2 {
         or(a, b) _mm_or_pd(a, b);
         and_not(a, b) _mm_andnot_pd(b, a);
         more_than(a, b) _mm_cmpgt_pd(a, b);
-        odd(a) _mm_castsi128_pd(_mm_sub_epi64(
-            _mm_setzero_si128(),
-            _mm_and_si128(_mm_castpd_si128(a), _mm_set1_epi64x(1)),
-        ));
     }
 
     #[inline(always)]
-    fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
-        // SAFETY: the machine has the instruction, see above.
-        Self(unsafe {
-            let places = _mm_cvtsi32_si128(PLACES as i32);
-            _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(a), places))
-        })
+    fn odd(a: Self) -> Self {
+        Real::odd(a)
+    }
+
+    #[inline(always)]
+    fn shifted<const PLACES: u32>(a: Self) -> Self {
+        Real::shifted::<PLACES>(a)
     }
 }
 
+#[cfg(feature = "lanes")]
 impl Register for Avx2 {
     by_array!(4, fused: true);
 
@@ -107,6 +194,7 @@ impl Register for Avx2 {
     }
 }
 
+#[cfg(feature = "lanes")]
 impl Register for Avx512 {
     by_array!(8, fused: true);
 

@@ -1,4 +1,4 @@
-//! Two numbers in an array: where there are no lanes, compilers find what instructions for pairs there are.
+//! Two numbers in an array, for machines without a register here: compilers find what instructions for pairs they have.
 
 use core::ops::{Add, Mul, Sub};
 
