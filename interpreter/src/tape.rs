@@ -128,7 +128,7 @@ impl<'r> Packer<'r> {
             match array.role {
                 Role::Zeros if !is_alias => self.set(slots.iter().map(|slot| (*slot, 0.0)).collect()),
                 Role::Identity => {
-                    let diagonal = |i: usize| f64::from(u8::from(i < 9 && i % 4 == 0));
+                    let diagonal = |i: usize| f64::from(u8::from(i < 9 && i.is_multiple_of(4)));
                     self.set(slots.iter().enumerate().map(|(i, slot)| (*slot, diagonal(i))).collect());
                 }
                 _ => {}

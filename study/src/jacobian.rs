@@ -57,12 +57,12 @@ impl Jacobian {
         let spec = &self.machine.spec;
         let interpreter = Interpreter::new(Arc::clone(spec));
         let description = interpreter.description();
-        let q = self.q.clone().unwrap_or_else(|| sampling::home(&description));
+        let q = self.q.clone().unwrap_or_else(|| sampling::home(description));
         for (variable, value) in spec.variables.iter().zip(&q) {
             note_beyond_limits(variable, *value, spec, notes);
         }
-        let s = sampling::nominal_parameters(&description);
-        let u = sampling::nominal_inputs(&description);
+        let s = sampling::nominal_parameters(description);
+        let u = sampling::nominal_inputs(description);
         let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
         let mut errors = vec![[0.0; 6]; description.frames.len()];
         let pose = interpreter
@@ -70,9 +70,9 @@ impl Jacobian {
             .and_then(|pose| interpreter.generalized_errors(&q, &s, &u, &mut errors).map(|()| pose))
             .map_err(|error| {
                 let error = first_effect(&interpreter, [&q, &s, &u], error);
-                mistake::not_evaluated(&self.machine.origin, "this configuration", &error, &description)
+                mistake::not_evaluated(&self.machine.origin, "this configuration", &error, description)
             })?;
-        Ok(Report::new(&description, Arc::clone(spec), q, &pose, &columns, &errors))
+        Ok(Report::new(description, Arc::clone(spec), q, &pose, &columns, &errors))
     }
 }
 

@@ -72,14 +72,14 @@ impl Analyze {
         let description = manipulator.description();
         let workspace = study.region.workspace(manipulator, self.seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, error))?;
-        let u = sampling::nominal_inputs(&description);
-        let gathering = self.figures.then(|| Gathering::new(study, &description));
+        let u = sampling::nominal_inputs(description);
+        let gathering = self.figures.then(|| Gathering::new(study, description));
         let mut watching = Watching { rows, gathering, notes, total: workspace.len() };
-        let residuals = study.compensation.as_ref().map(|left| left.of(&description));
+        let residuals = study.compensation.as_ref().map(|left| left.of(description));
         let budget = error_budget(manipulator, workspace, &u, residuals.as_deref(), &mut watching);
         let Watching { gathering, notes, total, .. } = watching;
         notes.progress(total, total);
-        let refused = |refused: Unevaluated| self.not_evaluated(workspace, &refused, &description);
+        let refused = |refused: Unevaluated| self.not_evaluated(workspace, &refused, description);
         let budget = budget.map_err(refused)?;
         self.require_reached(&budget)?;
         notes.go_on()?;

@@ -83,7 +83,7 @@ impl Report {
 
     /// A source of the budget, by its index there.
     pub fn source(&self, index: usize) -> &Source {
-        &self.sources()[index]
+        self.sources()[index]
     }
 
     /// The name of a source of the budget.

@@ -75,7 +75,7 @@ fn sweep_own(
 ) -> Result<Option<[usize; 2]>, Diagnostics> {
     let Some(region) = &gather.figure.region else { return Ok(None) };
     let workspace = region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, error))?;
-    let u = sampling::nominal_inputs(&manipulator.description());
+    let u = sampling::nominal_inputs(manipulator.description());
     let unreachable = sweep(manipulator, &*workspace, &u, &mut |row| gather.add(row))
         .map_err(|error| mistake::whole(&spec.file, error))?;
     Ok(Some([workspace.len() - unreachable.count, unreachable.count]))
