@@ -1,7 +1,11 @@
 //! `f64` and `f32` as scalars.
 
 use crate::Scalar;
-use crate::sin_cos::{self, Two};
+use crate::sin_cos;
+#[cfg(not(target_arch = "x86_64"))]
+use crate::sin_cos::array::Array as Pair;
+#[cfg(target_arch = "x86_64")]
+use crate::x86::Sse2 as Pair;
 
 macro_rules! scalar {
     ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
@@ -17,7 +21,7 @@ macro_rules! scalar {
             $(
                 #[inline(always)]
                 fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-                    sin_cos::$each::<Two, N>(angles)
+                    sin_cos::$each::<Pair, N>(angles)
                 }
             )?
             $(

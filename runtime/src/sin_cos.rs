@@ -5,7 +5,7 @@
 //! Below 1.7 ulp for `|x| ≤` [`REACH`].
 
 #[cfg(any(test, not(target_arch = "x86_64")))]
-mod array;
+pub(crate) mod array;
 
 use core::ops::{Add, Mul, Sub};
 
@@ -74,13 +74,6 @@ pub(crate) trait Pair: Real {
     /// The numbers.
     fn numbers(self) -> [f64; 2];
 }
-
-/// Two numbers, as this machine computes with them best.
-#[cfg(target_arch = "x86_64")]
-pub(crate) type Two = crate::x86::Sse2;
-/// Two numbers, as this machine computes with them best.
-#[cfg(not(target_arch = "x86_64"))]
-pub(crate) type Two = array::Array;
 
 impl Real for f64 {
     const FUSED: bool = false;

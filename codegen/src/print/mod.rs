@@ -1,15 +1,17 @@
 //! From routines to source text: formatted, documented, the same bytes every time.
 //!
-//! `statements` says what a routine does, one small statement after the other, with `expressions` of a language's
-//! operators and `names` for everything; `layout` sets lines, `header` and `text` are what stands in comments. A language
+//! `statements` says what a routine does, one small `statement` after the other; `body` does so for a program, with
+//! an `expression` of a language's operators where a step needs no name, and `names` for everything. `layout` sets lines, `header` and `text` are what stands in comments. A language
 //! is a folder: how it writes operators, numbers, statements, a function and what is around it.
 
-mod expressions;
+mod body;
+mod expression;
 mod header;
 mod javascript;
 mod layout;
 mod names;
 pub mod rust;
+mod statement;
 mod statements;
 mod text;
 

@@ -1,43 +1,17 @@
-//! What a routine does, as small statements of any language.
+//! What a routine does, as small statements of any language, and which of its arrays it uses.
 
 use std::collections::HashSet;
 
 use abbe::Description;
 use abbe::function::Count;
 
-use super::expressions::{Expression, Syntax, Value, written};
+use super::body::body;
+use super::expression::{Syntax, Value};
 use super::names::Names;
+use super::statement::Statement;
 use crate::expr::Symbol;
-use crate::program::{Block, Operand, Place, Program, Repeated, Role, Routine, Row, Stage};
+use crate::program::{Block, Operand, Place, Program, Role, Routine, Row, Stage};
 use crate::spec::Spec;
-
-/// One statement. Arrays are indices of the routine's.
-pub(super) enum Statement {
-    /// Names for the numbers of a place; those without use have none.
-    Unpack { names: Vec<Option<String>>, from: Place },
-    /// What comes next.
-    Comment(String),
-    /// A name for a value.
-    Let { name: String, value: String },
-    /// Names for sine and cosine of angles.
-    SinCos(Vec<([String; 2], Expression)>),
-    /// An array that is not given begins.
-    Declare(usize),
-    /// Zeros for an array.
-    Clear(usize),
-    /// One array becomes another one.
-    Copy { from: usize, to: usize },
-    /// Row `index` of a place becomes these; a `fresh` array begins with them.
-    Assign { to: Place, index: usize, values: Vec<Value>, fresh: bool },
-    /// Another routine; of the arrays that it fills, those that begin here.
-    Call { routine: &'static str, arrays: Vec<usize>, fresh: Vec<usize> },
-    /// Entries of an array as sums of terms.
-    Sums { sums: usize, terms: usize, entries: usize },
-    /// For every row.
-    For { repeated: Repeated, body: Vec<Statement> },
-    /// The margin is returned.
-    Return(String),
-}
 
 /// The statements of a routine.
 pub(super) struct Statements {
@@ -242,7 +216,7 @@ impl Writer<'_> {
         for (constant, value) in self.constants.iter_mut().zip([0.0, 1.0]) {
             *constant |= block.program.outputs.contains(&Operand::Constant(value));
         }
-        let (body, values) = written(&block.program, &mut self.names, self.syntax);
+        let (body, values) = body(&block.program, &mut self.names, self.syntax);
         let mut values = values.into_iter();
         let mut assignments: Vec<Assignment> = Vec::new();
         for place in &block.writes {

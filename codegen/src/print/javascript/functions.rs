@@ -3,7 +3,8 @@
 use super::operators::{JavaScript, number};
 use crate::print::header::operations;
 use crate::print::layout::{NARROW, Writer, width};
-use crate::print::statements::{Statement, Statements};
+use crate::print::statement::Statement;
+use crate::print::statements::Statements;
 use crate::program::{Array, Place, Role, Routine, Routines, Row, Stage};
 use crate::spec::Spec;
 
@@ -145,7 +146,7 @@ impl Printer<'_> {
                 // A result begins as zeros.
                 let is_result = self.routine.arrays[to.array].role == Role::Result;
                 let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
-                let entry = |(k, value): (usize, &crate::print::expressions::Value)| {
+                let entry = |(k, value): (usize, &crate::print::expression::Value)| {
                     format!("{} = {}", self.place(*to, *index, k), value.text)
                 };
                 let entries: Vec<String> = values.map(entry).collect();

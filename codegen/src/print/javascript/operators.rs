@@ -1,6 +1,6 @@
 //! Operators and numbers.
 
-use crate::print::expressions::{Binding, Expression, Syntax, infix};
+use crate::print::expression::{Binding, Expression, Syntax, infix};
 use crate::program::Action;
 
 pub(super) struct JavaScript;

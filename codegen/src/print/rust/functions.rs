@@ -3,10 +3,11 @@
 use abbe::function::Count;
 
 use super::operators::Rust;
-use crate::print::expressions::{Expression, Value};
+use crate::print::expression::{Expression, Value};
 use crate::print::header::operations;
 use crate::print::layout::{Writer, array, fits, pattern, width};
-use crate::print::statements::{Statement, Statements};
+use crate::print::statement::Statement;
+use crate::print::statements::Statements;
 use crate::program::{Array, Place, Role, Routine, Routines, Row};
 use crate::spec::Spec;
 
@@ -161,7 +162,7 @@ impl Printer<'_> {
         let indent = self.writer.indent();
         let names: Vec<String> = pairs.iter().map(|([s, c], _)| format!("({s}, {c})")).collect();
         if let [(_, angle)] = pairs {
-            let angle = angle.at_least(crate::print::expressions::Binding::Atom);
+            let angle = angle.at_least(crate::print::expression::Binding::Atom);
             return self.writer.lines(&format!("let {} = {angle}.sin_cos();", names[0]));
         }
         let angles: Vec<String> = pairs.iter().map(|(_, angle)| angle.text.clone()).collect();

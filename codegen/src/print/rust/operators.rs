@@ -1,7 +1,7 @@
 //! Operators and numbers of a generic scalar `T`.
 
 use super::literal::number;
-use crate::print::expressions::{Binding, Expression, Syntax, infix};
+use crate::print::expression::{Binding, Expression, Syntax, infix};
 use crate::program::{Action, Operand};
 
 pub(super) struct Rust;

@@ -1,56 +1,16 @@
-//! The expressions of a program.
+//! The statements of a program.
 //!
 //! A step that is used once and has no name of its own is written where it is used, as long as the expression
 //! stays narrow; the order of the arithmetic, and so every bit of the result, stays the same.
 
-use std::borrow::Cow;
-
+use super::expression::{Binding, Expression, Syntax, Value};
 use super::layout::{NARROW, width};
 use super::names::Names;
-use super::statements::Statement;
+use super::statement::Statement;
 use crate::program::{Action, Operand, Program, Step};
 
-/// How strongly the outermost operator of an expression binds.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
-pub(super) enum Binding {
-    Sum,
-    Product,
-    Sign,
-    Atom,
-}
-
-/// What a value is written as.
-#[derive(Clone)]
-pub(super) struct Expression {
-    pub(super) text: String,
-    pub(super) binding: Binding,
-    /// Whether it is no more than a name.
-    is_name: bool,
-}
-
-/// The operators, numbers and reserved names of a language.
-pub(super) trait Syntax {
-    /// Names that it has itself, or that its functions use, with spaces between them.
-    fn reserved(&self) -> &'static str;
-    /// A number as an operand.
-    fn number(&self, value: f64) -> Expression;
-    /// 0 and 1 as results.
-    fn zero_and_one(&self) -> [&'static str; 2];
-    /// An action on operands that are written already.
-    fn action(&self, action: Action, operands: &[Expression]) -> Expression;
-}
-
-/// A result of a program.
-pub(super) struct Value {
-    pub(super) text: String,
-    /// After how many statements it is known.
-    pub(super) ready: usize,
-    /// Whether it is zero in every configuration.
-    pub(super) is_zero: bool,
-}
-
 /// The statements of a program, and its outputs.
-pub(super) fn written(
+pub(super) fn body(
     program: &Program,
     names: &mut Names<'_>,
     syntax: &dyn Syntax,
@@ -179,32 +139,4 @@ impl Writer<'_, '_> {
             operand => self.operand(operand).text,
         }
     }
-}
-
-impl Expression {
-    pub(super) fn new(text: String, binding: Binding) -> Self {
-        Self { text, binding, is_name: false }
-    }
-
-    fn name(text: String) -> Self {
-        Self { text, binding: Binding::Atom, is_name: true }
-    }
-
-    /// The expression as an operand of something that needs at least this binding.
-    pub(super) fn at_least(&self, binding: Binding) -> Cow<'_, str> {
-        if self.binding >= binding {
-            Cow::Borrowed(&self.text)
-        } else {
-            Cow::Owned(format!("({})", self.text))
-        }
-    }
-}
-
-/// Two operands and a sign between them. The right one needs a stronger operator, so that nothing is reassociated.
-pub(super) fn infix(a: &Expression, sign: &str, b: &Expression) -> Expression {
-    let (own, right) = match sign {
-        "+" | "-" => (Binding::Sum, Binding::Product),
-        _ => (Binding::Product, Binding::Sign),
-    };
-    Expression::new(format!("{} {sign} {}", a.at_least(own), b.at_least(right)), own)
 }
