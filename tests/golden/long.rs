@@ -542,7 +542,6 @@ pub mod long {
                 [zero, zero, one],
                 [zero; 3],
             ];
-            let mut kept = [[[zero; 3]; 4]; FRAMES + 1];
             for i in 0..=FRAMES {
                 let [
                     [f_11, f_21, f_31],
@@ -568,7 +567,7 @@ pub mod long {
                 let t10 = f_x + f_13.mul_add(a_z, f_11.mul_add(a_x, f_12 * a_y));
                 let t11 = f_y + f_23.mul_add(a_z, f_21.mul_add(a_x, f_22 * a_y));
                 let t12 = f_z + f_33.mul_add(a_z, f_31.mul_add(a_x, f_32 * a_y));
-                kept[i] = [[t1, t2, t3], [t4, t5, t6], [t7, t8, t9], [t10, t11, t12]];
+                transforms[i] = [[t1, t2, t3], [t4, t5, t6], [t7, t8, t9], [t10, t11, t12]];
                 frame = [[t1, t2, t3], [t4, t5, t6], [t7, t8, t9], [t10, t11, t12]];
             }
             let [[f_11, f_21, f_31], _, _, _] = frame;
@@ -581,37 +580,37 @@ pub mod long {
             let euler = [t2, t3, t4, t5, f_11, f_21, f_31];
             for i in 0..FRAMES {
                 let [
-                    [k_11, k_21, k_31],
-                    [k_12, k_22, k_32],
-                    [k_13, k_23, k_33],
-                    [k_x, k_y, k_z],
-                ] = kept[i];
+                    [a_11, a_21, a_31],
+                    [a_12, a_22, a_32],
+                    [a_13, a_23, a_33],
+                    [a_x, a_y, a_z],
+                ] = transforms[i];
                 let [_, _, _, [f_x, f_y, f_z]] = frame;
                 let [euler_1, euler_2, euler_3, euler_4, _, euler_6, _] = euler;
-                let t1 = f_x - k_x;
-                let t2 = f_y - k_y;
-                let t3 = f_z - k_z;
-                let t4 = k_21.mul_sub(t3, k_31 * t2);
-                let t5 = k_31.mul_sub(t1, k_11 * t3);
-                let t6 = k_11.mul_sub(t2, k_21 * t1);
-                let t7 = k_22.mul_sub(t3, k_32 * t2);
-                let t8 = k_32.mul_sub(t1, k_12 * t3);
-                let t9 = k_12.mul_sub(t2, k_22 * t1);
-                let t10 = k_23.mul_sub(t3, k_33 * t2);
-                let t11 = k_33.mul_sub(t1, k_13 * t3);
-                let t12 = k_13.mul_sub(t2, k_23 * t1);
-                let t13 = k_12.mul_add(euler_3, k_32 * euler_4);
-                let t14 = k_32.mul_sub(euler_1, k_12 * euler_2);
-                let t15 = euler_6.neg_mul_add(t13, k_22);
-                let t16 = k_13.mul_add(euler_3, k_33 * euler_4);
-                let t17 = k_33.mul_sub(euler_1, k_13 * euler_2);
-                let t18 = euler_6.neg_mul_add(t16, k_23);
-                let t19 = k_11.mul_add(euler_3, k_31 * euler_4);
-                let t20 = k_31.mul_sub(euler_1, k_11 * euler_2);
-                let t21 = euler_6.neg_mul_add(t19, k_21);
-                columns[6 * i] = [k_11, k_21, k_31, zero, zero, zero];
-                columns[6 * i + 1] = [k_12, k_22, k_32, zero, zero, zero];
-                columns[6 * i + 2] = [k_13, k_23, k_33, zero, zero, zero];
+                let t1 = f_x - a_x;
+                let t2 = f_y - a_y;
+                let t3 = f_z - a_z;
+                let t4 = a_21.mul_sub(t3, a_31 * t2);
+                let t5 = a_31.mul_sub(t1, a_11 * t3);
+                let t6 = a_11.mul_sub(t2, a_21 * t1);
+                let t7 = a_22.mul_sub(t3, a_32 * t2);
+                let t8 = a_32.mul_sub(t1, a_12 * t3);
+                let t9 = a_12.mul_sub(t2, a_22 * t1);
+                let t10 = a_23.mul_sub(t3, a_33 * t2);
+                let t11 = a_33.mul_sub(t1, a_13 * t3);
+                let t12 = a_13.mul_sub(t2, a_23 * t1);
+                let t13 = a_12.mul_add(euler_3, a_32 * euler_4);
+                let t14 = a_32.mul_sub(euler_1, a_12 * euler_2);
+                let t15 = euler_6.neg_mul_add(t13, a_22);
+                let t16 = a_13.mul_add(euler_3, a_33 * euler_4);
+                let t17 = a_33.mul_sub(euler_1, a_13 * euler_2);
+                let t18 = euler_6.neg_mul_add(t16, a_23);
+                let t19 = a_11.mul_add(euler_3, a_31 * euler_4);
+                let t20 = a_31.mul_sub(euler_1, a_11 * euler_2);
+                let t21 = euler_6.neg_mul_add(t19, a_21);
+                columns[6 * i] = [a_11, a_21, a_31, zero, zero, zero];
+                columns[6 * i + 1] = [a_12, a_22, a_32, zero, zero, zero];
+                columns[6 * i + 2] = [a_13, a_23, a_33, zero, zero, zero];
                 columns[6 * i + 3] = [t7, t8, t9, t15, t14, t13];
                 columns[6 * i + 4] = [t10, t11, t12, t18, t17, t16];
                 columns[6 * i + 5] = [t4, t5, t6, t21, t20, t19];
@@ -644,7 +643,6 @@ pub mod long {
                 [zero, zero, one],
                 [zero; 3],
             ];
-            let mut kept = [[[zero; 3]; 4]; FRAMES + 1];
             for i in 0..=FRAMES {
                 let [
                     [f_11, f_21, f_31],
@@ -670,7 +668,7 @@ pub mod long {
                 let t10 = f_x + f_13.mul_add(a_z, f_11.mul_add(a_x, f_12 * a_y));
                 let t11 = f_y + f_23.mul_add(a_z, f_21.mul_add(a_x, f_22 * a_y));
                 let t12 = f_z + f_33.mul_add(a_z, f_31.mul_add(a_x, f_32 * a_y));
-                kept[i] = [
+                transforms[i] = [
                     [f_11, f_21, f_31],
                     [f_12, f_22, f_32],
                     [f_13, f_23, f_33],
@@ -697,25 +695,25 @@ pub mod long {
             }
             for i in 0..41 {
                 let [
-                    [k_11, k_21, k_31],
-                    [k_12, k_22, k_32],
-                    [k_13, k_23, k_33],
-                    [k_x, k_y, k_z],
-                ] = kept[JOINT_TWISTS[i].0];
+                    [a_11, a_21, a_31],
+                    [a_12, a_22, a_32],
+                    [a_13, a_23, a_33],
+                    [a_x, a_y, a_z],
+                ] = transforms[JOINT_TWISTS[i].0];
                 let [_, _, _, [f_x, f_y, f_z]] = frame;
                 let [twist_1, twist_2, twist_3, twist_4, twist_5, twist_6] = twists[i];
                 let [column_1, column_2, column_3, column_4, column_5, column_6] =
                     columns[JOINT_TWISTS[i].1];
                 let [euler_1, euler_2, euler_3, euler_4, _, euler_6, _] = euler;
-                let t1 = k_13.mul_add(twist_6, k_11.mul_add(twist_4, k_12 * twist_5));
-                let t2 = k_23.mul_add(twist_6, k_21.mul_add(twist_4, k_22 * twist_5));
-                let t3 = k_33.mul_add(twist_6, k_31.mul_add(twist_4, k_32 * twist_5));
-                let t4 = f_x - k_x;
-                let t5 = f_y - k_y;
-                let t6 = f_z - k_z;
-                let t7 = k_13.mul_add(twist_3, k_11.mul_add(twist_1, k_12 * twist_2));
-                let t8 = k_23.mul_add(twist_3, k_21.mul_add(twist_1, k_22 * twist_2));
-                let t9 = k_33.mul_add(twist_3, k_31.mul_add(twist_1, k_32 * twist_2));
+                let t1 = a_13.mul_add(twist_6, a_11.mul_add(twist_4, a_12 * twist_5));
+                let t2 = a_23.mul_add(twist_6, a_21.mul_add(twist_4, a_22 * twist_5));
+                let t3 = a_33.mul_add(twist_6, a_31.mul_add(twist_4, a_32 * twist_5));
+                let t4 = f_x - a_x;
+                let t5 = f_y - a_y;
+                let t6 = f_z - a_z;
+                let t7 = a_13.mul_add(twist_3, a_11.mul_add(twist_1, a_12 * twist_2));
+                let t8 = a_23.mul_add(twist_3, a_21.mul_add(twist_1, a_22 * twist_2));
+                let t9 = a_33.mul_add(twist_3, a_31.mul_add(twist_1, a_32 * twist_2));
                 let t10 = euler_3.mul_add(t1, euler_4 * t3);
                 let t11 = column_1 + (t7 + t2.mul_sub(t6, t3 * t5));
                 let t12 = column_2 + (t8 + t3.mul_sub(t4, t1 * t6));
@@ -753,7 +751,6 @@ pub mod long {
                 [zero, zero, one],
                 [zero; 3],
             ];
-            let mut kept = [[[zero; 3]; 4]; FRAMES + 1];
             for i in 0..=FRAMES {
                 let [
                     [f_11, f_21, f_31],
@@ -779,7 +776,7 @@ pub mod long {
                 let t10 = f_x + f_13.mul_add(a_z, f_11.mul_add(a_x, f_12 * a_y));
                 let t11 = f_y + f_23.mul_add(a_z, f_21.mul_add(a_x, f_22 * a_y));
                 let t12 = f_z + f_33.mul_add(a_z, f_31.mul_add(a_x, f_32 * a_y));
-                kept[i] = [
+                transforms[i] = [
                     [f_11, f_21, f_31],
                     [f_12, f_22, f_32],
                     [f_13, f_23, f_33],
@@ -806,25 +803,25 @@ pub mod long {
             }
             for i in 0..2 {
                 let [
-                    [k_11, k_21, k_31],
-                    [k_12, k_22, k_32],
-                    [k_13, k_23, k_33],
-                    [k_x, k_y, k_z],
-                ] = kept[PARAMETER_TWISTS[i].0];
+                    [a_11, a_21, a_31],
+                    [a_12, a_22, a_32],
+                    [a_13, a_23, a_33],
+                    [a_x, a_y, a_z],
+                ] = transforms[PARAMETER_TWISTS[i].0];
                 let [_, _, _, [f_x, f_y, f_z]] = frame;
                 let [twist_1, twist_2, twist_3, twist_4, twist_5, twist_6] = twists[i];
                 let [column_1, column_2, column_3, column_4, column_5, column_6] =
                     columns[PARAMETER_TWISTS[i].1];
                 let [euler_1, euler_2, euler_3, euler_4, _, euler_6, _] = euler;
-                let t1 = k_13.mul_add(twist_6, k_11.mul_add(twist_4, k_12 * twist_5));
-                let t2 = k_23.mul_add(twist_6, k_21.mul_add(twist_4, k_22 * twist_5));
-                let t3 = k_33.mul_add(twist_6, k_31.mul_add(twist_4, k_32 * twist_5));
-                let t4 = f_x - k_x;
-                let t5 = f_y - k_y;
-                let t6 = f_z - k_z;
-                let t7 = k_13.mul_add(twist_3, k_11.mul_add(twist_1, k_12 * twist_2));
-                let t8 = k_23.mul_add(twist_3, k_21.mul_add(twist_1, k_22 * twist_2));
-                let t9 = k_33.mul_add(twist_3, k_31.mul_add(twist_1, k_32 * twist_2));
+                let t1 = a_13.mul_add(twist_6, a_11.mul_add(twist_4, a_12 * twist_5));
+                let t2 = a_23.mul_add(twist_6, a_21.mul_add(twist_4, a_22 * twist_5));
+                let t3 = a_33.mul_add(twist_6, a_31.mul_add(twist_4, a_32 * twist_5));
+                let t4 = f_x - a_x;
+                let t5 = f_y - a_y;
+                let t6 = f_z - a_z;
+                let t7 = a_13.mul_add(twist_3, a_11.mul_add(twist_1, a_12 * twist_2));
+                let t8 = a_23.mul_add(twist_3, a_21.mul_add(twist_1, a_22 * twist_2));
+                let t9 = a_33.mul_add(twist_3, a_31.mul_add(twist_1, a_32 * twist_2));
                 let t10 = euler_3.mul_add(t1, euler_4 * t3);
                 let t11 = column_1 + (t7 + t2.mul_sub(t6, t3 * t5));
                 let t12 = column_2 + (t8 + t3.mul_sub(t4, t1 * t6));
@@ -1069,7 +1066,6 @@ pub mod long {
                 [zero, zero, one],
                 [zero; 3],
             ];
-            let mut kept = [[[zero; 3]; 4]; FRAMES + 1];
             for i in 0..=FRAMES {
                 let [
                     [f_11, f_21, f_31],
@@ -1095,7 +1091,7 @@ pub mod long {
                 let t10 = f_x + f_13.mul_add(a_z, f_11.mul_add(a_x, f_12 * a_y));
                 let t11 = f_y + f_23.mul_add(a_z, f_21.mul_add(a_x, f_22 * a_y));
                 let t12 = f_z + f_33.mul_add(a_z, f_31.mul_add(a_x, f_32 * a_y));
-                kept[i] = [[t1, t2, t3], [t4, t5, t6], [t7, t8, t9], [t10, t11, t12]];
+                transforms[i] = [[t1, t2, t3], [t4, t5, t6], [t7, t8, t9], [t10, t11, t12]];
                 frame = [[t1, t2, t3], [t4, t5, t6], [t7, t8, t9], [t10, t11, t12]];
             }
             let [[f_11, f_21, f_31], _, _, _] = frame;
@@ -1108,37 +1104,37 @@ pub mod long {
             let euler = [t2, t3, t4, t5, f_11, f_21, f_31];
             for i in 0..FRAMES {
                 let [
-                    [k_11, k_21, k_31],
-                    [k_12, k_22, k_32],
-                    [k_13, k_23, k_33],
-                    [k_x, k_y, k_z],
-                ] = kept[i];
+                    [a_11, a_21, a_31],
+                    [a_12, a_22, a_32],
+                    [a_13, a_23, a_33],
+                    [a_x, a_y, a_z],
+                ] = transforms[i];
                 let [_, _, _, [f_x, f_y, f_z]] = frame;
                 let [euler_1, euler_2, euler_3, euler_4, _, euler_6, _] = euler;
-                let t1 = f_x - k_x;
-                let t2 = f_y - k_y;
-                let t3 = f_z - k_z;
-                let t4 = k_21.mul_sub(t3, k_31 * t2);
-                let t5 = k_31.mul_sub(t1, k_11 * t3);
-                let t6 = k_11.mul_sub(t2, k_21 * t1);
-                let t7 = k_22.mul_sub(t3, k_32 * t2);
-                let t8 = k_32.mul_sub(t1, k_12 * t3);
-                let t9 = k_12.mul_sub(t2, k_22 * t1);
-                let t10 = k_23.mul_sub(t3, k_33 * t2);
-                let t11 = k_33.mul_sub(t1, k_13 * t3);
-                let t12 = k_13.mul_sub(t2, k_23 * t1);
-                let t13 = k_12.mul_add(euler_3, k_32 * euler_4);
-                let t14 = k_32.mul_sub(euler_1, k_12 * euler_2);
-                let t15 = euler_6.neg_mul_add(t13, k_22);
-                let t16 = k_13.mul_add(euler_3, k_33 * euler_4);
-                let t17 = k_33.mul_sub(euler_1, k_13 * euler_2);
-                let t18 = euler_6.neg_mul_add(t16, k_23);
-                let t19 = k_11.mul_add(euler_3, k_31 * euler_4);
-                let t20 = k_31.mul_sub(euler_1, k_11 * euler_2);
-                let t21 = euler_6.neg_mul_add(t19, k_21);
-                distinct[i][0] = [k_11, k_21, k_31];
-                distinct[i][1] = [k_12, k_22, k_32];
-                distinct[i][2] = [k_13, k_23, k_33];
+                let t1 = f_x - a_x;
+                let t2 = f_y - a_y;
+                let t3 = f_z - a_z;
+                let t4 = a_21.mul_sub(t3, a_31 * t2);
+                let t5 = a_31.mul_sub(t1, a_11 * t3);
+                let t6 = a_11.mul_sub(t2, a_21 * t1);
+                let t7 = a_22.mul_sub(t3, a_32 * t2);
+                let t8 = a_32.mul_sub(t1, a_12 * t3);
+                let t9 = a_12.mul_sub(t2, a_22 * t1);
+                let t10 = a_23.mul_sub(t3, a_33 * t2);
+                let t11 = a_33.mul_sub(t1, a_13 * t3);
+                let t12 = a_13.mul_sub(t2, a_23 * t1);
+                let t13 = a_12.mul_add(euler_3, a_32 * euler_4);
+                let t14 = a_32.mul_sub(euler_1, a_12 * euler_2);
+                let t15 = euler_6.neg_mul_add(t13, a_22);
+                let t16 = a_13.mul_add(euler_3, a_33 * euler_4);
+                let t17 = a_33.mul_sub(euler_1, a_13 * euler_2);
+                let t18 = euler_6.neg_mul_add(t16, a_23);
+                let t19 = a_11.mul_add(euler_3, a_31 * euler_4);
+                let t20 = a_31.mul_sub(euler_1, a_11 * euler_2);
+                let t21 = euler_6.neg_mul_add(t19, a_21);
+                distinct[i][0] = [a_11, a_21, a_31];
+                distinct[i][1] = [a_12, a_22, a_32];
+                distinct[i][2] = [a_13, a_23, a_33];
                 distinct[i][3] = [t7, t8, t9];
                 distinct[i][4] = [t10, t11, t12];
                 distinct[i][5] = [t4, t5, t6];
@@ -1692,7 +1688,6 @@ pub mod long {
                 [zero, zero, one],
                 [zero; 3],
             ];
-            let mut kept = [[[zero; 3]; 4]; FRAMES + 1];
             for i in 0..=FRAMES {
                 let [
                     [f_11, f_21, f_31],
@@ -1718,7 +1713,7 @@ pub mod long {
                 let t10 = f_x + f_13.mul_add(a_z, f_11.mul_add(a_x, f_12 * a_y));
                 let t11 = f_y + f_23.mul_add(a_z, f_21.mul_add(a_x, f_22 * a_y));
                 let t12 = f_z + f_33.mul_add(a_z, f_31.mul_add(a_x, f_32 * a_y));
-                kept[i] = [
+                transforms[i] = [
                     [f_11, f_21, f_31],
                     [f_12, f_22, f_32],
                     [f_13, f_23, f_33],
@@ -1737,24 +1732,24 @@ pub mod long {
             }
             for i in 0..41 {
                 let [
-                    [k_11, k_21, k_31],
-                    [k_12, k_22, k_32],
-                    [k_13, k_23, k_33],
-                    [k_x, k_y, k_z],
-                ] = kept[JOINT_TWISTS[i].0];
+                    [a_11, a_21, a_31],
+                    [a_12, a_22, a_32],
+                    [a_13, a_23, a_33],
+                    [a_x, a_y, a_z],
+                ] = transforms[JOINT_TWISTS[i].0];
                 let [_, _, _, [f_x, f_y, f_z]] = frame;
                 let [twist_1, twist_2, twist_3, twist_4, twist_5, twist_6] = twists[i];
                 let [column_1, column_2, column_3, column_4, column_5, column_6] =
                     columns[JOINT_TWISTS[i].1];
-                let t1 = k_13.mul_add(twist_6, k_11.mul_add(twist_4, k_12 * twist_5));
-                let t2 = k_23.mul_add(twist_6, k_21.mul_add(twist_4, k_22 * twist_5));
-                let t3 = k_33.mul_add(twist_6, k_31.mul_add(twist_4, k_32 * twist_5));
-                let t4 = f_x - k_x;
-                let t5 = f_y - k_y;
-                let t6 = f_z - k_z;
-                let t7 = k_13.mul_add(twist_3, k_11.mul_add(twist_1, k_12 * twist_2));
-                let t8 = k_23.mul_add(twist_3, k_21.mul_add(twist_1, k_22 * twist_2));
-                let t9 = k_33.mul_add(twist_3, k_31.mul_add(twist_1, k_32 * twist_2));
+                let t1 = a_13.mul_add(twist_6, a_11.mul_add(twist_4, a_12 * twist_5));
+                let t2 = a_23.mul_add(twist_6, a_21.mul_add(twist_4, a_22 * twist_5));
+                let t3 = a_33.mul_add(twist_6, a_31.mul_add(twist_4, a_32 * twist_5));
+                let t4 = f_x - a_x;
+                let t5 = f_y - a_y;
+                let t6 = f_z - a_z;
+                let t7 = a_13.mul_add(twist_3, a_11.mul_add(twist_1, a_12 * twist_2));
+                let t8 = a_23.mul_add(twist_3, a_21.mul_add(twist_1, a_22 * twist_2));
+                let t9 = a_33.mul_add(twist_3, a_31.mul_add(twist_1, a_32 * twist_2));
                 let t10 = column_1 + (t7 + t2.mul_sub(t6, t3 * t5));
                 let t11 = column_2 + (t8 + t3.mul_sub(t4, t1 * t6));
                 let t12 = column_3 + (t9 + t1.mul_sub(t5, t2 * t4));
@@ -2581,7 +2576,7 @@ pub mod long {
                 q39,
             ] = *q;
             let [reach] = *s;
-            let x1 = T::constant(0.1);
+            let x1_x10 = T::constant(0.1);
             let [
                 (s1, c1),
                 (s3, c3),
@@ -2605,26 +2600,26 @@ pub mod long {
                 (s39, c39),
                 (sin_1, cos_1),
             ] = T::sin_cos_each([
-                q0 + x1,
-                x1 + q2,
-                x1 + q4,
-                x1 + q6,
-                x1 + q8,
-                x1 + q10,
-                x1 + q12,
-                x1 + q14,
-                x1 + q16,
-                x1 + q18,
-                x1 + q20,
-                x1 + q22,
-                x1 + q24,
-                x1 + q26,
-                x1 + q28,
-                x1 + q30,
-                x1 + q32,
-                x1 + q34,
-                x1 + q36,
-                x1 + q38,
+                q0 + x1_x10,
+                x1_x10 + q2,
+                x1_x10 + q4,
+                x1_x10 + q6,
+                x1_x10 + q8,
+                x1_x10 + q10,
+                x1_x10 + q12,
+                x1_x10 + q14,
+                x1_x10 + q16,
+                x1_x10 + q18,
+                x1_x10 + q20,
+                x1_x10 + q22,
+                x1_x10 + q24,
+                x1_x10 + q26,
+                x1_x10 + q28,
+                x1_x10 + q30,
+                x1_x10 + q32,
+                x1_x10 + q34,
+                x1_x10 + q36,
+                x1_x10 + q38,
                 q2 / T::constant(5.0),
             ]);
             let p1_z = reach / T::constant(2.0);

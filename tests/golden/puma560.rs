@@ -230,7 +230,7 @@ pub mod puma560 {
                 [zero, zero, one],
                 [zero, zero, zero],
             ];
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
@@ -242,8 +242,8 @@ pub mod puma560 {
                 [zero, zero, zero],
             ];
             let t1 = -s2;
-            let t2 = c2 * a2;
-            let p2_z = s2 * a2;
+            let t2 = c2 * a2_z4;
+            let p2_z = s2 * a2_z4;
             transforms[1] = [
                 [c2, s2, zero],
                 [t1, c2, zero],
@@ -264,7 +264,7 @@ pub mod puma560 {
                 [c4, s4, zero],
                 [zero, zero, one],
                 [s4, t6, zero],
-                [zero, zero, a2],
+                [zero, zero, a2_z4],
             ];
             let t7 = -s5;
             transforms[4] = [
@@ -288,13 +288,13 @@ pub mod puma560 {
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], _s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [q1, q2, q3, q4, q5, q6] = *q;
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
-            let t1 = c2 * a2;
-            let p2_z = s2 * a2;
+            let t1 = c2 * a2_z4;
+            let p2_z = s2 * a2_z4;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
@@ -318,9 +318,9 @@ pub mod puma560 {
             let r4_33 = r3_31 * s4;
             let r4_13 = r3_11.mul_add(s4, s1 * c4);
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
-            let p4_x = t6.neg_mul_add(a2, p3_x);
-            let p4_y = t7.neg_mul_add(a2, p3_y);
-            let p4_z = r3_33.mul_add(a2, p3_z);
+            let p4_x = t6.neg_mul_add(a2_z4, p3_x);
+            let p4_y = t7.neg_mul_add(a2_z4, p3_y);
+            let p4_z = r3_33.mul_add(a2_z4, p3_z);
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
@@ -356,7 +356,7 @@ pub mod puma560 {
             let one = T::constant(1.0);
             // Frame 1: waist
             columns[1] = [zero, zero, one, zero, zero, zero];
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
@@ -366,8 +366,8 @@ pub mod puma560 {
             columns[2] = [s1, r1_23, zero, zero, zero, zero];
             // Frame 2: shoulder
             columns[8] = [s1, r1_23, zero, zero, zero, zero];
-            let t1 = c2 * a2;
-            let p2_z = s2 * a2;
+            let t1 = c2 * a2_z4;
+            let p2_z = s2 * a2_z4;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
@@ -410,9 +410,9 @@ pub mod puma560 {
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
             columns[20] = [r4_13, r4_23, r4_33, zero, zero, zero];
             columns[22] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            let p4_x = t6.neg_mul_add(a2, p3_x);
-            let p4_y = t7.neg_mul_add(a2, p3_y);
-            let p4_z = r3_33.mul_add(a2, p3_z);
+            let p4_x = t6.neg_mul_add(a2_z4, p3_x);
+            let p4_y = t7.neg_mul_add(a2_z4, p3_y);
+            let p4_z = r3_33.mul_add(a2_z4, p3_z);
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
@@ -474,13 +474,13 @@ pub mod puma560 {
             let t21 = -(s1 * lever2_z);
             let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
             columns[10] = [t20, t21, t22, s1, r1_23, zero];
-            let t23 = s1 * a2;
-            let t24 = -(c1 * a2);
+            let t23 = s1 * a2_z4;
+            let t24 = -(c1 * a2_z4);
             // Frame 3: elbow
             columns[17] = [t23, t24, zero, r3_11, r3_21, r3_31];
-            let t25 = a2 * r3_11;
-            let t26 = a2 * r3_21;
-            let t27 = a2 * r3_31;
+            let t25 = a2_z4 * r3_11;
+            let t26 = a2_z4 * r3_21;
+            let t27 = a2_z4 * r3_31;
             columns[15] = [t25, t26, t27, r3_12, c1, zero];
         }
 
@@ -497,14 +497,14 @@ pub mod puma560 {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
             let r1_23 = -c1;
-            let t1 = c2 * a2;
-            let p2_z = s2 * a2;
+            let t1 = c2 * a2_z4;
+            let p2_z = s2 * a2_z4;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
@@ -532,9 +532,9 @@ pub mod puma560 {
             let r4_13 = r3_11.mul_add(s4, s1 * c4);
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
             columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
-            let p4_x = t6.neg_mul_add(a2, p3_x);
-            let p4_y = t7.neg_mul_add(a2, p3_y);
-            let p4_z = r3_33.mul_add(a2, p3_z);
+            let p4_x = t6.neg_mul_add(a2_z4, p3_x);
+            let p4_y = t7.neg_mul_add(a2_z4, p3_y);
+            let p4_z = r3_33.mul_add(a2_z4, p3_z);
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
@@ -662,7 +662,7 @@ pub mod puma560 {
             distinct[5][3] = [zero; 3];
             distinct[5][4] = [zero; 3];
             distinct[5][5] = [zero; 3];
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
@@ -673,8 +673,8 @@ pub mod puma560 {
             distinct[0][2] = [s1, r1_23, zero];
             // Frame 2: shoulder
             distinct[1][2] = [s1, r1_23, zero];
-            let t1 = c2 * a2;
-            let p2_z = s2 * a2;
+            let t1 = c2 * a2_z4;
+            let p2_z = s2 * a2_z4;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
@@ -713,9 +713,9 @@ pub mod puma560 {
             let r4_13 = r3_11.mul_add(s4, s1 * c4);
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
             distinct[3][2] = [r4_13, r4_23, r4_33];
-            let p4_x = t6.neg_mul_add(a2, p3_x);
-            let p4_y = t7.neg_mul_add(a2, p3_y);
-            let p4_z = r3_33.mul_add(a2, p3_z);
+            let p4_x = t6.neg_mul_add(a2_z4, p3_x);
+            let p4_y = t7.neg_mul_add(a2_z4, p3_y);
+            let p4_z = r3_33.mul_add(a2_z4, p3_z);
             let r5_11 = r4_11.mul_sub(c5, t6 * s5);
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
@@ -771,13 +771,13 @@ pub mod puma560 {
             let t21 = -(s1 * lever2_z);
             let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
             distinct[1][4] = [t20, t21, t22];
-            let t23 = s1 * a2;
-            let t24 = -(c1 * a2);
+            let t23 = s1 * a2_z4;
+            let t24 = -(c1 * a2_z4);
             // Frame 3: elbow
             distinct[2][5] = [t23, t24, zero];
-            let t25 = a2 * r3_11;
-            let t26 = a2 * r3_21;
-            let t27 = a2 * r3_31;
+            let t25 = a2_z4 * r3_11;
+            let t26 = a2_z4 * r3_21;
+            let t27 = a2_z4 * r3_31;
             distinct[2][3] = [t25, t26, t27];
         }
 
@@ -801,7 +801,7 @@ pub mod puma560 {
                 [e5_x, e5_y, e5_z, e5_s, e5_r, e5_p],
                 [e6_x, e6_y, e6_z, e6_s, e6_r, e6_p],
             ] = *errors;
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
@@ -815,26 +815,26 @@ pub mod puma560 {
             let t7 = e4_p + c5.mul_sub(t3, s5 * t4);
             let t8 = e4_r - (e5_s + s6.mul_add(e6_p, c6 * e6_s));
             let t9 = e3_z + (e4_y + c5.mul_add(t2, s5 * t1));
-            let t10 = e3_s.mul_add(a2, e3_x + s4.mul_add(t6, c4 * t5));
+            let t10 = e3_s.mul_add(a2_z4, e3_x + s4.mul_add(t6, c4 * t5));
             let t11 = e3_p + s4.mul_add(t8, c4 * t7);
             let t12 = e3_r + (e4_s + c5.mul_add(t4, s5 * t3));
-            let t13 = c3.mul_sub(a3, a2 * s3);
-            let t14 = s3.mul_add(a3, a2 * c3);
-            let t15 = e2_x + c3.mul_sub(t10, s3 * t9);
-            let t16 = e2_s.mul_sub(z3, e2_r * t14) + t15;
-            let t17 = e2_y + c3.mul_add(t9, s3 * t10);
-            let t18 = e2_r.mul_sub(t13, z3 * e2_p) + t17;
-            let t19 = e2_z - e3_p.neg_mul_add(a2, e3_y + s4.mul_sub(t5, c4 * t6));
+            let t13 = c3.mul_sub(a3, a2_z4 * s3);
+            let t14 = s3.mul_add(a3, a2_z4 * c3);
+            let t15 = e3_p.neg_mul_add(a2_z4, e3_y + s4.mul_sub(t5, c4 * t6));
+            let t16 = e2_x + c3.mul_sub(t10, s3 * t9);
+            let t17 = e2_s.mul_sub(z3, e2_r * t14) + t16;
+            let t18 = e2_y + c3.mul_add(t9, s3 * t10);
+            let t19 = e2_r.mul_sub(t13, z3 * e2_p) + t18;
             let t20 = e2_p + c3.mul_sub(t11, s3 * t12);
             let t21 = e2_s + c3.mul_add(t12, s3 * t11);
-            let t22 = a2 + t13;
+            let t22 = a2_z4 + t13;
             let t23 = c2.mul_sub(t22, s2 * t14);
             let t24 = s2.mul_add(t22, c2 * t14);
-            let t25 = e1_x + c2.mul_sub(t16, s2 * t18);
+            let t25 = e1_x + c2.mul_sub(t17, s2 * t19);
             let t26 = e1_s.mul_sub(z3, e1_r * t24) + t25;
-            let t27 = e1_y + s2.mul_add(t16, c2 * t18);
+            let t27 = e1_y + s2.mul_add(t17, c2 * t19);
             let t28 = e1_r.mul_sub(t23, z3 * e1_p) + t27;
-            let t29 = e1_z + (e2_p.mul_sub(t14, e2_s * t13) + t19);
+            let t29 = e1_z + (e2_p.mul_sub(t14, e2_s * t13) + (e2_z - t15));
             let t30 = e1_p.mul_sub(t24, e1_s * t23) + t29;
             let t31 = e1_p + c2.mul_sub(t20, s2 * t21);
             let t32 = e1_s + s2.mul_add(t20, c2 * t21);
@@ -866,7 +866,7 @@ pub mod puma560 {
                 [v5_x, v5_y, v5_z, v5_s, v5_r, v5_p],
                 [v6_x, v6_y, v6_z, v6_s, v6_r, v6_p],
             ] = *variances;
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
@@ -879,17 +879,17 @@ pub mod puma560 {
             let t6 = c6 * c6;
             let t7 = v5_z + v6_z;
             let t8 = v5_r + v6_r;
-            let t9 = a2 * v3_s;
-            let t10 = a2 * v3_p;
-            let t11 = c3.mul_sub(a3, a2 * s3);
-            let t12 = s3.mul_add(a3, a2 * c3);
+            let t9 = a2_z4 * v3_s;
+            let t10 = a2_z4 * v3_p;
+            let t11 = c3.mul_sub(a3, a2_z4 * s3);
+            let t12 = s3.mul_add(a3, a2_z4 * c3);
             let t13 = z3 * v2_s;
             let t14 = v2_r * t12;
             let t15 = v2_r * t11;
             let t16 = z3 * v2_p;
             let t17 = v2_p * t12;
             let t18 = v2_s * t11;
-            let t19 = a2 + t11;
+            let t19 = a2_z4 + t11;
             let t20 = c2.mul_sub(t19, s2 * t12);
             let t21 = s2.mul_add(t19, c2 * t12);
             let t22 = z3 * v1_s;
@@ -935,7 +935,7 @@ pub mod puma560 {
             let t62 = t51 - t49;
             let t63 = t4.mul_sub(t62, t44 * t54);
             let t64 = t52.mul_add(t62, t44 * t53);
-            let t65 = v3_x + t9.mul_add(a2, t48 + t58);
+            let t65 = v3_x + t9.mul_add(a2_z4, t48 + t58);
             let t66 = v3_p + (t49 + t63);
             let t67 = v3_z + (v4_y + (t7 - t41));
             let t68 = v3_r + (v4_s + (t8 - t46));
@@ -952,7 +952,7 @@ pub mod puma560 {
             let t79 = t11.neg_mul_add(t14, t55.mul_sub(t70, t69 * t72));
             let t80 = t11.neg_mul_add(t13, s3.mul_add(t56, c3 * t59));
             let t81 = t12.neg_mul_add(t16, s3.mul_sub(t59, c3 * t56));
-            let t82 = v3_y + t10.mul_add(a2, t50 - t58);
+            let t82 = v3_y + t10.mul_add(a2_z4, t50 - t58);
             let t83 = v2_x + (t65 + t73 + t13.mul_add(z3, t12 * t14));
             let t84 = c3.mul_add(t9, t14);
             let t85 = v2_p + (t66 + t77);
@@ -1053,14 +1053,14 @@ pub mod puma560 {
         ) {
             let [q1, q2, q3, q4, q5, _] = *q;
             let zero = T::constant(0.0);
-            let a2 = T::constant(0.4318);
+            let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5]);
-            let t1 = c3.mul_sub(a3, a2 * s3);
-            let t2 = s3.mul_add(a3, a2 * c3);
+            let t1 = c3.mul_sub(a3, a2_z4 * s3);
+            let t2 = s3.mul_add(a3, a2_z4 * c3);
             let t3 = T::constant(5.017628908595749e-5);
-            let t4 = t3 * c2.mul_sub(a2 + t1, s2 * t2);
+            let t4 = t3 * c2.mul_sub(a2_z4 + t1, s2 * t2);
             let t5 = c1.mul_sub(T::constant(7.528952177347921e-6), s1 * t4);
             let t6 = c1.mul_add(t4, s1 * T::constant(7.528952177347921e-6));
             displacements[0] = [t5, t6, zero, zero, zero, T::constant(5.017628908595749e-5)];

@@ -208,10 +208,10 @@ fn name_lengths(graph: &mut Graph, factors: &[Factor], index: &str) {
 fn name_length(graph: &mut Graph, amount: Node, axis: usize, index: &str) {
     let letter = ["x", "y", "z"][axis];
     match graph.op(amount) {
-        Op::Constant(bits) => graph.propose_number(f64::from_bits(bits), || format!("{letter}{index}")),
+        Op::Constant(bits) => graph.propose_number(f64::from_bits(bits), &format!("{letter}{index}")),
         Op::Mul(a, b) => {
             let factor = graph.value(a).or(graph.value(b));
-            factor.into_iter().for_each(|value| graph.propose_number(value, || format!("a{index}")));
+            factor.into_iter().for_each(|value| graph.propose_number(value, &format!("a{index}")));
         }
         _ => {}
     }

@@ -103,10 +103,16 @@ impl Graph {
         }
     }
 
-    /// Proposes a name for a number where it recurs; the first proposal stays, and 0, 1 and −1 need none.
-    pub fn propose_number(&mut self, value: f64, name: impl FnOnce() -> String) {
+    /// Proposes a name for a number where it recurs; one that is several lengths has the names of all, as in `a2_z4`, and
+    /// 0, 1 and −1 need none.
+    pub fn propose_number(&mut self, value: f64, name: &str) {
         if value != 0.0 && value.abs() != 1.0 {
-            self.numbers.entry(value.to_bits()).or_insert_with(name);
+            let names = self.numbers.entry(value.to_bits()).or_default();
+            if names.is_empty() {
+                names.push_str(name);
+            } else if names.split('_').all(|known| known != name) {
+                *names += &format!("_{name}");
+            }
         }
     }
 

@@ -186,8 +186,8 @@ impl Draft<'_, '_> {
         errors
     }
 
-    /// From the base to the tip, equations (2) and (6): `F ← F A_i`, or `F A_i E_i`. `before` keeps every F that a
-    /// transform is reached from, `after` every F that it leads to; the last is that of the tool, which has no error.
+    /// From the base to the tip, equations (2) and (6): `F ← F A_i`, or `F A_i E_i`; the tool has no error. What is kept
+    /// takes the place of the transforms, which nobody needs any more.
     fn along(&mut self, chain: &Chain, kept: Option<Kept>, errors: Option<usize>) -> usize {
         let frame = self.local("frame", &POSE, Role::Identity);
         let mut body = Body::new();
@@ -199,8 +199,8 @@ impl Draft<'_, '_> {
             next = crate::chain::displaced(&mut body.graph, next, &errors);
         }
         match kept {
-            Some(Kept::Before(frames)) => body.write_frame(frames, Row::EACH, &at),
-            Some(Kept::After(frames)) => body.write_frame(frames, Row::EACH, &next),
+            Some(Kept::Before) => body.write_frame(chain.transforms, Row::EACH, &at),
+            Some(Kept::After) => body.write_frame(chain.transforms, Row::EACH, &next),
             None => {}
         }
         body.write_frame(frame, Row::All, &next);
@@ -216,11 +216,6 @@ impl Draft<'_, '_> {
             }
         }
         frame
-    }
-
-    /// Room for every frame and the tool.
-    fn frames(&mut self) -> usize {
-        self.zeros("kept", &[Count::FramesAndTool, POSE[0], POSE[1]])
     }
 
     fn give_pose(&mut self, frame: usize) {
@@ -250,11 +245,10 @@ impl Draft<'_, '_> {
     /// `J_e`, all of its columns or what of them is neither zero nor repeated.
     fn error_jacobian(&mut self, distinct: bool) {
         let chain = self.chain();
-        let frames = self.frames();
-        let frame = self.along(&chain, Some(Kept::After(frames)), None);
+        let frame = self.along(&chain, Some(Kept::After), None);
         let rows = self.rows(|body| body.frame(frame, Row::All).axes[0]);
         let mut body = Body::new();
-        let (at, tool) = (body.frame(frames, Row::EACH), body.frame(frame, Row::All));
+        let (at, tool) = (body.frame(chain.transforms, Row::EACH), body.frame(frame, Row::All));
         let rows = rows.read(&mut body);
         let g = &mut body.graph;
         let lever = g.sub_vectors(tool.position, at.position);
@@ -280,20 +274,18 @@ impl Draft<'_, '_> {
     /// `∂X_T/∂x` of variables or parameters, rows as the spec's orientation says.
     fn symbol_jacobian(&mut self, by_parameters: bool) {
         let chain = self.chain();
-        let frames = self.frames();
-        let frame = self.along(&chain, Some(Kept::Before(frames)), None);
+        let frame = self.along(&chain, Some(Kept::Before), None);
         let rows = self.rows(|body| body.frame(frame, Row::All).axes[0]);
         let twists = if by_parameters { &self.loops.parameters } else { &self.loops.joints };
-        self.columns_of_twists(&chain, twists, frames, frame, &rows);
+        self.columns_of_twists(&chain, twists, frame, &rows);
         self.give_pose(frame);
     }
 
     /// The pose with errors, and `J_q` with rotation-vector rows.
     fn compensator_step(&mut self) {
         let chain = self.chain();
-        let frames = self.frames();
-        let frame = self.along(&chain, Some(Kept::Before(frames)), None);
-        self.columns_of_twists(&chain, &self.loops.joints, frames, frame, &RowsArray(None));
+        let frame = self.along(&chain, Some(Kept::Before), None);
+        self.columns_of_twists(&chain, &self.loops.joints, frame, &RowsArray(None));
         let arrays = ["q", "s", "u", "pose"].map(|name| self.array(name));
         self.call("real_pose", &arrays);
     }
@@ -303,21 +295,14 @@ impl Draft<'_, '_> {
     /// ```text
     /// ω = R ω_l        v = R v_l + ω × (p_T − p)
     /// ```
-    fn columns_of_twists(
-        &mut self,
-        chain: &Chain,
-        twists: &Twists,
-        frames: usize,
-        frame: usize,
-        rows: &RowsArray,
-    ) {
+    fn columns_of_twists(&mut self, chain: &Chain, twists: &Twists, frame: usize, rows: &RowsArray) {
         let columns = self.array("columns");
         self.stages.push(Stage::Clear(columns));
         let entries = self.zeros("twists", &[Count::Exactly(twists.count), Count::Exactly(6)]);
         self.stages.push(Stage::Sums { sums: twists.sums, terms: chain.terms, entries });
         let listed = |column| Row::Listed { table: twists.table, column };
         let mut body = Body::new();
-        let (before, tool) = (body.frame(frames, listed(0)), body.frame(frame, Row::All));
+        let (before, tool) = (body.frame(chain.transforms, listed(0)), body.frame(frame, Row::All));
         let [velocity, turn] = body.twist(entries, Row::EACH);
         let sum = body.six(columns, listed(1));
         let rows = rows.read(&mut body);
@@ -411,9 +396,9 @@ impl Draft<'_, '_> {
 #[derive(Clone, Copy)]
 enum Kept {
     /// Those that transforms are reached from.
-    Before(usize),
+    Before,
     /// Those that transforms lead to.
-    After(usize),
+    After,
 }
 
 /// Where what rows 4–6 take is kept; rotation vectors take nothing.
