@@ -17,12 +17,12 @@ pub(super) struct Outputs {
 
 /// The straight-line program of a function: its results one after the other, the margin last.
 pub fn straight_line(function: Function, model: &Model) -> Program {
-    fewest(function, model).1
+    fewest(ways(function, model), model).1
 }
 
-/// The outputs of a function and the program that computes them with the fewest operations.
-pub(super) fn fewest(function: Function, model: &Model) -> (Outputs, Program) {
-    let ways = ways(function, model).into_iter().map(|outputs| {
+/// Of several ways to compute a function the outputs and the program with the fewest operations.
+pub(super) fn fewest(ways: Vec<Outputs>, model: &Model) -> (Outputs, Program) {
+    let ways = ways.into_iter().map(|outputs| {
         let nodes: Vec<Node> = outputs.results.iter().flatten().copied().chain(outputs.margin).collect();
         let program = Program::new(&model.graph, &nodes);
         (outputs, program)
@@ -31,7 +31,7 @@ pub(super) fn fewest(function: Function, model: &Model) -> (Outputs, Program) {
 }
 
 /// The outputs of a function, and where there are two ways to compute them, both.
-fn ways(function: Function, model: &Model) -> Vec<Outputs> {
+pub(super) fn ways(function: Function, model: &Model) -> Vec<Outputs> {
     let plain = |results: Vec<Vec<Node>>| vec![Outputs { results, margin: None }];
     let rows = |first: Option<&Frame>, jacobian: &Jacobian| Outputs {
         results: first.map(pose).into_iter().chain([jacobian.columns.concat()]).collect(),

@@ -4,7 +4,7 @@ use abbe::function::{Count, Signature};
 use abbe::{Description, Function};
 
 use super::loops::Loops;
-use super::outputs::{Outputs, fewest};
+use super::outputs::{Outputs, fewest, ways};
 use super::routine::{Array, Block, Place, Role, Routine, Row, Stage, Sums, Table};
 use super::{Operations, Program};
 use crate::chain::{EffectNode, Model};
@@ -38,25 +38,42 @@ impl Routines {
     fn with(spec: &Spec, model: &Model, mut loops: Option<Loops<'_>>) -> Self {
         let description = spec.describe(model.effects.iter().map(EffectNode::effect));
         let mut list: Vec<Routine> = Vec::new();
-        let mut known: Vec<(Function, Outputs)> = Vec::new();
+        let mut known: Vec<Known> = Vec::new();
         for function in Function::ALL {
             let signature = function.signature();
             let mut arrays = arguments_and_results(signature, spec.orientation);
-            let (outputs, program) = fewest(function, model);
-            let same = known.iter().find(|(other, found)| is_same(*other, found, signature, &outputs));
-            let stages = if let Some((other, _)) = same {
-                vec![as_other(*other, &arrays, &description)]
+            let same = |outputs: &Outputs| {
+                let mut others = known.iter();
+                let other =
+                    others.find(|other| is_same(other.function, &other.outputs, signature, outputs))?;
+                Some(as_other(other.function, &arrays, &description))
+            };
+            let ways = ways(function, model);
+            // Where there is but one way, what is the same needs no program of its own.
+            let only = if let [only] = &ways[..] { same(only) } else { None };
+            let stages = if let Some(call) = only {
+                vec![call]
+            } else if loops.is_none() && function == Function::CompensatorStep {
+                compensator_step(model, &arrays, &description)
             } else {
+                let (outputs, program) = fewest(ways, model);
+                let call = same(&outputs);
+                let operations = program.operations();
                 let looped = loops.as_mut().filter(|_| program.steps.len() > spec.frames.len());
-                match looped.and_then(|loops| loops.stages(function, &mut arrays)) {
-                    Some(stages) => stages,
-                    None => composed(function, model, &mut arrays, &program, &description)
-                        .unwrap_or_else(|| vec![at_once(&arrays, program)]),
-                }
+                let stages = if let Some(call) = call {
+                    vec![call]
+                } else if let Some(stages) = looped.and_then(|loops| loops.stages(function, &mut arrays)) {
+                    stages
+                } else if function == Function::PredictedDisplacement && is_sum_of_parts(&known, operations) {
+                    predicted_displacement(&mut arrays)
+                } else {
+                    vec![at_once(&arrays, program)]
+                };
+                known.push(Known { function, outputs, operations });
+                stages
             };
             let operations = Operations::default();
             list.push(Routine { function: Some(function), name: signature.name, arrays, stages, operations });
-            known.push((function, outputs));
         }
         let (helpers, tables, sums) = loops.map_or_else(Default::default, Loops::finish);
         list.extend(helpers);
@@ -112,58 +129,50 @@ fn at_once(arrays: &[Array], program: Program) -> Stage {
     Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })
 }
 
-/// The stages of a function that is made of others, where that takes about as many operations as by itself.
-fn composed(
+/// A function that came before.
+struct Known {
     function: Function,
-    model: &Model,
-    arrays: &mut Vec<Array>,
-    program: &Program,
-    description: &Description,
-) -> Option<Vec<Stage>> {
-    match function {
-        Function::PredictedDisplacement => {
-            let parts = [Function::GeneralizedErrors, Function::Displacement];
-            let [errors, displacement] = parts.map(|function| fewest(function, model).1.operations());
-            if errors.plus(displacement).weight() > program.operations().weight() {
-                return None;
-            }
-            let shape = vec![Count::Frames, Count::Exactly(6)];
-            arrays.push(Array { name: "errors", shape, role: Role::Zeros });
-            let stages = parts.map(|function| {
-                let routine = function.name();
-                let places = arrays.iter().enumerate();
-                let local = arrays.len() - 1;
-                let filled = |role: Role| role == Role::Result || role == Role::Margin;
-                let arrays = match function {
-                    Function::GeneralizedErrors => {
-                        let given = places.filter(|(_, array)| array.role == Role::Argument);
-                        given.map(|(index, _)| index).chain([local]).collect()
-                    }
-                    _ => {
-                        let given = places.clone().filter(|(_, array)| ["q", "s"].contains(&array.name));
-                        let filled = places.filter(|(_, array)| filled(array.role));
-                        let given = given.map(|(index, _)| index).chain([local]);
-                        given.chain(filled.map(|(index, _)| index)).collect()
-                    }
-                };
-                Stage::Call { routine, arrays }
-            });
-            Some(stages.into())
-        }
-        // The real chain and the nominal twists have hardly anything in common.
-        Function::CompensatorStep => {
-            let columns = arrays.iter().position(|array| array.name == "columns")?;
-            let others = (0..arrays.len()).filter(|index| *index != columns).collect();
-            let call = Stage::Call { routine: Function::RealPose.name(), arrays: others };
-            if arrays[columns].is_empty(description) {
-                return Some(vec![call]);
-            }
-            let program = Program::new(&model.graph, &model.joint_twists.concat());
-            let writes = vec![Place { array: columns, row: Row::All }];
-            Some(vec![call, Stage::Block(Block { reads: vec![], program, writes, repeated: None })])
-        }
-        _ => None,
+    outputs: Outputs,
+    /// Of its program.
+    operations: Operations,
+}
+
+/// Whether a prediction takes no more when it calls what it is made of: ε, and `J_e ε`.
+fn is_sum_of_parts(known: &[Known], operations: Operations) -> bool {
+    let parts = [Function::GeneralizedErrors, Function::Displacement].map(|part| {
+        let found = known.iter().find(|other| other.function == part);
+        found.map(|other| other.operations)
+    });
+    let [Some(errors), Some(displacement)] = parts else { return false };
+    errors.plus(displacement).weight() <= operations.weight()
+}
+
+/// `J_e ε`, of the ε of the repeatable sources.
+fn predicted_displacement(arrays: &mut Vec<Array>) -> Vec<Stage> {
+    let errors = arrays.len();
+    arrays.push(Array { name: "errors", shape: vec![Count::Frames, Count::Exactly(6)], role: Role::Zeros });
+    let named = |name: &str| arrays.iter().position(|array| array.name == name);
+    let places = |names: &[&str]| names.iter().filter_map(|name| named(name)).collect::<Vec<_>>();
+    let given = [places(&["q", "s", "u"]), vec![errors]].concat();
+    let summed = [places(&["q", "s"]), vec![errors], places(&["displacement", "margin"])].concat();
+    vec![
+        Stage::Call { routine: Function::GeneralizedErrors.name(), arrays: given },
+        Stage::Call { routine: Function::Displacement.name(), arrays: summed },
+    ]
+}
+
+/// The real pose, and the nominal twists of the joints: they have hardly anything in common.
+fn compensator_step(model: &Model, arrays: &[Array], description: &Description) -> Vec<Stage> {
+    let is_columns = |array: &Array| array.name == "columns";
+    let (columns, others): (Vec<_>, Vec<_>) =
+        (0..arrays.len()).partition(|index| is_columns(&arrays[*index]));
+    let mut stages = vec![Stage::Call { routine: Function::RealPose.name(), arrays: others }];
+    for array in columns.into_iter().filter(|array| !arrays[*array].is_empty(description)) {
+        let program = Program::new(&model.graph, &model.joint_twists.concat());
+        let writes = vec![Place { array, row: Row::All }];
+        stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
     }
+    stages
 }
 
 /// Whether a function that came before gives the same, by more than chance, from no more than this one takes.
