@@ -34,15 +34,19 @@ impl Statements {
             routine,
             description,
             syntax,
-            outermost: names.clone(),
             names,
+            outermost: None,
             begun: routine.arrays.iter().map(|array| array.role == Role::Argument).collect(),
             whole: Vec::new(),
             constants: [false; 2],
             margin: None,
         };
-        let mut list = writer.arguments();
-        writer.outermost = writer.names.clone();
+        let symbols = symbols(routine);
+        let mut list = writer.arguments(&symbols);
+        let is_loop = |stage: &Stage| matches!(stage, Stage::Block(Block { repeated: Some(_), .. }));
+        if routine.stages.iter().any(is_loop) {
+            writer.outermost = Some(writer.names.clone());
+        }
         for stage in &routine.stages {
             writer.stage(stage, &mut list);
         }
@@ -55,7 +59,8 @@ impl Statements {
             };
             list.push(Statement::Return(value));
         }
-        let used = (0..routine.arrays.len()).map(|array| uses(routine, description, array)).collect();
+        let used =
+            (0..routine.arrays.len()).map(|array| uses(routine, &symbols, description, array)).collect();
         Self { list, used, constants: writer.constants }
     }
 }
@@ -65,8 +70,8 @@ struct Writer<'w> {
     description: &'w Description,
     syntax: &'w dyn Syntax,
     names: Names<'w>,
-    /// Those of the arguments alone.
-    outermost: Names<'w>,
+    /// Those of the arguments alone, with which every loop begins.
+    outermost: Option<Names<'w>>,
     /// Which arrays are there already.
     begun: Vec<bool>,
     /// Of these, which the block at hand fills at once.
@@ -77,9 +82,8 @@ struct Writer<'w> {
 
 impl Writer<'_> {
     /// Names for those numbers of the arguments that programs use as symbols.
-    fn arguments(&mut self) -> Vec<Statement> {
+    fn arguments(&mut self, used: &HashSet<Symbol>) -> Vec<Statement> {
         let mut statements = Vec::new();
-        let used = symbols(self.routine);
         for (array, argument) in self.routine.arrays.iter().enumerate() {
             let symbol = match (argument.role, argument.name) {
                 (Role::Argument, "q") => Symbol::Variable,
@@ -143,7 +147,8 @@ impl Writer<'_> {
                     None => self.block(block, statements),
                     Some(repeated) => {
                         // A loop is a scope of its own: it may use names again.
-                        let names = std::mem::replace(&mut self.names, self.outermost.clone());
+                        let outermost = self.outermost.clone().unwrap_or_else(|| self.names.clone());
+                        let names = std::mem::replace(&mut self.names, outermost);
                         let mut body = Vec::new();
                         self.block(block, &mut body);
                         self.names = names;
@@ -199,7 +204,8 @@ impl Writer<'_> {
     }
 
     fn block(&mut self, block: &Block, statements: &mut Vec<Statement>) {
-        let used = used_symbols(&block.program);
+        // What reads nothing has no local symbols.
+        let used = if block.reads.is_empty() { HashSet::new() } else { used_symbols(&block.program) };
         let mut number = 0;
         self.names.forget_locals();
         for place in &block.reads {
@@ -288,9 +294,9 @@ fn used_symbols(program: &Program) -> HashSet<Symbol> {
     operands.chain(program.outputs.iter().copied()).filter_map(symbol).collect()
 }
 
-/// Whether anything reads or writes an array.
-fn uses(routine: &Routine, description: &Description, array: usize) -> bool {
-    let as_symbols = symbols(routine).into_iter().any(|symbol| {
+/// Whether anything reads or writes an array; `symbols` are those of the routine.
+fn uses(routine: &Routine, symbols: &HashSet<Symbol>, description: &Description, array: usize) -> bool {
+    let as_symbols = symbols.iter().any(|symbol| {
         let name = match symbol {
             Symbol::Variable(_) => "q",
             Symbol::Parameter(_) => "s",
