@@ -322,15 +322,13 @@ pub mod slide {
         /// 0 mul, 0 add.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
-            q: &[T; VARIABLES],
-            s: &[T; PARAMETERS],
-            u: &[T; INPUTS],
+            _q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
             displacement: &mut [T; 6],
         ) {
             let zero = T::constant(0.0);
-            let mut errors = [[zero; 6]; FRAMES];
-            generalized_errors(q, s, u, &mut errors);
-            self::displacement(q, s, &errors, displacement);
+            *displacement = [zero; 6];
         }
 
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a

@@ -38,15 +38,14 @@ impl Routines {
     fn with(spec: &Spec, model: &Model, mut loops: Option<Loops<'_>>) -> Self {
         let description = spec.describe(model.effects.iter().map(EffectNode::effect));
         let mut list: Vec<Routine> = Vec::new();
-        let mut known: Vec<Known> = Vec::new();
+        let mut known: Vec<(Function, Outputs)> = Vec::new();
         for function in Function::ALL {
             let signature = function.signature();
             let mut arrays = arguments_and_results(signature, spec.orientation);
             let same = |outputs: &Outputs| {
-                let mut others = known.iter();
-                let other =
-                    others.find(|other| is_same(other.function, &other.outputs, signature, outputs))?;
-                Some(as_other(other.function, &arrays, &description))
+                let (other, _) =
+                    known.iter().find(|(other, its)| is_same(*other, its, signature, outputs))?;
+                Some(as_other(*other, &arrays, &description))
             };
             let ways = ways(function, model);
             // Where there is but one way, what is the same needs no program of its own.
@@ -57,19 +56,14 @@ impl Routines {
                 compensator_step(model, &arrays, &description)
             } else {
                 let (outputs, program) = fewest(ways, model);
-                let call = same(&outputs);
-                let operations = program.operations();
-                let looped = loops.as_mut().filter(|_| program.steps.len() > spec.frames.len());
-                let stages = if let Some(call) = call {
+                let stages = if let Some(call) = same(&outputs) {
                     vec![call]
-                } else if let Some(stages) = looped.and_then(|loops| loops.stages(function, &mut arrays)) {
-                    stages
-                } else if function == Function::PredictedDisplacement && is_sum_of_parts(&known, operations) {
-                    predicted_displacement(&mut arrays)
                 } else {
-                    vec![at_once(&arrays, program)]
+                    let looped = loops.as_mut().filter(|_| program.steps.len() > spec.frames.len());
+                    let looped = looped.and_then(|loops| loops.stages(function, &mut arrays));
+                    looped.unwrap_or_else(|| vec![at_once(&arrays, program)])
                 };
-                known.push(Known { function, outputs, operations });
+                known.push((function, outputs));
                 stages
             };
             let operations = Operations::default();
@@ -127,38 +121,6 @@ fn at_once(arrays: &[Array], program: Program) -> Stage {
     let filled = |(_, array): &(usize, &Array)| array.role != Role::Argument;
     let writes = arrays.iter().enumerate().filter(filled).map(|(array, _)| Place { array, row: Row::All });
     Stage::Block(Block { reads: vec![], program, writes: writes.collect(), repeated: None })
-}
-
-/// A function that came before.
-struct Known {
-    function: Function,
-    outputs: Outputs,
-    /// Of its program.
-    operations: Operations,
-}
-
-/// Whether a prediction takes no more when it calls what it is made of: ε, and `J_e ε`.
-fn is_sum_of_parts(known: &[Known], operations: Operations) -> bool {
-    let parts = [Function::GeneralizedErrors, Function::Displacement].map(|part| {
-        let found = known.iter().find(|other| other.function == part);
-        found.map(|other| other.operations)
-    });
-    let [Some(errors), Some(displacement)] = parts else { return false };
-    errors.plus(displacement).weight() <= operations.weight()
-}
-
-/// `J_e ε`, of the ε of the repeatable sources.
-fn predicted_displacement(arrays: &mut Vec<Array>) -> Vec<Stage> {
-    let errors = arrays.len();
-    arrays.push(Array { name: "errors", shape: vec![Count::Frames, Count::Exactly(6)], role: Role::Zeros });
-    let named = |name: &str| arrays.iter().position(|array| array.name == name);
-    let places = |names: &[&str]| names.iter().filter_map(|name| named(name)).collect::<Vec<_>>();
-    let given = [places(&["q", "s", "u"]), vec![errors]].concat();
-    let summed = [places(&["q", "s"]), vec![errors], places(&["displacement", "margin"])].concat();
-    vec![
-        Stage::Call { routine: Function::GeneralizedErrors.name(), arrays: given },
-        Stage::Call { routine: Function::Displacement.name(), arrays: summed },
-    ]
 }
 
 /// The real pose, and the nominal twists of the joints: they have hardly anything in common.
