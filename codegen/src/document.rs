@@ -10,6 +10,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
 use crate::expr::{Dimension, Entry, Expression, Place, Scope, parse_expression};
+use crate::keys::Keys;
 
 /// The largest file that is read; a chain of a hundred frames takes some 30 kB.
 const LARGEST: u64 = 4 << 20;
@@ -351,16 +352,16 @@ impl<'d> Section<'d> {
     }
 
     /// Notes every key that is not known, with the nearest that is.
-    pub fn check_keys(&self, known: &[&str], document: &mut Document) {
-        for item in self.items().filter(|item| !known.contains(&item.key.as_str())) {
+    pub fn check_keys(&self, known: &[&Keys], document: &mut Document) {
+        for item in self.items().filter(|item| !known.iter().any(|keys| keys.contain(&item.key))) {
             let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
-            document.mistake(
-                Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(suggestion(
+            document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(
+                suggestion(
                     &item.key,
-                    known,
+                    &known.iter().flat_map(|keys| keys.keys).copied().collect::<Vec<_>>(),
                     "known keys",
-                )),
-            );
+                ),
+            ));
         }
     }
 }

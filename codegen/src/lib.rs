@@ -18,6 +18,7 @@ pub mod diagnostic;
 pub mod document;
 pub mod expr;
 pub mod graph;
+pub mod keys;
 pub mod print;
 pub mod program;
 pub mod spec;

@@ -24,7 +24,7 @@ pub enum Function {
 }
 
 /// The functions a spec may name, `atan2` among them.
-pub(crate) const FUNCTION_NAMES: [&str; 9] =
+pub const FUNCTION_NAMES: [&str; 9] =
     ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "abs"];
 
 impl Function {

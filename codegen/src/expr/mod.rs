@@ -19,13 +19,12 @@ mod value;
 pub use abbe::LengthUnit;
 pub use dimension::Dimension;
 pub use expression::{Binary, Expression, Kind, Term};
-pub use function::Function;
+pub use function::{FUNCTION_NAMES, Function};
 pub use scope::{Allowed, Entry, Name, Scope, Symbol};
 pub use transform::{Elementary, Motion, motion};
 pub use unit::{UNIT_NAMES, Unit};
 pub use value::{find_name, parse_value};
 
-pub(crate) use function::FUNCTION_NAMES;
 pub(crate) use parse::parse_expression;
 pub(crate) use tokens::Place;
 pub(crate) use transform::parse_transform;

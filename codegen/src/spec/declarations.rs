@@ -2,11 +2,13 @@
 
 use indexmap::IndexMap;
 
+use super::keys;
 use super::names::check_identifier;
 use super::{Input, Parameter, Variable, VariableKind};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, LengthUnit, Name, Scope, Symbol};
+use crate::keys::Keys;
 
 /// The names of a spec, and what was declared with them.
 pub(super) struct Declarations {
@@ -28,8 +30,7 @@ impl Declarations {
             return;
         };
         for item in section.items() {
-            let known = ["value", "description", "reference"];
-            let (value, table) = self.valued(&item, &known, "parameter", document);
+            let (value, table) = self.valued(&item, &keys::PARAMETER, "parameter", document);
             let symbol = Symbol::Parameter(self.parameters.len());
             self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
             let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
@@ -45,8 +46,7 @@ impl Declarations {
             return;
         };
         for item in section.items() {
-            let known = ["value", "range", "description", "reference"];
-            let (value, table) = self.valued(&item, &known, "input", document);
+            let (value, table) = self.valued(&item, &keys::INPUT, "input", document);
             let symbol = Symbol::Input(self.inputs.len());
             self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
             let mut range = [f64::NEG_INFINITY, f64::INFINITY];
@@ -80,7 +80,7 @@ impl Declarations {
     ) -> Option<usize> {
         let mut table = document.section(item)?;
         table.name = "`variable`".to_owned();
-        table.check_keys(&["name", "kind", "limits", "home", "description"], document);
+        table.check_keys(&[&keys::VARIABLE], document);
         let name_item = table.required("name", document);
         let kind = table.required("kind", document).and_then(|kind| {
             let kinds = [("revolute", VariableKind::Revolute), ("prismatic", VariableKind::Prismatic)];
@@ -129,7 +129,7 @@ impl Declarations {
     fn valued<'d>(
         &self,
         item: &Item<'d>,
-        known: &[&str],
+        known: &Keys,
         what: &str,
         document: &mut Document,
     ) -> (Option<(f64, Dimension)>, Option<Section<'d>>) {
@@ -142,7 +142,7 @@ impl Declarations {
             return (None, None);
         };
         table.name = format!("the {what} `{}`", item.key);
-        table.check_keys(known, document);
+        table.check_keys(&[known], document);
         let value = table.required("value", document);
         (value.and_then(|value| document.constant(&value, &self.scope, entry)), Some(table))
     }

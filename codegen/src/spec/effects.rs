@@ -1,14 +1,10 @@
 //! What a source does to a frame: errors as they are, the sag of a beam, a compliance; there or at another place
 //! on the link.
 
-use super::{Beam, Cause, Compliance, Component, Effect, Frame};
+use super::{Beam, Cause, Compliance, Component, Effect, Frame, keys};
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
-
-/// What an effect may say.
-pub(super) const EFFECT_KEYS: [&str; 10] =
-    ["frame", "at", "e_x", "e_y", "e_z", "e_s", "e_r", "e_p", "beam", "compliance"];
 
 /// Reads the effect that a source, or one of its `[[source.effect]]` tables, describes.
 pub(super) fn read_effect(
@@ -17,8 +13,7 @@ pub(super) fn read_effect(
     scope: &Scope,
     document: &mut Document,
 ) -> Option<Effect> {
-    let causes: Vec<Item<'_>> =
-        section.items().filter(|item| EFFECT_KEYS[2..].contains(&item.key.as_str())).collect();
+    let causes: Vec<Item<'_>> = section.items().filter(|item| keys::CAUSE.contain(&item.key)).collect();
     let Some(first) = causes.first() else {
         document.mistake(
             Diagnostic::new(section.span.clone(), format!("{} causes no error", section.name))
@@ -104,7 +99,7 @@ const STIFFNESS: Dimension = Dimension::FORCE_TIMES_AREA;
 fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Beam> {
     let mut table = document.section(item)?;
     table.name = "`beam`".to_owned();
-    table.check_keys(&["length", "axis", "EI_y", "EI_z", "GJ", "EA"], document);
+    table.check_keys(&[&keys::BEAM], document);
     let mut quantity = |key: &str, dimension: Dimension, required: bool| -> Option<Option<Expression>> {
         let item = if required { Some(table.required(key, document)?) } else { table.get(key) };
         let what = format!("`{key}`");
@@ -141,7 +136,7 @@ fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<
 fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Compliance> {
     let mut table = document.section(item)?;
     table.name = "`compliance`".to_owned();
-    table.check_keys(&["diagonal", "matrix"], document);
+    table.check_keys(&[&keys::COMPLIANCE], document);
     let entry = |row: usize, column: usize, item: &Item<'_>, document: &mut Document| {
         let what = format!("{} per unit of {}", Component::ALL[row].name(), WRENCH[column]);
         let entry =

@@ -1,14 +1,11 @@
 //! The ways to write an `A_i`, all of which become a product of [`Factor`]s.
 
-use super::{Factor, Matrix, VariableKind, rigid};
+use super::{Factor, Matrix, VariableKind, keys, rigid};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{
     Allowed, Dimension, Elementary, Entry, Expression, Motion, Scope, Symbol, parse_transform,
 };
-
-/// The keys of which a frame or tool has one; `axis` goes with `origin`.
-pub(super) const FORMS: [&str; 6] = ["transform", "matrix", "dh", "mdh", "origin", "axis"];
 
 /// What a variable brings to an `origin`/`axis` frame.
 pub(super) type OwnVariable = Option<(usize, VariableKind)>;
@@ -20,7 +17,9 @@ pub(super) fn read_factors(
     scope: &Scope,
     document: &mut Document,
 ) -> Option<Vec<Factor>> {
-    let forms: Vec<Item<'_>> = FORMS[..5].iter().filter_map(|form| section.get(form)).collect();
+    // One of them; `axis` goes with `origin`.
+    let forms = keys::TRANSFORM.keys.iter().filter(|key| **key != "axis");
+    let forms: Vec<Item<'_>> = forms.filter_map(|form| section.get(form)).collect();
     let axis = section.get("axis");
     if let [first, second, ..] = &forms[..] {
         let message = format!("{} has both `{}` and `{}`", section.name, first.key, second.key);
@@ -145,7 +144,7 @@ fn denavit_hartenberg(
 ) -> Option<Vec<Factor>> {
     let mut section = document.section(item)?;
     section.name = format!("`{}`", item.key);
-    section.check_keys(&["theta", "d", "a", "alpha"], document);
+    section.check_keys(&[&keys::DENAVIT_HARTENBERG], document);
     let factors = order.map(|(key, motion, axis)| {
         let what = format!("`{key}`");
         let expected = Entry { dimension: Some(dimension_of(motion)), what: &what, names: Allowed::Geometry };
@@ -160,7 +159,7 @@ fn denavit_hartenberg(
 fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
     let mut section = document.section(item)?;
     section.name = "`origin`".to_owned();
-    section.check_keys(&["xyz", "rpy"], document);
+    section.check_keys(&[&keys::ORIGIN], document);
     let mut three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
         let Some(item) = section.get(key) else {
             return Some(Vec::new());

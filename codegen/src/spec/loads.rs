@@ -1,7 +1,7 @@
 //! `[[load]]` and `gravity`: what weighs on beams and compliances.
 
 use super::effects::find_frame;
-use super::{Cause, Frame, Load, Source};
+use super::{Cause, Frame, Load, Source, keys};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
@@ -19,7 +19,7 @@ pub(super) fn read_loads(
         if let Some(mut section) = document.section(&item) {
             section.span = item.span();
             section.name = "this [[load]]".to_owned();
-            section.check_keys(&["name", "mass", "frame", "point", "description", "reference"], document);
+            section.check_keys(&[&keys::LOAD], document);
             loads.extend(read_load(&section, frames, scope, document));
         }
     }

@@ -7,6 +7,7 @@ mod declarations;
 mod describe;
 mod effects;
 mod frames;
+mod keys;
 mod loads;
 mod names;
 mod read;
@@ -15,6 +16,7 @@ mod sources;
 mod types;
 
 pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
+pub use keys::TABLES;
 pub use types::{
     Beam, Cause, Compliance, Effect, Factor, Frame, Input, Load, Matrix, Parameter, Source, Spec, Variable,
 };

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 
 use super::declarations::Declarations;
-use super::frames::{FORMS, OwnVariable, read_factors};
+use super::frames::{OwnVariable, read_factors};
+use super::keys;
 use super::loads::{check_loaded, read_gravity, read_loads};
 use super::names::{check_identifier, title_of};
 use super::rigid::check_rigid;
@@ -16,9 +17,6 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::{LengthUnit, Symbol};
 use crate::graph::Graph;
-
-const MANIPULATOR_KEYS: [&str; 7] =
-    ["name", "title", "description", "reference", "length", "orientation", "gravity"];
 
 impl Spec {
     /// Reads and checks a spec file. All mistakes of its syntax, or else all of its meaning, come at once.
@@ -56,8 +54,7 @@ impl Spec {
 }
 
 fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
-    let known = ["manipulator", "parameters", "inputs", "frame", "tool", "source", "load", "gravity"];
-    root.check_keys(&known, document);
+    root.check_keys(&[&keys::FILE], document);
     let head = root.required("manipulator", document).and_then(|item| read_head(&item, document));
     // Without a length unit the rest could only be read by guessing.
     let head = head?;
@@ -130,7 +127,7 @@ struct Head {
 fn read_head(item: &Item<'_>, document: &mut Document) -> Option<Head> {
     let mut section = document.section(item)?;
     section.name = "[manipulator]".to_owned();
-    section.check_keys(&MANIPULATOR_KEYS, document);
+    section.check_keys(&[&keys::MANIPULATOR], document);
     let name = section.required("name", document).and_then(|item| {
         let name = document.string(&item)?;
         let valid = check_identifier(&name, item.span(), document);
@@ -212,9 +209,7 @@ fn read_frames<'d>(
                     .help("sources name frames; give each its own name"),
             );
         }
-        let mut known = vec!["name", "description", "reference", "variable"];
-        known.extend(FORMS);
-        section.check_keys(&known, document);
+        section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
         let variable = section.get("variable");
         let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item, document));
         let own = own.map(|own| (own, declarations.variables[own].kind));
@@ -253,9 +248,7 @@ fn read_tool(
 ) -> Option<Vec<Factor>> {
     let mut section = document.section(item)?;
     section.name = "[tool]".to_owned();
-    let mut known = vec!["description", "reference"];
-    known.extend(FORMS);
-    section.check_keys(&known, document);
+    section.check_keys(&[&keys::DESCRIBED, &keys::TRANSFORM], document);
     let factors = read_factors(&section, None, &declarations.scope, document)?;
     check_matrices(&factors, declarations, nominal, document)?;
     Some(factors)

@@ -1,13 +1,16 @@
 //! `[[source]]`: physical errors and the generalized errors they cause.
 
-use super::effects::{EFFECT_KEYS, read_effect};
+use super::effects::read_effect;
+use super::keys;
 use super::names::title_of;
 use super::{Class, Distribution, Frame, Source};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::Scope;
+use crate::keys::Keys;
 
-const KEYS: [&str; 7] = ["name", "class", "distribution", "enabled", "description", "reference", "effect"];
+/// What a source may say: of itself, and of its one effect.
+const KNOWN: [&Keys; 3] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE];
 
 /// Reads every source of a spec.
 pub(super) fn read_sources(
@@ -47,7 +50,7 @@ pub(super) fn read_sources(
             spans.push((name.clone(), name_item.span()));
             sources.extend(read_source(&section, name, frames, scope, document));
         } else {
-            section.check_keys(&keys(), document);
+            section.check_keys(&KNOWN, document);
         }
     }
     sources
@@ -60,7 +63,7 @@ fn read_source(
     scope: &Scope,
     document: &mut Document,
 ) -> Option<Source> {
-    section.check_keys(&keys(), document);
+    section.check_keys(&KNOWN, document);
     let class = section.required("class", document);
     let class = class.and_then(|class| read_class(&class, section, document));
     let enabled = match section.get("enabled") {
@@ -70,25 +73,20 @@ fn read_source(
     let mut effects = Vec::new();
     let tables =
         section.get("effect").and_then(|item| document.array(&item, "tables, each a [[source.effect]]"));
-    if tables.is_none() || section.items().any(|item| EFFECT_KEYS.contains(&item.key.as_str())) {
+    if tables.is_none() || section.items().any(|item| KNOWN[1..].iter().any(|keys| keys.contain(&item.key))) {
         effects.extend(read_effect(section, frames, scope, document));
     }
     for item in tables.unwrap_or_default() {
         if let Some(mut table) = document.section(&item) {
             table.span = item.span();
             table.name = format!("an effect of {}", section.name);
-            table.check_keys(&EFFECT_KEYS, document);
+            table.check_keys(&KNOWN[1..], document);
             effects.extend(read_effect(&table, frames, scope, document));
         }
     }
     let description = section.optional_text("description", document);
     let reference = section.optional_text("reference", document);
     Some(Source { name, class: class?, enabled: enabled?, description, reference, effects })
-}
-
-/// What a source may say: of itself, and of its one effect.
-fn keys() -> Vec<&'static str> {
-    KEYS.into_iter().chain(EFFECT_KEYS).collect()
 }
 
 fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -> Option<Class> {

@@ -39,6 +39,7 @@
 
 mod column;
 mod file;
+mod keys;
 mod layout;
 mod map;
 mod missing;
@@ -49,6 +50,7 @@ mod table;
 mod turn;
 
 pub use column::{Channel, Column};
+pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
 pub use rows::{Data, Summary, Unusable};
 pub use table::Table;

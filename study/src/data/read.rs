@@ -10,10 +10,9 @@ use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, find_name, parse_valu
 use abbe_codegen::spec::{Spec, VariableKind};
 
 use super::column::{Channel, Column};
+use super::keys;
 use super::map::{Base, Layout, Map, Target};
 use super::turn::{Order, Turn};
-
-const FORMS: [&str; 4] = ["point", "difference", "target", "pose"];
 
 impl Map {
     /// The map in a file, or the one shipped under that name.
@@ -42,13 +41,10 @@ impl Map {
 }
 
 fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Map> {
-    root.check_keys(&[&["data", "joints", "inputs"][..], &FORMS].concat(), document);
+    root.check_keys(&[&keys::FILE, &keys::FORMS], document);
     let mut head = root.required("data", document).and_then(|item| document.section(&item))?;
     head.name = "[data]".to_owned();
-    head.check_keys(
-        &["title", "description", "reference", "uncertainty", "angle_uncertainty", "base"],
-        document,
-    );
+    head.check_keys(&[&keys::DATA], document);
     let joints = joints(root, document, spec);
     let inputs = inputs(root, document, spec);
     let layout = layout(root, document, spec);
@@ -145,7 +141,7 @@ fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Ve
 fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<Channel> {
     let mut section = document.section(item)?;
     section.name = format!("`{}`", item.key);
-    section.check_keys(&["column", "unit", "sign", "value"], document);
+    section.check_keys(&[&keys::CHANNEL], document);
     if let Some(value) = section.get("value") {
         return constant(&value, document, spec, dimension).map(Channel::Fixed);
     }
@@ -193,7 +189,7 @@ fn unit(section: &Section<'_>, document: &mut Document, spec: &Spec, dimension: 
 }
 
 fn layout(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Layout> {
-    let mut forms = root.items().filter(|item| FORMS.contains(&item.key.as_str()));
+    let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
         let message = "a map says once what was measured";
         let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more) and `[pose]`";
@@ -208,16 +204,16 @@ fn layout(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<La
     let factor = unit(&section, document, spec, Dimension::LENGTH);
     match form.key.as_str() {
         "point" => {
-            section.check_keys(&["columns", "unit"], document);
+            section.check_keys(&[&keys::POINT], document);
             Some(Layout::Point(columns(&section, "columns", document)?, factor?))
         }
         "difference" => {
-            section.check_keys(&["target", "difference", "unit"], document);
+            section.check_keys(&[&keys::DIFFERENCE], document);
             let target = columns(&section, "target", document);
             Some(Layout::Difference(target?, columns(&section, "difference", document)?, factor?))
         }
         _ => {
-            section.check_keys(&["position", "unit", "quaternion", "matrix", "euler"], document);
+            section.check_keys(&[&keys::POSE, &keys::TURN], document);
             let position = columns(&section, "position", document);
             Some(Layout::Pose(position?, factor?, turn(&section, document, spec)?))
         }
@@ -230,7 +226,7 @@ fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<T
     }
     if let Some(item) = section.get("quaternion") {
         let section = document.section(&item)?;
-        section.check_keys(&["columns", "order"], document);
+        section.check_keys(&[&keys::QUATERNION], document);
         let order = section.required("order", document)?;
         let order = document.choice(&order, &[("wxyz", Order::Wxyz), ("xyzw", Order::Xyzw)]);
         return Some(Turn::Quaternion(Box::new(columns(&section, "columns", document)?), order?));
@@ -241,7 +237,7 @@ fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<T
         return None;
     };
     let section = document.section(&item)?;
-    section.check_keys(&["columns", "order", "unit"], document);
+    section.check_keys(&[&keys::EULER], document);
     let orders = [
         ("xyz", [0, 1, 2]),
         ("xzy", [0, 2, 1]),
@@ -262,7 +258,7 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layo
         let mut section = document.section(item)?;
         section.span = item.span();
         section.name = "this [[target]]".to_owned();
-        section.check_keys(&["name", "columns", "unit", "position"], document);
+        section.check_keys(&[&keys::TARGET], document);
         let columns = columns(&section, "columns", document);
         let factor = unit(&section, document, spec, Dimension::LENGTH);
         let position = section.required("position", document)?;

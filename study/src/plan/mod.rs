@@ -1,5 +1,6 @@
 //! Where to measure, and how well the errors of the machine will then be known where it is used.
 
+mod keys;
 mod sets;
 
 use abbe::analysis::{Workspace, joint_samples};
@@ -16,6 +17,7 @@ use crate::data::{Map, Table};
 use crate::identify::{Alike, Counts, Setup};
 use crate::{Machine, Notes, Study, mistake};
 
+pub use keys::TABLES;
 pub use sets::{Counted, Sets};
 
 /// The most configurations of the workspace of use that are looked at.

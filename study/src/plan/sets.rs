@@ -27,6 +27,7 @@ use abbe_codegen::document::{Document, Section};
 use abbe_codegen::spec::Spec;
 use serde::Serialize;
 
+use super::keys;
 use crate::workspace::{Candidates, Region, count, read_region};
 use crate::{Notes, mistake};
 
@@ -140,10 +141,10 @@ impl Sets {
 }
 
 fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets> {
-    root.check_keys(&["plan", "set", "inputs"], document);
+    root.check_keys(&[&keys::FILE], document);
     let mut head = root.required("plan", document).and_then(|item| document.section(&item))?;
     head.name = "[plan]".to_owned();
-    head.check_keys(&["title", "description", "repeat"], document);
+    head.check_keys(&[&keys::PLAN], document);
     let repeat = match head.get("repeat") {
         Some(item) => count(&item, 1000, document, spec),
         None => Some(1),
@@ -159,7 +160,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
         let mut section = document.section(item)?;
         section.span = item.span();
         section.name = "this [[set]]".to_owned();
-        section.check_keys(&["name", "workspace", "axes"], document);
+        section.check_keys(&[&keys::SET], document);
         let name = section.optional_text("name", document);
         let content = if let Some(axes) = section.get("axes") {
             Content::Axes(Candidates::variables(spec).axes(&axes, document, spec))

@@ -7,6 +7,8 @@ use abbe_codegen::document::{Document, Item};
 use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, find_name};
 use abbe_codegen::spec::{self, Spec};
 
+use super::keys;
+
 /// What compensation leaves.
 #[derive(Clone, Debug)]
 pub struct Compensated {
@@ -33,7 +35,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
     let mut compensated = Compensated { default: Residual::Share(1.0), named: Vec::new() };
     let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
     for item in section.items() {
-        if item.key == "default" {
+        if keys::COMPENSATION.contain(&item.key) {
             compensated.default = residual(&item, document, spec)?;
             continue;
         }

@@ -20,9 +20,11 @@
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::find_name;
+use abbe_codegen::keys::Keys;
 use abbe_codegen::spec::Spec;
 use serde::Serialize;
 
+use super::keys;
 use crate::workspace::{Region, read_region};
 
 /// A figure to draw.
@@ -140,13 +142,13 @@ pub(super) fn read_figures(
 
 fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
     let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
-    let own: &[&str] = match kind {
-        Kind::Travel | Kind::Surface => &["source", "workspace", "over"],
-        Kind::Cloud | Kind::Histogram => &["source", "workspace"],
-        Kind::Manipulator => &["up"],
-        Kind::Pareto => &[],
+    let known: &[&Keys] = match kind {
+        Kind::Travel | Kind::Surface => &[&keys::GATHERED, &keys::OVER, &keys::FIGURE],
+        Kind::Cloud | Kind::Histogram => &[&keys::GATHERED, &keys::FIGURE],
+        Kind::Manipulator => &[&keys::UP, &keys::FIGURE],
+        Kind::Pareto => &[&keys::FIGURE],
     };
-    section.check_keys(&[own, &["kind", "caption", "paper"]].concat(), document);
+    section.check_keys(known, document);
     let content = match kind {
         Kind::Travel => {
             let item = section.required("over", document)?;

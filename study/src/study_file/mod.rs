@@ -38,11 +38,13 @@
 
 mod compensation;
 mod figure;
+mod keys;
 mod published;
 mod read;
 mod study;
 
 pub use compensation::Compensated;
 pub use figure::{Content, Figure, Over};
+pub use keys::TABLES;
 pub use published::{CombinedFigure, Metric, Published, PublishedResidual, Subject};
 pub use study::Study;

@@ -5,6 +5,7 @@ use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::{Dimension, find_name};
 use abbe_codegen::spec::Spec;
 
+use super::keys;
 use crate::workspace::{constant, positive_length};
 
 /// What a figure of a single source is.
@@ -100,7 +101,7 @@ pub(super) fn read_published(root: &Section<'_>, document: &mut Document, spec: 
 fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Published> {
     let subject = match (section.get("source"), section.get("combined")) {
         (Some(source), None) => {
-            section.check_keys(&["source", "metric", "x", "y", "z", "norm", "within", "reference"], document);
+            section.check_keys(&[&keys::OF_A_SOURCE, &keys::PUBLISHED], document);
             let names = spec.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
             let name = document.string(&source);
             let known =
@@ -110,7 +111,7 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
             known.zip(metric).map(|(name, metric)| Subject::Source(name, metric))
         }
         (None, Some(combined)) => {
-            section.check_keys(&["combined", "norm", "within", "reference"], document);
+            section.check_keys(&[&keys::OF_ALL, &keys::PUBLISHED], document);
             document.choice(&combined, &CombinedFigure::ALL).map(Subject::Combined)
         }
         _ => {
@@ -140,7 +141,7 @@ pub(super) fn read_compensated(
     spec: &Spec,
 ) -> Option<PublishedResidual> {
     let section = document.section(item)?;
-    section.check_keys(&["residual", "random", "total", "reference"], document);
+    section.check_keys(&[&keys::COMPENSATED], document);
     let mut length = |key: &str| {
         let item = section.required(key, document)?;
         positive_length(&item, document, spec)

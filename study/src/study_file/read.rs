@@ -10,23 +10,12 @@ use sha2::{Digest, Sha256};
 
 use super::compensation;
 use super::figure::read_figures;
+use super::keys;
 use super::published::{read_compensated, read_published};
 use super::study::Study;
 use crate::changes::{Changes, find_symbol};
 use crate::machine::Machine;
 use crate::workspace::{constant, positive_length, read_region};
-
-const HEAD: [&str; 9] = [
-    "title",
-    "description",
-    "reference",
-    "publisher",
-    "tolerance",
-    "set",
-    "enable",
-    "disable",
-    "not_reproducible",
-];
 
 impl Study {
     /// The study of that file, or else the one shipped with the manipulator, or else joint samples.
@@ -50,8 +39,7 @@ impl Study {
 }
 
 fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Study> {
-    let known = ["study", "workspace", "published", "compensated", "compensation", "figure"];
-    root.check_keys(&known, document);
+    root.check_keys(&[&keys::FILE], document);
     let head = root.required("study", document).and_then(|item| document.section(&item));
     let region = root.required("workspace", document).and_then(|item| read_region(&item, document, spec));
     let published = read_published(root, document, spec);
@@ -60,7 +48,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     let figures = read_figures(root, document, spec, region.as_ref());
     let mut head = head?;
     head.name = "[study]".to_owned();
-    head.check_keys(&HEAD, document);
+    head.check_keys(&[&keys::STUDY], document);
     let title = head.required("title", document).and_then(|item| document.string(&item));
     Some(Study {
         publisher: head.optional_text("publisher", document),

@@ -7,6 +7,7 @@ use abbe_codegen::expr::{Dimension, find_name};
 use abbe_codegen::spec::{Spec, VariableKind};
 
 use super::constant::{constant, count};
+use super::keys;
 
 /// The most values of an axis: they are stored.
 const VALUES: usize = 10_000_000;
@@ -104,7 +105,7 @@ pub(super) fn values(
     }
     let mut section = document.section(item)?;
     section.name = format!("the range of `{}`", item.key);
-    section.check_keys(&["from", "to", "count", "step"], document);
+    section.check_keys(&[&keys::VALUES], document);
     let mut end = |key: &str| {
         let end = section.required(key, document)?;
         constant(&end, document, spec, dimension, &what)

@@ -8,20 +8,19 @@ use abbe_codegen::spec::Spec;
 
 use super::axis::{Candidates, values};
 use super::constant::{constant, count, whole};
+use super::keys::{self, WORKSPACE};
 use super::path;
 use super::region::{LARGEST, Region};
-
-/// Every form, by the key that gives it.
-const FORMS: [&str; 6] = ["presented", "grid", "joints", "random", "box", "path"];
 
 /// `[workspace]`: one of the forms.
 pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
     let mut section = document.section(item)?;
     section.name = "[workspace]".to_owned();
-    section.check_keys(&FORMS, document);
-    let mut forms = section.items().filter(|item| FORMS.contains(&item.key.as_str()));
+    section.check_keys(&[&WORKSPACE], document);
+    let mut forms = section.items().filter(|item| WORKSPACE.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
-        let help = format!("give one of {}", FORMS.map(|form| format!("`{form}`")).join(", "));
+        let forms = WORKSPACE.keys.iter().map(|form| format!("`{form}`")).collect::<Vec<_>>();
+        let help = format!("give one of {}", forms.join(", "));
         document.mistake(
             Diagnostic::new(section.span.clone(), "a workspace has one form")
                 .label("which configurations?")
@@ -58,7 +57,7 @@ fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Re
 
 /// `[workspace.presented]`: tool points, each brought to one point of the room.
 fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Presentation> {
-    section.check_keys(&["point", "tool_points", "approaches", "solve"], document);
+    section.check_keys(&[&keys::PRESENTED], document);
     let point = section.required("point", document).and_then(|item| point(&item, document, spec));
     let tool_points = section.get("tool_points");
     let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item, document, spec));
@@ -84,7 +83,7 @@ fn point(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<[f64; 
 
 /// `[workspace.box]`: a grid of points in `F_0`; all variables are solved for if `solve` does not say otherwise.
 fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<BaseBox> {
-    section.check_keys(&["x", "y", "z", "orientation", "solve"], document);
+    section.check_keys(&[&keys::BOX], document);
     let points = ["x", "y", "z"].map(|axis| {
         let item = section.required(axis, document)?;
         values(&item, document, spec, Dimension::LENGTH)
@@ -105,8 +104,8 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
 /// `[workspace.joints]` or `[workspace.random]`: samples within the limits; all variables move if `moved` does not
 /// say otherwise.
 fn samples(section: &Section<'_>, document: &mut Document, spec: &Spec, random: bool) -> Option<Region> {
-    let keys = ["samples", "moved", "seed"];
-    section.check_keys(if random { &keys } else { &keys[..2] }, document);
+    let known = [&keys::SAMPLES, &keys::RANDOM];
+    section.check_keys(if random { &known } else { &known[..1] }, document);
     let moved = match section.get("moved") {
         Some(item) => Candidates::variables(spec).list(&item, document),
         None => (0..spec.variables.len()).collect(),

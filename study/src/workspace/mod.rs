@@ -6,11 +6,13 @@
 mod axis;
 mod constant;
 mod forms;
+mod keys;
 mod path;
 mod region;
 
 pub use axis::Candidates;
 pub use constant::{constant, count, positive_length, whole};
 pub use forms::read_region;
+pub use keys::TABLES;
 pub use path::Path;
 pub use region::Region;

@@ -18,6 +18,8 @@ use abbe_codegen::expr::{Dimension, find_name, parse_value};
 use abbe_codegen::spec::{Spec, VariableKind};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
+use super::keys;
+
 /// Configurations from a file.
 #[derive(Clone, Debug)]
 pub struct Path {
@@ -77,7 +79,7 @@ impl Path {
 
 /// Reads `file`, which stands beside the study.
 pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Path> {
-    section.check_keys(&["file"], document);
+    section.check_keys(&[&keys::PATH], document);
     let item = section.required("file", document)?;
     let file = document.string(&item)?;
     let folder = path::Path::new(&document.path).parent().unwrap_or(path::Path::new(""));

@@ -1,0 +1,26 @@
+//! Every key of a spec file.
+
+crate::tables! {
+    FILE: ["the file"],
+        ["manipulator", "parameters", "inputs", "frame", "tool", "source", "load", "gravity"];
+    MANIPULATOR: ["[manipulator]"],
+        ["name", "title", "description", "reference", "length", "orientation", "gravity"];
+    PARAMETER: ["[parameters.NAME]"], ["value", "description", "reference"];
+    INPUT: ["[inputs.NAME]"], ["value", "range", "description", "reference"];
+
+    FRAME: ["[[frame]]"], ["name", "variable"];
+    DESCRIBED: ["[[frame]]", "[tool]"], ["description", "reference"];
+    TRANSFORM: ["[[frame]]", "[tool]"], ["transform", "matrix", "dh", "mdh", "origin", "axis"];
+    VARIABLE: ["[frame.variable]"], ["name", "kind", "limits", "home", "description"];
+    DENAVIT_HARTENBERG: ["[frame.dh]", "[frame.mdh]"], ["theta", "d", "a", "alpha"];
+    ORIGIN: ["[frame.origin]"], ["xyz", "rpy"];
+
+    SOURCE: ["[[source]]"],
+        ["name", "class", "distribution", "enabled", "description", "reference", "effect"];
+    PLACE: ["[[source]]", "[[source.effect]]"], ["frame", "at"];
+    CAUSE: ["[[source]]", "[[source.effect]]"],
+        ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p", "beam", "compliance"];
+    BEAM: ["[source.beam]"], ["length", "axis", "EI_y", "EI_z", "GJ", "EA"];
+    COMPLIANCE: ["[source.compliance]"], ["diagonal", "matrix"];
+    LOAD: ["[[load]]"], ["name", "mass", "frame", "point", "description", "reference"];
+}

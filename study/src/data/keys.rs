@@ -1,0 +1,16 @@
+//! Every key of a map.
+
+abbe_codegen::tables! {
+    FILE: ["the file"], ["data", "joints", "inputs"];
+    FORMS: ["the file"], ["point", "difference", "target", "pose"];
+    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base"];
+    CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
+
+    POINT: ["[point]"], ["columns", "unit"];
+    DIFFERENCE: ["[difference]"], ["target", "difference", "unit"];
+    TARGET: ["[[target]]"], ["name", "columns", "unit", "position"];
+    POSE: ["[pose]"], ["position", "unit"];
+    TURN: ["[pose]"], ["quaternion", "matrix", "euler"];
+    QUATERNION: ["[pose.quaternion]"], ["columns", "order"];
+    EULER: ["[pose.euler]"], ["columns", "order", "unit"];
+}

@@ -1,0 +1,7 @@
+//! Every key of a plan, but for those of its workspaces.
+
+abbe_codegen::tables! {
+    FILE: ["the file"], ["plan", "set", "inputs"];
+    PLAN: ["[plan]"], ["title", "description", "repeat"];
+    SET: ["[[set]]"], ["name", "workspace", "axes"];
+}

@@ -1,0 +1,11 @@
+//! Every key of a workspace.
+
+abbe_codegen::tables! {
+    WORKSPACE: ["[workspace]"], ["presented", "grid", "joints", "random", "box", "path"];
+    PRESENTED: ["[workspace.presented]"], ["point", "tool_points", "approaches", "solve"];
+    SAMPLES: ["[workspace.joints]", "[workspace.random]"], ["samples", "moved"];
+    RANDOM: ["[workspace.random]"], ["seed"];
+    BOX: ["[workspace.box]"], ["x", "y", "z", "orientation", "solve"];
+    PATH: ["[workspace.path]"], ["file"];
+    VALUES: ["[workspace.grid.NAME]"], ["from", "to", "count", "step"];
+}
