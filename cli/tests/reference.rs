@@ -1,0 +1,26 @@
+//! The command against an implementation of its own in plain Python (`tests/reference/`): 30 random specs that together
+//! use every form of the language.
+
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+use abbe_tests::needs::{Missing, Test, run};
+
+fn main() -> ExitCode {
+    run([("random_specs_are_as_plain_python_has_them", random_specs as Test)])
+}
+
+fn random_specs() -> Result<(), Missing> {
+    // TOML is read since Python 3.11.
+    let python = Command::new("python3").args(["-c", "import tomllib"]).output();
+    if !python.is_ok_and(|python| python.status.success()) {
+        return Err(Missing("python3 (3.11 or newer) is not installed".to_owned()));
+    }
+    let compare = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/reference/compare.py");
+    // `-B`: no compiled modules beside the sources.
+    let output = Command::new("python3").arg("-B").arg(compare).arg(env!("CARGO_BIN_EXE_abbe")).output();
+    let output = output.expect("python3 has just run");
+    let printed = [output.stdout, output.stderr].concat();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&printed));
+    Ok(())
+}
