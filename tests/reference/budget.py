@@ -2,7 +2,7 @@
 
 import math
 
-from kinematics import Configuration
+from kinematics import Configuration, exact_position
 
 # What the first-order bound of a random source is: its half-width, or three standard deviations.
 BOUND = {"uniform": 1.0, "normal": 3.0, "triangular": 1.0, "arcsine": 1.0}
@@ -72,7 +72,19 @@ class Sweep:
             },
             "standard_deviation": [max(c[i] for _, _, c in rows) for i in range(3)],
             "standard_radius": max(norm(c) for _, _, c in rows),
+            "worst_case": [max(sum(abs(bound(s) * m[i]) for s, m in zip(self.sources, row)) for row in self.moves) for i in range(3)],
         }
+
+
+    def largest_remainder(self):
+        """What first order leaves of the repeatable sources on the exact chain, at most."""
+        repeatable = [(source, 1.0) for source in self.sources if source.repeatable]
+        largest = 0.0
+        for place, row in zip(self.places, self.moves):
+            ideal, real = exact_position(place, []), exact_position(place, repeatable)
+            first_order = self.sums(row)[0]
+            largest = max(largest, norm([r - i - f for r, i, f in zip(real, ideal, first_order)]))
+        return largest
 
 
 def per_axis(points):

@@ -4,12 +4,12 @@ import math
 import random
 
 # Forms that the command does not have yet.
-MISSING = {"joint", "parameter", "dh source", "triangular", "arcsine", "new functions", "new units", "table"}
+MISSING = {"joint", "parameter", "dh source", "triangular", "arcsine", "new functions", "new units", "table", "located exactly"}
 
 FRAME_FORMS = ["product", "matrix", "dh", "mdh", "origin", "fixed", "fixed origin", "coupled"]
 SOURCE_FORMS = [
     "repeatable", "uniform", "normal", "effects", "random effects", "at", "beam", "beam at", "compliance", "compliance matrix",
-    "disabled", "enabled by study", "beam without EA",
+    "disabled", "beam without EA",
     "joint", "parameter", "dh source", "triangular", "arcsine",
 ]  # fmt: skip
 
@@ -268,6 +268,17 @@ class Writer:
 
     def configurations(self, count):
         """Values of all variables, in coherent units."""
-        return [
-            {name: self.random.uniform(low, high) for name, low, high in self.variables} for _ in range(count)
-        ]
+        return [{name: self.random.uniform(low, high) for name, low, high in self.variables} for _ in range(count)]
+
+    def workspace(self, configurations, folder):
+        """What a study says of where to look, and the configurations that it means."""
+        if self.pick("path", "grid") == "path":
+            units = [f"{name} ({'rad' if name[0] == 'q' else self.length})" for name, _, _ in self.variables]
+            rows = [",".join(repr(value) for value in place.values()) for place in configurations]
+            (folder / f"path{self.seed}.csv").write_text("\n".join([",".join(units), *rows]) + "\n")
+            return f'[workspace.path]\nfile = "path{self.seed}.csv"\n', configurations
+        # Two variables; the others stay at home.
+        (one, low, high), (two, _, end) = self.variables[:2]
+        values = [low + (high - low) * k / 4 for k in range(5)]
+        text = f"[workspace.grid]\n{one} = {{ from = {low!r}, to = {high!r}, count = 5 }}\n{two} = [0.2, {end!r}, 0.1]\n"
+        return text, [{one: x, two: y} for x in values for y in (0.2, end, 0.1)]
