@@ -67,6 +67,18 @@ impl Local {
         }
     }
 
+    /// A direction, given in the axes before the motion, in those behind it.
+    pub(super) fn direction_behind(&self, graph: &mut Graph, v: Vector) -> Vector {
+        match self {
+            Self::Shift(_) => v,
+            Self::Turn { axis, sine, cosine } => {
+                let back = Self::Turn { axis: *axis, sine: graph.neg(*sine), cosine: *cosine };
+                back.direction(graph, v)
+            }
+            Self::Rotation(axes) => axes.map(|axis| graph.dot(axis, v)),
+        }
+    }
+
     /// A point in the axes before the motion, from their origin.
     pub(crate) fn point(&self, graph: &mut Graph, p: Vector) -> Vector {
         match self {

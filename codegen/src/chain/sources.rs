@@ -1,5 +1,6 @@
 //! ε of the sources: what is given, what a located error is at its frame, what gives way under loads.
 
+use super::deviation::frame_twists;
 use super::walk::transform;
 use crate::expr::{Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
@@ -35,9 +36,18 @@ pub(super) fn effects(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> Vec<E
         let mut sums = vec![[zero; 6]; frames.len()];
         for effect in &declared.effects {
             let errors = at_frame(graph, effect, &frames[effect.frame], &loads);
-            for (sum, error) in sums[effect.frame].iter_mut().zip(errors) {
-                *sum = graph.add(*sum, error);
+            add(graph, &mut sums[effect.frame], errors);
+        }
+        for deviation in &declared.deviations {
+            let error = graph.lower(&deviation.error);
+            for twist in frame_twists(graph, spec, deviation.number) {
+                let (shift, turn) = (graph.scale(error, twist.velocity), graph.scale(error, twist.rotation));
+                add(graph, &mut sums[twist.frame], six(shift, turn));
             }
+        }
+        if let Some(magnitude) = declared.magnitude {
+            let times = graph.constant(magnitude.value);
+            sums.as_flattened_mut().iter_mut().for_each(|sum| *sum = graph.mul(times, *sum));
         }
         for (frame, sums) in sums.into_iter().enumerate() {
             for (component, value) in Component::ALL.into_iter().zip(sums) {
@@ -48,6 +58,12 @@ pub(super) fn effects(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> Vec<E
         }
     }
     nodes
+}
+
+fn add(graph: &mut Graph, sums: &mut [Node; 6], errors: [Node; 6]) {
+    for (sum, error) in sums.iter_mut().zip(errors) {
+        *sum = graph.add(*sum, error);
+    }
 }
 
 /// ε: the sum of the repeatable sources, six errors per frame.

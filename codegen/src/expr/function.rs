@@ -24,8 +24,7 @@ pub enum Function {
 }
 
 /// The functions a spec may name, `atan2` among them.
-pub const FUNCTION_NAMES: [&str; 9] =
-    ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "abs"];
+pub const FUNCTION_NAMES: [&str; 9] = ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "abs"];
 
 impl Function {
     /// The function of that name in a spec file.

@@ -18,7 +18,7 @@ pub(super) fn read_effect(
         document.mistake(
             Diagnostic::new(section.span.clone(), format!("{} causes no error", section.name))
                 .label("no `e_…` here")
-                .help("give its `frame` and at least one of e_x, e_y, e_z, e_s, e_r, e_p, or a `beam` or `compliance`"),
+                .help("give its `frame` and at least one of e_x, e_y, e_z, e_s, e_r, e_p, or a `beam` or `compliance`; or the `error` of a `joint` or `parameter`"),
         );
         return None;
     };

@@ -1,6 +1,6 @@
 //! The ways to write an `A_i`, all of which become a product of [`Factor`]s.
 
-use super::{Factor, Matrix, VariableKind, keys, rigid};
+use super::{DhConvention, Factor, Matrix, VariableKind, keys, rigid};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
 use crate::expr::{
@@ -62,20 +62,8 @@ pub(super) fn read_factors(
             Some(factors.into_iter().map(Factor::Elementary).collect())
         }
         "matrix" => read_matrix(form, scope, document).map(|matrix| vec![Factor::Matrix(Box::new(matrix))]),
-        // Rz(theta) Tz(d) Tx(a) Rx(alpha)
-        "dh" => denavit_hartenberg(
-            form,
-            scope,
-            document,
-            [("theta", R, 2), ("d", T, 2), ("a", T, 0), ("alpha", R, 0)],
-        ),
-        // Rx(alpha) Tx(a) Rz(theta) Tz(d)
-        "mdh" => denavit_hartenberg(
-            form,
-            scope,
-            document,
-            [("alpha", R, 0), ("a", T, 0), ("theta", R, 2), ("d", T, 2)],
-        ),
+        "dh" => denavit_hartenberg(form, scope, document, DhConvention::Standard),
+        "mdh" => denavit_hartenberg(form, scope, document, DhConvention::Modified),
         _ => {
             let mut factors = origin(form, scope, document);
             let motion = about_axis(axis.as_ref(), section, own, scope, document);
@@ -85,10 +73,16 @@ pub(super) fn read_factors(
     }
 }
 
+/// Which Denavit-Hartenberg product a frame is, if it is one.
+pub(super) fn convention(section: &Section<'_>) -> Option<DhConvention> {
+    let forms = [("dh", DhConvention::Standard), ("mdh", DhConvention::Modified)];
+    forms.into_iter().find(|(key, _)| section.get(key).is_some()).map(|(_, convention)| convention)
+}
+
 const T: Motion = Motion::Translation;
 const R: Motion = Motion::Rotation;
 
-fn dimension_of(motion: Motion) -> Dimension {
+pub(super) fn motion_dimension(motion: Motion) -> Dimension {
     match motion {
         Motion::Translation => Dimension::LENGTH,
         Motion::Rotation => Dimension::NONE,
@@ -140,14 +134,16 @@ fn denavit_hartenberg(
     item: &Item<'_>,
     scope: &Scope,
     document: &mut Document,
-    order: [(&str, Motion, usize); 4],
+    convention: DhConvention,
 ) -> Option<Vec<Factor>> {
     let mut section = document.section(item)?;
     section.name = format!("`{}`", item.key);
     section.check_keys(&[&keys::DENAVIT_HARTENBERG], document);
-    let factors = order.map(|(key, motion, axis)| {
+    let factors = convention.order().map(|number| {
+        let (key, (motion, axis)) = (number.name(), number.motion());
         let what = format!("`{key}`");
-        let expected = Entry { dimension: Some(dimension_of(motion)), what: &what, names: Allowed::Geometry };
+        let expected =
+            Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
         let entry = section.required(key, document)?;
         let amount = document.expression(&entry, scope, expected)?;
         Some(Factor::Elementary(Elementary { motion, axis, amount }))
@@ -166,7 +162,8 @@ fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec
         };
         let entries: [Item<'_>; 3] = document.entries(&item, "three numbers")?;
         let what = format!("an entry of `{key}`");
-        let expected = Entry { dimension: Some(dimension_of(motion)), what: &what, names: Allowed::Geometry };
+        let expected =
+            Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
         let amounts = entries.map(|entry| document.expression(&entry, scope, expected));
         let factor = |(axis, amount): (usize, Option<Expression>)| {
             Some(Factor::Elementary(Elementary { motion, axis, amount: amount? }))

@@ -16,10 +16,13 @@ crate::tables! {
     ORIGIN: ["[frame.origin]"], ["xyz", "rpy"];
 
     SOURCE: ["[[source]]"],
-        ["name", "class", "distribution", "enabled", "description", "reference", "effect"];
+        ["name", "class", "distribution", "enabled", "magnitude", "description", "reference", "effect"];
     PLACE: ["[[source]]", "[[source.effect]]"], ["frame", "at"];
     CAUSE: ["[[source]]", "[[source.effect]]"],
         ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p", "beam", "compliance"];
+    DEVIATION: ["[[source]]", "[[source.effect]]"], ["joint", "parameter", "error", "dh"];
+    NUMBERS: ["[source.dh]"], ["theta", "d", "a", "alpha"];
+    MAGNITUDE: ["[source.magnitude]"], ["value", "standard_deviation"];
     BEAM: ["[source.beam]"], ["length", "axis", "EI_y", "EI_z", "GJ", "EA"];
     COMPLIANCE: ["[source.compliance]"], ["diagonal", "matrix"];
     LOAD: ["[[load]]"], ["name", "mass", "frame", "point", "description", "reference"];

@@ -1,10 +1,11 @@
 //! A manipulator's spec file: read, checked, and as the rest of the pipeline sees it.
 //!
 //! [`Spec`] is what a file says once nothing is wrong with it. `declarations` reads the names, `frames` the
-//! transforms, `sources`, `effects` and `loads` the physical errors; `rigid` shows that every matrix is a rigid motion.
+//! transforms, `sources`, `effects`, `deviations` and `loads` the physical errors; `rigid` shows that every matrix is a rigid motion.
 
 mod declarations;
 mod describe;
+mod deviations;
 mod effects;
 mod frames;
 mod keys;
@@ -18,5 +19,6 @@ mod types;
 pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
 pub use keys::TABLES;
 pub use types::{
-    Beam, Cause, Compliance, Effect, Factor, Frame, Input, Load, Matrix, Parameter, Source, Spec, Variable,
+    Beam, Cause, ChainNumber, Compliance, Deviation, DhConvention, DhNumber, Effect, Factor, Frame, Input,
+    Load, Magnitude, Matrix, Parameter, Source, Spec, Variable,
 };

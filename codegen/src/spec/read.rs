@@ -6,7 +6,8 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 
 use super::declarations::Declarations;
-use super::frames::{OwnVariable, read_factors};
+use super::deviations::Chain;
+use super::frames::{OwnVariable, convention, read_factors};
 use super::keys;
 use super::loads::{check_loaded, read_gravity, read_loads};
 use super::names::{check_identifier, title_of};
@@ -74,13 +75,15 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
             description: raw.section.optional_text("description", document),
             variable: raw.own.map(|own| own.0),
             factors: factors.unwrap_or_default(),
+            convention: convention(&raw.section),
         });
     }
     let tool = match root.get("tool") {
         Some(item) => read_tool(&item, &declarations, &nominal, document),
         None => Some(Vec::new()),
     };
-    let sources = read_sources(root, &frames, &declarations.scope, document);
+    let chain = Chain { frames: &frames, tool: tool.as_deref(), scope: &declarations.scope };
+    let sources = read_sources(root, chain, document);
     let loads = read_loads(root, &frames, &declarations.scope, document);
     let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
     let gravity = match &gravity_item {

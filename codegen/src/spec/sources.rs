@@ -1,24 +1,20 @@
 //! `[[source]]`: physical errors and the generalized errors they cause.
 
+use super::deviations::{Chain, read_deviations};
 use super::effects::read_effect;
 use super::keys;
 use super::names::title_of;
-use super::{Class, Distribution, Frame, Source};
+use super::{Class, Deviation, Distribution, Effect, Magnitude, Source};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
-use crate::expr::Scope;
+use crate::expr::{Allowed, Dimension, Entry};
 use crate::keys::Keys;
 
-/// What a source may say: of itself, and of its one effect.
-const KNOWN: [&Keys; 3] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE];
+/// What a source may say: of itself, and of what it does.
+const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION];
 
 /// Reads every source of a spec.
-pub(super) fn read_sources(
-    root: &Section<'_>,
-    frames: &[Frame],
-    scope: &Scope,
-    document: &mut Document,
-) -> Vec<Source> {
+pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut Document) -> Vec<Source> {
     let mut sources: Vec<Source> = Vec::new();
     let Some(items) = root.get("source").and_then(|item| document.array(&item, "tables, each a [[source]]"))
     else {
@@ -48,7 +44,7 @@ pub(super) fn read_sources(
                 );
             }
             spans.push((name.clone(), name_item.span()));
-            sources.extend(read_source(&section, name, frames, scope, document));
+            sources.extend(read_source(&section, name, chain, document));
         } else {
             section.check_keys(&KNOWN, document);
         }
@@ -59,8 +55,7 @@ pub(super) fn read_sources(
 fn read_source(
     section: &Section<'_>,
     name: String,
-    frames: &[Frame],
-    scope: &Scope,
+    chain: Chain<'_>,
     document: &mut Document,
 ) -> Option<Source> {
     section.check_keys(&KNOWN, document);
@@ -70,23 +65,90 @@ fn read_source(
         Some(item) => document.boolean(&item),
         None => Some(true),
     };
-    let mut effects = Vec::new();
+    let magnitude = match section.get("magnitude") {
+        Some(item) => Some(read_magnitude(&item, class, chain, document)?),
+        None => None,
+    };
+    let mut acts = Acts::default();
     let tables =
         section.get("effect").and_then(|item| document.array(&item, "tables, each a [[source.effect]]"));
     if tables.is_none() || section.items().any(|item| KNOWN[1..].iter().any(|keys| keys.contain(&item.key))) {
-        effects.extend(read_effect(section, frames, scope, document));
+        acts.read(section, chain, document);
     }
     for item in tables.unwrap_or_default() {
         if let Some(mut table) = document.section(&item) {
             table.span = item.span();
             table.name = format!("an effect of {}", section.name);
             table.check_keys(&KNOWN[1..], document);
-            effects.extend(read_effect(&table, frames, scope, document));
+            acts.read(&table, chain, document);
         }
     }
     let description = section.optional_text("description", document);
     let reference = section.optional_text("reference", document);
-    Some(Source { name, class: class?, enabled: enabled?, description, reference, effects })
+    let Acts { effects, deviations } = acts;
+    let (class, enabled) = (class?, enabled?);
+    Some(Source { name, class, enabled, description, reference, magnitude, effects, deviations })
+}
+
+/// What a source does, and to what.
+#[derive(Default)]
+struct Acts {
+    effects: Vec<Effect>,
+    deviations: Vec<Deviation>,
+}
+
+impl Acts {
+    /// Takes in a table that says one thing: errors of a frame, or of a number of the chain.
+    fn read(&mut self, section: &Section<'_>, chain: Chain<'_>, document: &mut Document) {
+        if section.items().any(|item| keys::DEVIATION.contain(&item.key)) {
+            self.deviations.extend(read_deviations(section, chain, document).unwrap_or_default());
+        } else {
+            self.effects.extend(read_effect(section, chain.frames, chain.scope, document));
+        }
+    }
+}
+
+/// `magnitude = { value, standard_deviation }`: pure numbers.
+fn read_magnitude(
+    item: &Item<'_>,
+    class: Option<Class>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<Magnitude> {
+    if let Some(Class::Random(_)) = class {
+        document.mistake(
+            Diagnostic::new(item.key_span.clone(), "a random error has no magnitude to be found")
+                .help("leave `magnitude` out: its distribution says how large it is"),
+        );
+        return None;
+    }
+    let mut table = document.section(item)?;
+    table.name = "`magnitude`".to_owned();
+    table.check_keys(&[&keys::MAGNITUDE], document);
+    let number = |item: &Item<'_>, document: &mut Document| {
+        let what = format!("`{}` of a magnitude", item.key);
+        let entry = Entry { dimension: Some(Dimension::NONE), what: &what, names: Allowed::Nothing };
+        document.constant(item, chain.scope, entry).map(|read| read.0)
+    };
+    let value = match table.get("value") {
+        Some(item) => number(&item, document)?,
+        None => 1.0,
+    };
+    let standard_deviation = match table.get("standard_deviation") {
+        Some(item) => {
+            let read = number(&item, document)?;
+            if read <= 0.0 {
+                document.mistake(
+                    Diagnostic::new(item.span(), "`standard_deviation` must be positive")
+                        .help("leave it out if nothing is known of the magnitude"),
+                );
+                return None;
+            }
+            Some(read)
+        }
+        None => None,
+    };
+    Some(Magnitude { value, standard_deviation })
 }
 
 fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -> Option<Class> {

@@ -102,6 +102,8 @@ pub struct Frame {
     pub variable: Option<usize>,
     /// `A_i` as a product.
     pub factors: Vec<Factor>,
+    /// Which product, if it is given by Denavit-Hartenberg numbers.
+    pub convention: Option<DhConvention>,
 }
 
 /// A factor of an `A_i`.
@@ -155,8 +157,12 @@ pub struct Source {
     pub description: String,
     /// Where its numbers come from.
     pub reference: String,
-    /// What it does to which frame, in the order of the file; at least one.
+    /// What its errors are multiplied by, if that is to be found.
+    pub magnitude: Option<Magnitude>,
+    /// What it does to which frame, in the order of the file.
     pub effects: Vec<Effect>,
+    /// Which numbers of the chain it changes, in the order of the file; at least one if there are no effects.
+    pub deviations: Vec<Deviation>,
 }
 
 /// What a source does to a frame, or to a place on the link behind it.
@@ -220,4 +226,97 @@ pub struct Load {
     pub frame: usize,
     /// Where it is, as seen from that frame.
     pub point: [Expression; 3],
+}
+
+/// A number of the nominal chain that is not what the chain says: `A_i(q + δq)` where `A_i(q)` is meant.
+#[derive(Clone, Debug)]
+pub struct Deviation {
+    /// Which number.
+    pub number: ChainNumber,
+    /// How much more it really is, in the number's own dimension.
+    pub error: Expression,
+    /// Where in the file it stands.
+    pub span: Span,
+}
+
+/// A number of the nominal chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ChainNumber {
+    /// A joint variable, wherever a transform depends on it.
+    Joint(usize),
+    /// A structural parameter, wherever a transform depends on it.
+    Parameter(usize),
+    /// One of the four numbers of a frame that is given by them.
+    DenavitHartenberg {
+        /// The frame, from 0.
+        frame: usize,
+        /// Which of the four.
+        number: DhNumber,
+    },
+}
+
+/// One of the four Denavit-Hartenberg numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DhNumber {
+    /// The turn about z.
+    Theta,
+    /// The shift along z.
+    D,
+    /// The shift along x.
+    A,
+    /// The turn about x.
+    Alpha,
+}
+
+impl DhNumber {
+    /// All four.
+    pub const ALL: [Self; 4] = [Self::Theta, Self::D, Self::A, Self::Alpha];
+
+    /// Its key in a spec.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Theta => "theta",
+            Self::D => "d",
+            Self::A => "a",
+            Self::Alpha => "alpha",
+        }
+    }
+
+    /// What it does, and along or about which axis: 0 = x, 1 = y, 2 = z.
+    pub const fn motion(self) -> (Motion, usize) {
+        match self {
+            Self::Theta => (Motion::Rotation, 2),
+            Self::D => (Motion::Translation, 2),
+            Self::A => (Motion::Translation, 0),
+            Self::Alpha => (Motion::Rotation, 0),
+        }
+    }
+}
+
+/// Which product of its four numbers a Denavit-Hartenberg frame is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DhConvention {
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
+    Standard,
+    /// Craig's: `Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
+    Modified,
+}
+
+impl DhConvention {
+    /// The numbers in the order of the frame's factors, one factor each.
+    pub const fn order(self) -> [DhNumber; 4] {
+        match self {
+            Self::Standard => [DhNumber::Theta, DhNumber::D, DhNumber::A, DhNumber::Alpha],
+            Self::Modified => [DhNumber::Alpha, DhNumber::A, DhNumber::Theta, DhNumber::D],
+        }
+    }
+}
+
+/// What a source is multiplied by: a number that measurements may tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Magnitude {
+    /// The number as far as it is known.
+    pub value: f64,
+    /// How well: its standard deviation; none if nothing is known.
+    pub standard_deviation: Option<f64>,
 }

@@ -58,7 +58,9 @@ impl Term {
             enabled: true,
             description: String::new(),
             reference: String::new(),
+            magnitude: None,
             effects: vec![Effect { frame: self.frame, at: Vec::new(), cause, span: 0..0 }],
+            deviations: Vec::new(),
         }
     }
 

@@ -1,0 +1,187 @@
+//! What a number of the chain that is off does, as errors of the frames whose transforms depend on it.
+//!
+//! With `A_i E_i = A_i(x + δx)` the errors of frame i are, to first order,
+//!
+//! ```text
+//! ε_i = vee(A_i⁻¹ ∂A_i/∂x) δx          and of the tool, after E_n:   ε_n = vee(∂T/∂x T⁻¹) δx
+//! ```
+
+use super::local::Local;
+use super::symbol_jacobian::{twist, with_symbols};
+use super::walk::walk;
+use crate::expr::{Elementary, Function, Motion, Symbol};
+use crate::graph::{Graph, Node, Op, Vector};
+use crate::spec::{ChainNumber, Factor, Spec};
+
+/// Velocity and rotation per unit of the number, in the axes of a frame.
+pub(crate) struct FrameTwist {
+    /// The frame, from 0.
+    pub frame: usize,
+    /// Velocity of its origin.
+    pub velocity: Vector,
+    /// Rotation about its axes.
+    pub rotation: Vector,
+}
+
+/// What a number of the chain does to every frame that depends on it; the tool's part is one of the last frame.
+pub(crate) fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<FrameTwist> {
+    let symbol = match number {
+        ChainNumber::Joint(variable) => Symbol::Variable(variable),
+        ChainNumber::Parameter(parameter) => Symbol::Parameter(parameter),
+        ChainNumber::DenavitHartenberg { frame, number } => {
+            let order = spec.frames[frame].convention.map(|convention| convention.order());
+            let chosen = order.and_then(|order| order.iter().position(|&of_frame| of_frame == number));
+            let mut body = Body::at_rest(graph);
+            for (place, factor) in spec.frames[frame].factors.iter().enumerate() {
+                body.go_through(graph, factor);
+                if Some(place) == chosen {
+                    let (motion, axis) = number.motion();
+                    let one = graph.constant(1.0);
+                    body.add_elementary(graph, motion, axis, one);
+                }
+            }
+            return vec![FrameTwist { frame, velocity: body.velocity, rotation: body.rotation }];
+        }
+    };
+    let mut twists = Vec::new();
+    for (frame, declared) in spec.frames.iter().enumerate() {
+        let mut body = Body::at_rest(graph);
+        for factor in &declared.factors {
+            body.go_through(graph, factor);
+            body.add_factor(graph, factor, symbol);
+        }
+        twists.push(FrameTwist { frame, velocity: body.velocity, rotation: body.rotation });
+    }
+    let mut steps = Vec::new();
+    let start = graph.identity();
+    walk(graph, start, &spec.tool, &mut steps);
+    let steps = with_symbols(graph, steps);
+    let origin = [graph.zero(); 3];
+    let [velocity, rotation] = twist(graph, &steps, symbol, origin);
+    if let Some(last) = twists.last_mut() {
+        last.velocity = graph.add_vectors(last.velocity, velocity);
+        last.rotation = graph.add_vectors(last.rotation, rotation);
+    }
+    let at_rest = [graph.zero(); 3];
+    twists.retain(|twist| [twist.velocity, twist.rotation] != [at_rest; 2]);
+    twists
+}
+
+/// The motion of a frame that goes through a product of factors, in the axes behind those it has gone through:
+///
+/// ```text
+/// through (R, t):     v ← Rᵀ (v + ω × t)     ω ← Rᵀ ω
+/// the factor's own:   v ← v + Rᵀ ∂t/∂x       ω ← ω + vee(Rᵀ ∂R/∂x)
+/// ```
+struct Body {
+    velocity: Vector,
+    rotation: Vector,
+}
+
+impl Body {
+    fn at_rest(graph: &mut Graph) -> Self {
+        let zero = [graph.zero(); 3];
+        Self { velocity: zero, rotation: zero }
+    }
+
+    fn go_through(&mut self, graph: &mut Graph, factor: &Factor) {
+        for motion in Local::motions(graph, std::slice::from_ref(factor)) {
+            self.go_through_motion(graph, &motion);
+        }
+    }
+
+    fn go_through_motion(&mut self, graph: &mut Graph, motion: &Local) {
+        if let Local::Shift(shift) = motion {
+            let swing = graph.cross(self.rotation, *shift);
+            self.velocity = graph.add_vectors(self.velocity, swing);
+        }
+        self.velocity = motion.direction_behind(graph, self.velocity);
+        self.rotation = motion.direction_behind(graph, self.rotation);
+    }
+
+    /// What a symbol does to a factor that has been gone through.
+    fn add_factor(&mut self, graph: &mut Graph, factor: &Factor, symbol: Symbol) {
+        match factor {
+            Factor::Elementary(Elementary { motion, axis, amount }) => {
+                let amount = graph.lower(amount);
+                let slope = graph.diff(amount, symbol);
+                self.add_elementary(graph, *motion, *axis, slope);
+            }
+            Factor::About { motion, axis, amount } => {
+                let amount = graph.lower(amount);
+                let slope = graph.diff(amount, symbol);
+                let axis = axis.map(|component| graph.constant(component));
+                let part = graph.scale(slope, axis);
+                self.add(graph, *motion, part);
+            }
+            Factor::Matrix(_) => {
+                // The parts of a matrix move one after the other as well.
+                let mut body = Self::at_rest(graph);
+                for motion in Local::motions(graph, std::slice::from_ref(factor)) {
+                    body.go_through_motion(graph, &motion);
+                    body.add_motion(graph, &motion, symbol);
+                }
+                self.add(graph, Motion::Translation, body.velocity);
+                self.add(graph, Motion::Rotation, body.rotation);
+            }
+        }
+    }
+
+    fn add_motion(&mut self, graph: &mut Graph, motion: &Local, symbol: Symbol) {
+        match motion {
+            Local::Shift(shift) => {
+                let slopes = shift.map(|component| graph.diff(component, symbol));
+                self.add(graph, Motion::Translation, slopes);
+            }
+            Local::Turn { axis, sine, cosine } => {
+                let slope = turning(graph, *sine, *cosine, symbol);
+                self.add_elementary(graph, Motion::Rotation, *axis, slope);
+            }
+            Local::Rotation(axes) => {
+                let slopes = axes.map(|axis| axis.map(|component| graph.diff(component, symbol)));
+                // Entry (k, j) of Rᵀ ∂R/∂x.
+                let rotation = [0, 1, 2].map(|i: usize| graph.dot(axes[(i + 2) % 3], slopes[(i + 1) % 3]));
+                self.add(graph, Motion::Rotation, rotation);
+            }
+        }
+    }
+
+    fn add_elementary(&mut self, graph: &mut Graph, motion: Motion, axis: usize, slope: Node) {
+        let mut part = [graph.zero(); 3];
+        part[axis] = slope;
+        self.add(graph, motion, part);
+    }
+
+    fn add(&mut self, graph: &mut Graph, motion: Motion, part: Vector) {
+        let sum = match motion {
+            Motion::Translation => &mut self.velocity,
+            Motion::Rotation => &mut self.rotation,
+        };
+        *sum = graph.add_vectors(*sum, part);
+    }
+}
+
+/// `∂θ/∂x` from the sine and cosine of θ: `cos θ ∂sin θ/∂x − sin θ ∂cos θ/∂x`, and simply `±∂a/∂x` where these are ± the
+/// sine and cosine of a, or the other way round.
+fn turning(graph: &mut Graph, sine: Node, cosine: Node, symbol: Symbol) -> Node {
+    let plain = |graph: &Graph, node: Node| match graph.op(node) {
+        Op::Call(function, angle) => Some((function, angle)),
+        _ => None,
+    };
+    let signed = |graph: &Graph, node: Node| match graph.op(node) {
+        Op::Neg(inner) => plain(graph, inner).map(|(function, angle)| (function, angle, true)),
+        _ => plain(graph, node).map(|(function, angle)| (function, angle, false)),
+    };
+    if let (Some((first, a, first_negative)), Some((second, b, second_negative))) =
+        (signed(graph, sine), signed(graph, cosine))
+        && a == b
+        && matches!((first, second), (Function::Sin, Function::Cos) | (Function::Cos, Function::Sin))
+    {
+        let slope = graph.diff(a, symbol);
+        let backwards = (first == Function::Cos) ^ first_negative ^ second_negative;
+        return if backwards { graph.neg(slope) } else { slope };
+    }
+    let slopes = graph.diff_all(&[sine, cosine], symbol);
+    let (left, right) = (graph.mul(cosine, slopes[0]), graph.mul(sine, slopes[1]));
+    graph.sub(left, right)
+}
