@@ -43,7 +43,7 @@ impl Axis {
         Self { name: name.to_owned(), unit: spec.length.symbol().to_owned(), factor: 1.0 }
     }
 
-    /// Of a variable or a parameter; angles in degrees.
+    /// Of a variable, a parameter or an input; angles of joints in degrees.
     pub(super) fn over(over: Over, spec: &Spec) -> Self {
         let (name, unit, factor) = match over {
             Over::Variable(i) => match spec.variables[i].kind {
@@ -51,6 +51,7 @@ impl Axis {
                 VariableKind::Prismatic => (&spec.variables[i].name, spec.length.symbol(), 1.0),
             },
             Over::Parameter(i) => (&spec.parameters[i].name, spec.parameters[i].unit.as_str(), 1.0),
+            Over::Input(i) => (&spec.inputs[i].name, spec.inputs[i].unit.as_str(), 1.0),
         };
         Self { name: name.to_owned(), unit: unit.to_owned(), factor }
     }

@@ -77,6 +77,14 @@ impl Changes {
         self.switches.extend(found.map(|source| (source, on)));
     }
 
+    /// The inputs that are set.
+    pub fn inputs(&self) -> impl Iterator<Item = usize> {
+        self.values.iter().filter_map(|(symbol, _)| match symbol {
+            Symbol::Input(i) => Some(*i),
+            _ => None,
+        })
+    }
+
     /// Makes the changes: what is set becomes nominal.
     pub fn apply(&self, spec: &mut Spec) {
         for &(symbol, value) in &self.values {

@@ -25,6 +25,8 @@ pub struct Machine {
     pub shipped: Option<&'static Shipped>,
     /// Whether the spec is no longer that of the generated code.
     changed: bool,
+    /// The inputs that were set: they stay where they are.
+    fixed_inputs: Vec<usize>,
 }
 
 impl Machine {
@@ -55,13 +57,25 @@ impl Machine {
     }
 
     fn new(spec: Spec, origin: &str, shipped: Option<&'static Shipped>) -> Self {
-        Self { spec: Arc::new(spec), origin: origin.to_owned(), shipped, changed: false }
+        Self {
+            spec: Arc::new(spec),
+            origin: origin.to_owned(),
+            shipped,
+            changed: false,
+            fixed_inputs: Vec::new(),
+        }
     }
 
     /// Makes changes: what is set becomes nominal. Generated code, which knows nothing of them, is not run any more.
     pub fn change(&mut self, changes: &Changes) {
         changes.apply(Arc::make_mut(&mut self.spec));
         self.changed |= !changes.is_empty();
+        self.fixed_inputs.extend(changes.inputs());
+    }
+
+    /// The inputs that changes have set: no workspace moves them.
+    pub fn fixed_inputs(&self) -> &[usize] {
+        &self.fixed_inputs
     }
 
     /// The functions of the manipulator: its generated code if it is shipped, not changed, and `compiled` may be used; else

@@ -76,7 +76,11 @@ pub fn configuration(configuration: &Configuration, home: &Configuration, spec: 
     let parameters = parameters.filter(|(_, (value, home))| value != home);
     let parameters = parameters
         .map(|(parameter, (value, _))| format!("{} = {}", parameter.name, quantity(*value, &parameter.unit)));
-    let all = variables.chain(parameters).collect::<Vec<_>>();
+    let inputs = spec.inputs.iter().zip(configuration.u.iter().zip(&home.u));
+    let inputs = inputs.filter(|(_, (value, home))| value != home);
+    let inputs =
+        inputs.map(|(input, (value, _))| format!("{} = {}", input.name, quantity(*value, &input.unit)));
+    let all = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
     if all.is_empty() { "home".to_owned() } else { all.join(", ") }
 }
 

@@ -4,7 +4,6 @@
 
 use std::time::Duration;
 
-use abbe::analysis::sampling::nominal_inputs;
 use abbe::analysis::{error_budget, random_joint_samples};
 use abbe_manipulators::SHIPPED;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -20,12 +19,10 @@ fn threads(criterion: &mut Criterion) {
         let description = shipped.compiled.description();
         let moved: Vec<usize> = (0..description.variables.len()).collect();
         let workspace = random_joint_samples(shipped.compiled, &moved, COUNT, 1).expect("its own variables");
-        let u = nominal_inputs(description);
         for threads in [1, 2] {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             group.bench_function(format!("{}/threads: {threads}", shipped.name), |bencher| {
-                bencher
-                    .iter(|| pool.install(|| error_budget(shipped.compiled, &workspace, &u, None, &mut ())));
+                bencher.iter(|| pool.install(|| error_budget(shipped.compiled, &workspace, None, &mut ())));
             });
         }
     }

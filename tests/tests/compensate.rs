@@ -40,8 +40,9 @@ fn the_treatment_volume_is_compensated_within_limits() {
     let (mut before, mut after, mut turned) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut held, mut turned_at_limit) = (0, 0.0_f64);
     for index in 0..volume.len() {
-        let (mut q, mut s) = ([0.0; pps::VARIABLES], pps::Parameters::NOMINAL.to_array());
-        volume.fill(index, &mut q, &mut s).unwrap();
+        let place = volume.configuration(index).unwrap();
+        let q: [f64; pps::VARIABLES] = place.q.try_into().unwrap();
+        let s = place.s;
         let tool = |name| s[pps::DESCRIPTION.parameters.iter().position(|p| p.name == name).unwrap()];
         let s = pps::Parameters { x: tool("x"), y: tool("y"), z: tool("z"), ..pps::Parameters::NOMINAL };
         let command = pps::compensated(&q, &s, &u).unwrap();

@@ -103,7 +103,7 @@ fn the_printed_signs_cannot_give_the_printed_figure() {
         },
     )
     .unwrap();
-    let budget = error_budget(&robot, &workspace, &[], None, &mut ()).unwrap();
+    let budget = error_budget(&robot, &workspace, None, &mut ()).unwrap();
     assert_eq!((budget.configurations, budget.unreachable.count), (999, 0));
     let z = budget.sources[0].half_peak_to_peak.z;
     println!("Z with the printed signs: {z:.4} mm half peak-to-peak");

@@ -28,7 +28,7 @@ fn arm(sources: &str) -> Spec {
 fn draws(spec: &Spec, count: usize) -> MonteCarlo {
     let robot = Interpreter::new(spec.clone());
     let configuration = Configuration::home(robot.description());
-    monte_carlo(&robot, &configuration, &[], count, 11).unwrap()
+    monte_carlo(&robot, &configuration, count, 11).unwrap()
 }
 
 /// Every entry of the covariance within three standard errors of first order, `slack` aside.
@@ -133,7 +133,7 @@ fn zero_and_one_sided_sources_have_clear_results() {
     "#);
     let robot = Interpreter::new(spec.clone());
     let workspace = joint_samples(&robot, &[0, 1], 500).unwrap();
-    let budget = error_budget(&robot, &workspace, &[], None, &mut ()).unwrap();
+    let budget = error_budget(&robot, &workspace, None, &mut ()).unwrap();
     let [nothing, one_sided] = &budget.sources[..] else { panic!("two sources") };
     assert_eq!((nothing.plain_max.norm, nothing.rms), (0.0, 0.0));
     // It never goes below nothing, so half of what it varies by is half of the largest.

@@ -118,7 +118,7 @@ fn effects_of_one_source_go_together() {
         ],
     )
     .unwrap();
-    let budget = abbe::analysis::error_budget(&robot, &workspace, &[0.0, 1.0, 0.0], None, &mut ()).unwrap();
+    let budget = abbe::analysis::error_budget(&robot, &workspace, None, &mut ()).unwrap();
     // 3σ of 5 µm − 2 µm, not of √(5² + 2²).
     assert!((budget.combined.random_radius.value - 3.0 * 0.003).abs() < 1e-15);
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use abbe::analysis::{Configuration, Row};
 use abbe_codegen::spec::{Spec, VariableKind};
-use abbe_study::analyze::{Report, figures_of, reason};
+use abbe_study::analyze::{Analyze, Report, figures_of, reason};
 use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};
 use csv::Writer;
@@ -19,14 +19,26 @@ pub(super) struct Files {
     configurations: Writer<Pending>,
     sources: Writer<Pending>,
     unreachable: Writer<Pending>,
-    varying: Vec<usize>,
+    moved: Moved,
     /// The first thing that went wrong during the sweep.
     failure: Option<csv::Error>,
 }
 
+/// Which parameters and inputs a workspace moves.
+pub(super) struct Moved {
+    parameters: Vec<usize>,
+    inputs: Vec<usize>,
+}
+
+impl Moved {
+    pub(super) fn new(job: &Analyze) -> Self {
+        Self { parameters: job.varying(), inputs: job.moving_inputs() }
+    }
+}
+
 impl Files {
     /// Begins the files; makes the folder if there is none.
-    pub(super) fn create(folder: &Path, spec: &Spec, varying: Vec<usize>) -> Result<Self, Failure> {
+    pub(super) fn create(folder: &Path, spec: &Spec, moved: Moved) -> Result<Self, Failure> {
         if folder.exists() && !folder.is_dir() {
             let message = "this is a file, not a folder";
             return Err(Failure::of(folder.display(), message).help("--out takes a folder"));
@@ -37,12 +49,12 @@ impl Files {
             configurations: begin("configurations.csv")?,
             sources: begin("sources.csv")?,
             unreachable: begin("unreachable.csv")?,
-            varying,
+            moved,
             failure: None,
         };
         let unit = spec.length.symbol();
         let mut heading = vec!["configuration".to_owned()];
-        heading.extend(names(spec, &files.varying));
+        heading.extend(names(spec, &files.moved));
         let sources = spec.enabled_sources().map(|source| source.name.as_str());
         for what in ["ideal"].into_iter().chain(sources).chain(["repeatable", "random"]) {
             heading.extend(["x", "y", "z"].map(|axis| format!("{what} {axis} ({unit})")));
@@ -53,7 +65,7 @@ impl Files {
 
     /// Writes what the sweep sees.
     pub(super) fn configuration(&mut self, row: &Row) {
-        let values = values(row.configuration, &self.varying);
+        let values = values(row.configuration, &self.moved);
         let pose = row.pose.position();
         let sources = row.sources.iter().flat_map(|source| &source[..3]);
         let together = row.repeatable[..3].iter().chain(&row.random[..3]);
@@ -114,8 +126,9 @@ fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Resul
 
 fn write_unreachable(writer: &mut Writer<impl Write>, report: &Report) -> csv::Result<()> {
     let Report { spec, budget, .. } = report;
-    // Here every parameter may matter: nothing is known of what varies among those that were reached.
-    let all = (0..spec.parameters.len()).collect::<Vec<_>>();
+    // Here everything may matter: nothing is known of what varies among those that were reached.
+    let all =
+        Moved { parameters: (0..spec.parameters.len()).collect(), inputs: (0..spec.inputs.len()).collect() };
     let unit = spec.length.symbol();
     let point = ["x", "y", "z"].map(|axis| format!("point {axis} ({unit})"));
     let heading = ["configuration".to_owned()].into_iter().chain(names(spec, &all)).chain(point);
@@ -131,26 +144,28 @@ fn write_unreachable(writer: &mut Writer<impl Write>, report: &Report) -> csv::R
 }
 
 /// The headings of a configuration.
-fn names<'a>(spec: &'a Spec, parameters: &'a [usize]) -> impl Iterator<Item = String> + 'a {
+fn names<'a>(spec: &'a Spec, moved: &'a Moved) -> impl Iterator<Item = String> + 'a {
     let length = spec.length.symbol();
     let variables = spec.variables.iter().map(move |variable| match variable.kind {
         VariableKind::Revolute => format!("{} (rad)", variable.name),
         VariableKind::Prismatic => format!("{} ({length})", variable.name),
     });
-    let parameters = parameters.iter().map(|&i| match &spec.parameters[i] {
-        parameter if parameter.unit.is_empty() => parameter.name.to_owned(),
-        parameter => format!("{} ({})", parameter.name, parameter.unit),
-    });
-    variables.chain(parameters)
+    let heading = |name: &str, unit: &str| match unit {
+        "" => name.to_owned(),
+        unit => format!("{name} ({unit})"),
+    };
+    let parameters = moved.parameters.iter().map(|&i| &spec.parameters[i]);
+    let parameters = parameters.map(move |parameter| heading(&parameter.name, &parameter.unit));
+    let inputs = moved.inputs.iter().map(|&i| &spec.inputs[i]);
+    let inputs = inputs.map(move |input| heading(&input.name, &input.unit));
+    variables.chain(parameters).chain(inputs)
 }
 
 /// The values of a configuration.
-fn values<'a>(
-    configuration: &'a Configuration,
-    parameters: &'a [usize],
-) -> impl Iterator<Item = String> + 'a {
-    let parameters = parameters.iter().map(|&i| &configuration.s[i]);
-    configuration.q.iter().chain(parameters).map(number)
+fn values<'a>(configuration: &'a Configuration, moved: &'a Moved) -> impl Iterator<Item = String> + 'a {
+    let parameters = moved.parameters.iter().map(|&i| &configuration.s[i]);
+    let inputs = moved.inputs.iter().map(|&i| &configuration.u[i]);
+    configuration.q.iter().chain(parameters).chain(inputs).map(number)
 }
 
 /// All digits; −0 is a plain 0.

@@ -17,7 +17,7 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{self, Outcome, Pending, note};
 
-use files::Files;
+use files::{Files, Moved};
 
 pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     let mut console = Console::default();
@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     let report = match &arguments.out {
         None => job.run(&mut console)?,
         Some(folder) => {
-            let mut files = Files::create(folder, &job.machine().spec, job.varying())?;
+            let mut files = Files::create(folder, &job.machine().spec, Moved::new(&job))?;
             let mut show = |row: &Row| files.configuration(row);
             let report = job.run_showing(Some(&mut show), &mut console)?;
             let pictures = abbe_report::analysis(&report)?;

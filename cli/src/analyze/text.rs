@@ -47,10 +47,7 @@ fn heading(report: &Report) -> String {
     }
     let home = number::variables(&report.home.q, spec);
     text += &format!("Home            {}\n", wrapped(&unbroken(&home), 16));
-    let inputs = spec.inputs.iter();
-    let inputs =
-        inputs.map(|input| format!("{} = {}", input.name, number::quantity(input.value, &input.unit)));
-    let inputs = inputs.collect::<Vec<_>>().join(", ");
+    let inputs = report.inputs().join(", ");
     if !inputs.is_empty() {
         text += &format!("Inputs          {}\n", wrapped(&unbroken(&inputs), 16));
     }

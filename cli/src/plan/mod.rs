@@ -5,7 +5,7 @@ use std::path::Path;
 use abbe_codegen::spec::Spec;
 use abbe_study::data::Map;
 use abbe_study::number::{digits, short};
-use abbe_study::plan::{Choice, Plan, Report, Sets};
+use abbe_study::plan::{Choice, Input, Plan, Report, Sets};
 use abbe_study::{Machine, Study};
 
 use crate::arguments;
@@ -44,6 +44,10 @@ fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
     text += &format!("{} rows", report.rows);
     let sets: Vec<String> = report.sets.iter().map(|set| format!("{} {}", set.rows, set.name)).collect();
     text += &if sets.is_empty() { ".\n".to_owned() } else { format!(": {}.\n", sets.join(", ")) };
+    let inputs: Vec<String> = report.inputs.iter().map(Input::sentence).collect();
+    if !inputs.is_empty() {
+        text += &format!("{}\n", wrapped(&format!("Inputs: {}.", inputs.join(", ")), 0));
+    }
     let sentence = format!(
         "They determine {} combinations of {} unknowns ({}), with a condition number of {}.",
         report.rank,

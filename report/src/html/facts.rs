@@ -55,13 +55,13 @@ pub(super) fn values(report: &Report) -> String {
         )
     });
     let parameters = spec.parameters.iter().map(|p| (p.name.as_str(), quantity(p.value, &p.unit)));
-    let inputs = spec.inputs.iter().map(|input| (input.name.as_str(), quantity(input.value, &input.unit)));
     let list = |values: Vec<(&str, String)>| {
         let values = values.into_iter().map(|(name, value)| format!("{name} = {value}"));
         values.collect::<Vec<_>>().join(", ")
     };
     let mut rows = frames.collect::<String>();
-    for (name, values) in [("Parameters", list(parameters.collect())), ("Inputs", list(inputs.collect()))] {
+    for (name, values) in [("Parameters", list(parameters.collect())), ("Inputs", report.inputs().join(", "))]
+    {
         if !values.is_empty() {
             rows += &format!("<tr><th>{name}</th><td>{}</td></tr>\n", escaped(&values));
         }

@@ -67,7 +67,7 @@ pub fn identifiable(
     for (b, block) in configurations.chunks(super::BLOCK).enumerate() {
         let above = triangle.nrows();
         let mut stack = triangle.resize_vertically(above + rows * block.len(), 0.0);
-        for (i, Configuration { q, s }) in block.iter().enumerate() {
+        for (i, Configuration { q, s, .. }) in block.iter().enumerate() {
             let index = Some(b * super::BLOCK + i);
             let pose = manipulator.error_jacobian(q, s, &mut columns).map_err(|error| at(index, error))?;
             let own = columns.iter().map(|column| twist(description.orientation, &pose, column));

@@ -16,11 +16,11 @@
 //! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
 //! use abbe::analysis::{Admissible, error_budget, random_joint_samples};
-//! use pps::{DESCRIPTION, Inputs, Pps};
+//! use pps::{DESCRIPTION, Pps};
 //!
 //! let moved = [0, 1, 2, 3]; // the three slides and the spin; the other joints stay at home
 //! let workspace = random_joint_samples(&Pps, &moved, 10_000, 1)?;
-//! let budget = error_budget(&Pps, &workspace, &Inputs::NOMINAL.to_array(), None, &mut ())?;
+//! let budget = error_budget(&Pps, &workspace, None, &mut ())?;
 //! for errors in &budget.sources {
 //!     println!("{}: {:.4} mm", DESCRIPTION.sources[errors.source].name, errors.plain_max.norm);
 //! }
@@ -55,6 +55,6 @@ pub use reach::{ReachError, Target, compensated, inverse};
 pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, sweep};
 pub use workspace::{
     Axis, BaseBox, Configuration, JointGrid, JointSamples, Listed, Presentation, PresentedVolume, ReachedBox,
-    Subset, ToolOrientation, Unreachable, UnreachableSummary, Workspace, base_box, joint_grid, joint_samples,
-    listed, presented_volume, random_joint_samples,
+    Subset, ToolOrientation, Unreachable, UnreachableSummary, WithInputs, Workspace, base_box, joint_grid,
+    joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
 };

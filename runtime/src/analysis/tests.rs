@@ -36,7 +36,7 @@ fn workspace_is_the_inverse_in_closed_form() {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
     let configurations = workspace.reached();
     assert_eq!((configurations.len(), workspace.len()), (999, 999));
-    for Configuration { q, s } in &configurations {
+    for Configuration { q, s, .. } in &configurations {
         let (sin, cos) = q[3].sin_cos();
         assert!((q[0] - (1128.0 - (s[0] * cos + s[2] * sin))).abs() < 1e-9);
         assert!((q[1] - (380.0 - s[1])).abs() < 1e-9);
@@ -48,7 +48,7 @@ fn workspace_is_the_inverse_in_closed_form() {
 fn budget_is_the_papers() {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
     let (mut rows, mut largest) = (0, 0.0);
-    let budget = error_budget(&OneByOne(Pps), &workspace, &[], None, &mut |row: &Row| {
+    let budget = error_budget(&OneByOne(Pps), &workspace, None, &mut |row: &Row| {
         assert_eq!(row.index, rows);
         rows += 1;
         largest = f64::max(largest, sampling::norm(position(&row.repeatable)));
@@ -112,7 +112,7 @@ fn identifiable_errors_of_a_6r_arm_are_counted() {
 #[test]
 fn a_6r_arm_reaches_what_it_can() {
     let description = Puma.description();
-    let Configuration { q: start, s } = Configuration::home(description);
+    let Configuration { q: start, s, .. } = Configuration::home(description);
     let all = [0, 1, 2, 3, 4, 5];
     for index in 0..40 {
         let q = sampling::joint_sample(description, 2.0, &all, index);
@@ -139,15 +139,15 @@ fn a_6r_arm_reaches_what_it_can() {
 #[test]
 fn empty_workspace_has_no_errors() {
     let workspace = joint_samples(&Pps, &[], 0).unwrap();
-    let budget = error_budget(&OneByOne(Pps), &workspace, &[], None, &mut ()).unwrap();
+    let budget = error_budget(&OneByOne(Pps), &workspace, None, &mut ()).unwrap();
     assert_eq!((budget.combined, budget.configurations), (Combined::default(), 0));
     assert!(budget.sources.iter().all(|source| source.half_peak_to_peak == Figures::default()));
     assert_eq!(identifiable(&Pps, &[], Measurement::Pose, true).unwrap().rank, 0);
 
-    let refused = listed(&Pps, vec![Configuration { q: vec![0.0; 5], s: vec![0.0; 3] }]);
+    let refused = listed(&Pps, vec![Configuration { q: vec![0.0; 5], s: vec![0.0; 3], u: Vec::new() }]);
     assert!(matches!(refused, Err(crate::Error::Count { expected: 6, found: 5, .. })));
     // Another manipulator's workspace.
-    let refused = error_budget(&OneByOne(Puma), &workspace, &[], None, &mut ()).unwrap_err();
+    let refused = error_budget(&OneByOne(Puma), &workspace, None, &mut ()).unwrap_err();
     assert_eq!(refused.configuration, None);
 }
 
@@ -157,7 +157,7 @@ fn home() -> Configuration {
 
 #[test]
 fn pose_and_point_targets_are_reached() {
-    let Configuration { q: start, s } = home();
+    let Configuration { q: start, s, .. } = home();
     let q = [700.0, 200.0, 900.0, -0.7, 0.03, -0.02];
     let pose = Pps.pose(&q, &s).unwrap();
     let found = inverse(&Pps, &s, &start, &[0, 1, 2, 3, 4, 5], &Target::Pose(pose)).unwrap();
@@ -173,7 +173,7 @@ fn pose_and_point_targets_are_reached() {
 
 #[test]
 fn a_variable_that_stops_is_named() {
-    let Configuration { q, s } = home();
+    let Configuration { q, s, .. } = home();
     // d1 = 2300 would do.
     let target = Target::Point([2300.0, 1626.0, 1846.0]);
     let Err(ReachError::OutsideLimits { variable: 0, value, limits }) =
@@ -193,7 +193,7 @@ fn a_variable_that_stops_is_named() {
 
 #[test]
 fn what_no_variable_reaches_is_out_of_reach() {
-    let Configuration { q, s } = home();
+    let Configuration { q, s, .. } = home();
     // The lateral axis alone cannot leave its line.
     let point = Pps.pose(&q, &s).unwrap().position();
     let target = Target::Point([point[0] + 10.0, point[1] + 3.0, point[2] + 4.0]);
@@ -215,7 +215,7 @@ fn what_no_variable_reaches_is_out_of_reach() {
 
 #[test]
 fn bad_arguments_are_refused() {
-    let Configuration { q, s } = home();
+    let Configuration { q, s, .. } = home();
     let target = Target::Point([f64::NAN, 0.0, 0.0]);
     assert!(matches!(inverse(&Pps, &s, &q, &[0], &target), Err(ReachError::Evaluation(_))));
     let target = Target::Point([0.0; 3]);

@@ -1,6 +1,6 @@
 //! What `ΔX ≈ J_e ε` neglects: first order against the exact chain.
 
-use abbe::analysis::{Row, Subset, Sweepable, Unevaluated, Workspace, sweep};
+use abbe::analysis::{Configuration, Row, Subset, Sweepable, Unevaluated, Workspace, sweep};
 use abbe::{Class, Error, Pose, deviation, real_pose};
 
 /// The most configurations at which the exact chain is run.
@@ -19,15 +19,11 @@ pub struct FirstOrder {
 }
 
 impl FirstOrder {
-    /// Compares over a workspace with inputs `u`. Where the exact chain cannot be had there is nothing to compare.
-    pub(super) fn over(
-        manipulator: &dyn Sweepable,
-        workspace: &dyn Workspace,
-        u: &[f64],
-    ) -> Result<Self, Unevaluated> {
-        let mut comparison = Comparison::new(manipulator, u);
+    /// Compares over a workspace. Where the exact chain cannot be had there is nothing to compare.
+    pub(super) fn over(manipulator: &dyn Sweepable, workspace: &dyn Workspace) -> Result<Self, Unevaluated> {
+        let mut comparison = Comparison::new(manipulator);
         let mut compared = Self { checked: 0, largest: 0.0 };
-        sweep(manipulator, &Subset { workspace, count: CHECKED }, u, &mut |row| {
+        sweep(manipulator, &Subset { workspace, count: CHECKED }, &mut |row| {
             if let Ok(difference) = comparison.difference(row) {
                 compared.checked += 1;
                 compared.largest = compared.largest.max(difference);
@@ -40,7 +36,6 @@ impl FirstOrder {
 /// The exact chain, evaluated one configuration after the other.
 struct Comparison<'a> {
     manipulator: &'a dyn Sweepable,
-    u: &'a [f64],
     /// What the value of every effect is multiplied with.
     factors: Vec<f64>,
     transforms: Vec<Pose>,
@@ -49,7 +44,7 @@ struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    fn new(manipulator: &'a dyn Sweepable, u: &'a [f64]) -> Self {
+    fn new(manipulator: &'a dyn Sweepable) -> Self {
         let description = manipulator.description();
         let frames = description.frames.len();
         let repeatable = description.sources.iter().any(|source| source.class == Class::Repeatable);
@@ -61,7 +56,6 @@ impl<'a> Comparison<'a> {
             });
         Self {
             manipulator,
-            u,
             factors: factors.collect(),
             transforms: vec![Pose::IDENTITY; frames + 1],
             effects: vec![0.0; description.effects.len()],
@@ -70,10 +64,10 @@ impl<'a> Comparison<'a> {
     }
 
     fn difference(&mut self, row: &Row) -> Result<f64, Error> {
-        let (q, s) = (&row.configuration.q, &row.configuration.s);
+        let Configuration { q, s, u } = row.configuration;
         let description = self.manipulator.description();
         self.manipulator.transforms(q, s, &mut self.transforms)?;
-        self.manipulator.effects(q, s, self.u, &mut self.effects)?;
+        self.manipulator.effects(q, s, u, &mut self.effects)?;
         self.errors.fill([0.0; 6]);
         for ((effect, value), factor) in description.effects.iter().zip(&self.effects).zip(&self.factors) {
             self.errors[effect.frame][effect.component.index()] += value * factor;

@@ -1,9 +1,7 @@
 //! The question, and how it is answered.
 
 use abbe::Description;
-use abbe::analysis::{
-    Admissible, Budget, Row, Unevaluated, Watch, Workspace, error_budget, monte_carlo, sampling,
-};
+use abbe::analysis::{Admissible, Budget, Row, Unevaluated, Watch, Workspace, error_budget, monte_carlo};
 use abbe_codegen::diagnostic::Diagnostics;
 
 use super::figures::Gathering;
@@ -33,8 +31,9 @@ pub struct Analyze {
 
 impl Analyze {
     /// Asks that study of a manipulator, with the changes that the study makes to it.
-    pub fn new(mut machine: Machine, study: Study) -> Self {
+    pub fn new(mut machine: Machine, mut study: Study) -> Self {
         machine.change(&study.changes);
+        study.fix(machine.fixed_inputs());
         Self { machine, study, monte_carlo: None, seed: None, interpret: false, figures: false }
     }
 
@@ -44,6 +43,7 @@ impl Analyze {
             notes.note("published figures are left out: --set, --enable and --disable make another machine");
         }
         self.machine.change(changes);
+        self.study.fix(self.machine.fixed_inputs());
     }
 
     /// The manipulator, with all changes.
@@ -54,6 +54,11 @@ impl Analyze {
     /// Indices of the parameters that the workspace moves.
     pub fn varying(&self) -> Vec<usize> {
         self.study.region.varying(&self.machine.spec)
+    }
+
+    /// Indices of the inputs that the workspace moves.
+    pub fn moving_inputs(&self) -> Vec<usize> {
+        self.study.region.moving_inputs()
     }
 
     /// Sweeps the workspace.
@@ -72,11 +77,10 @@ impl Analyze {
         let description = manipulator.description();
         let workspace = study.region.workspace(manipulator, self.seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, error))?;
-        let u = sampling::nominal_inputs(description);
         let gathering = self.figures.then(|| Gathering::new(study, description));
         let mut watching = Watching { rows, gathering, notes, total: workspace.len() };
         let residuals = study.compensation.as_ref().map(|left| left.of(description));
-        let budget = error_budget(manipulator, workspace, &u, residuals.as_deref(), &mut watching);
+        let budget = error_budget(manipulator, workspace, residuals.as_deref(), &mut watching);
         let Watching { gathering, notes, total, .. } = watching;
         notes.progress(total, total);
         let refused = |refused: Unevaluated| self.not_evaluated(workspace, &refused, description);
@@ -84,11 +88,11 @@ impl Analyze {
         self.require_reached(&budget)?;
         notes.go_on()?;
 
-        let first_order = FirstOrder::over(manipulator, workspace, &u).map_err(refused)?;
+        let first_order = FirstOrder::over(manipulator, workspace).map_err(refused)?;
         let draw = |draws, index: Option<usize>| {
             let configuration = index.and_then(|index| workspace.configuration(index).ok());
             let configuration = configuration.unwrap_or_else(|| workspace.home().clone());
-            monte_carlo(manipulator, &configuration, &u, draws, self.seed.unwrap_or(0))
+            monte_carlo(manipulator, &configuration, draws, self.seed.unwrap_or(0))
                 .map_err(|error| refused(Unevaluated { configuration: index, error }))
         };
         let drawn = match self.monte_carlo {
@@ -110,6 +114,7 @@ impl Analyze {
             workspace: study.region.describe(&machine.spec),
             home: workspace.home().clone(),
             varying: self.varying(),
+            moving_inputs: self.moving_inputs(),
             places: Places::new(&budget, workspace),
             admissible: study.tolerance.map(|tolerance| Admissible::new(&budget, tolerance)),
             budget,

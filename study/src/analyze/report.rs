@@ -27,6 +27,8 @@ pub struct Report {
     pub home: Configuration,
     /// Indices of the parameters that the workspace moves.
     pub varying: Vec<usize>,
+    /// Indices of the inputs that the workspace moves; the others are nominal.
+    pub moving_inputs: Vec<usize>,
     /// Every source alone, and all together. Sources are counted among those that are switched on: see
     /// [`source`](Self::source).
     pub budget: Budget,
@@ -96,11 +98,27 @@ impl Report {
         self.spec.enabled_sources().collect()
     }
 
-    /// The variables of a configuration, by their names.
+    /// The variables of a configuration and those inputs that the workspace moves, by their names.
     pub(super) fn variables(&self, configuration: Option<&Configuration>) -> Named {
-        let values = configuration.iter().flat_map(|configuration| &configuration.q);
-        let named = self.spec.variables.iter().zip(values);
-        Named(named.map(|(variable, value)| (variable.name.clone(), value + 0.0)).collect())
+        let Some(Configuration { q, u, .. }) = configuration else { return Named(Vec::new()) };
+        let variables = self.spec.variables.iter().zip(q);
+        let variables = variables.map(|(variable, value)| (variable.name.clone(), value + 0.0));
+        let inputs = self.moving_inputs.iter().map(|&i| (self.spec.inputs[i].name.clone(), u[i] + 0.0));
+        Named(variables.chain(inputs).collect())
+    }
+
+    /// The inputs in words: `payload within 0 kg … 5 kg (0 kg at home)`, or `payload = 0 kg` of one that does not move.
+    pub fn inputs(&self) -> Vec<String> {
+        let inputs = self.spec.inputs.iter().enumerate();
+        let inputs = inputs.map(|(i, input)| {
+            let [home, lower, upper] = [input.value, input.range[0], input.range[1]]
+                .map(|value| number::quantity(value, &input.unit));
+            match self.moving_inputs.contains(&i) {
+                true => format!("{} within {lower} … {upper} ({home} at home)", input.name),
+                false => format!("{} = {home}", input.name),
+            }
+        });
+        inputs.collect()
     }
 
     /// Those parameters of a configuration that the workspace moves, by their names.

@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
-use abbe::analysis::sampling;
+use abbe::Pose;
+use abbe::analysis::Configuration;
 use abbe::identify::{Measurement, Observation, Uncertainty};
-use abbe::{Description, Pose};
 use abbe_codegen::spec::Spec;
 
 use super::column::{Channel, Column};
 use super::turn::Turn;
+use crate::Machine;
+use crate::workspace::has_range;
 
 /// A target on the end effector.
 #[derive(Clone, Debug)]
@@ -110,14 +112,26 @@ impl Map {
         columns.filter(|(_, channel)| matches!(channel, Channel::Column(..))).map(|(i, _)| i)
     }
 
-    /// An observation that is to be made at `q`; what the map holds fixed is so, inputs are nominal.
-    pub fn planned(&self, line: u64, mut q: Vec<f64>, description: &Description) -> Observation {
-        for (value, channel) in q.iter_mut().zip(&self.joints) {
+    /// The inputs that have a column and a range to go through, apart from those that are fixed.
+    pub fn moved_inputs(&self, machine: &Machine) -> Vec<usize> {
+        let columns = self.inputs.iter().zip(&machine.spec.inputs).enumerate();
+        let moved = columns.filter(|(i, (channel, input))| {
+            let free = !machine.fixed_inputs().contains(i);
+            free && matches!(channel, Channel::Column(..)) && has_range(input)
+        });
+        moved.map(|(i, _)| i).collect()
+    }
+
+    /// An observation that is to be made; what the map holds fixed is so.
+    pub fn planned(&self, line: u64, place: Configuration) -> Observation {
+        let Configuration { mut q, mut u, .. } = place;
+        let values = q.iter_mut().chain(&mut u);
+        for (value, channel) in values.zip(self.joints.iter().chain(&self.inputs)) {
             if let Channel::Fixed(fixed) = channel {
                 *value = *fixed;
             }
         }
-        Observation::new(line, q, sampling::nominal_inputs(description), self.unmeasured())
+        Observation::new(line, q, u, self.unmeasured())
     }
 
     /// What stands for a measurement before there is one.

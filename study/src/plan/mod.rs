@@ -3,7 +3,7 @@
 mod keys;
 mod sets;
 
-use abbe::analysis::{Workspace, joint_samples};
+use abbe::analysis::{Configuration, Workspace, joint_samples};
 use abbe::identify::{
     Design, Failure, Figures, Identifiable, Measurement, Model, Observation, Unknown, d_optimal, groups,
     identifiable, predicted, whole,
@@ -15,7 +15,8 @@ use serde::Serialize;
 
 use crate::data::{Map, Table};
 use crate::identify::{Alike, Counts, Setup};
-use crate::{Machine, Notes, Study, mistake};
+use crate::workspace::has_range;
+use crate::{Machine, Notes, Study, mistake, number};
 
 pub use keys::TABLES;
 pub use sets::{Counted, Sets};
@@ -62,6 +63,8 @@ pub struct Report {
     pub rows: usize,
     /// Set by set.
     pub sets: Vec<Counted>,
+    /// Where the inputs are that have a range.
+    pub inputs: Vec<Input>,
     /// How many combinations of the unknowns they determine.
     pub rank: usize,
     /// Of how many unknowns.
@@ -84,6 +87,28 @@ pub struct Report {
     /// What is to be measured.
     #[serde(skip)]
     pub observations: Vec<Observation>,
+}
+
+/// Where an input that has a range is in the rows of a plan.
+#[derive(Clone, Debug, Serialize)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// Its coherent unit, empty for a pure number or an angle.
+    pub unit: String,
+    /// Its least and its largest value: the same of one that stays where it is.
+    pub between: [f64; 2],
+}
+
+impl Input {
+    /// `payload goes from 0 kg to 5 kg`, or `payload stays at 0 kg`.
+    pub fn sentence(&self) -> String {
+        let [least, largest] = self.between.map(|value| number::quantity(value, &self.unit));
+        match self.between[0] == self.between[1] {
+            true => format!("{} stays at {least}", self.name),
+            false => format!("{} goes from {least} to {largest}", self.name),
+        }
+    }
 }
 
 /// Figures of a standard deviation.
@@ -135,6 +160,7 @@ impl Plan {
             title,
             rows: rows.len(),
             sets,
+            inputs: self.inputs(&rows),
             rank: identifiable.rank,
             unknowns: model.unknowns.len(),
             machine: Counts::new(&model, &identifiable),
@@ -161,9 +187,9 @@ impl Plan {
                 let (asked, counts) = sets.rows(manipulator, description, notes)?;
                 let rows: Vec<Observation> = (1..)
                     .zip(asked)
-                    .map(|(line, asked)| Observation {
-                        u: asked.u,
-                        ..self.map.planned(line, asked.q, description)
+                    .map(|(line, asked): (u64, Configuration)| {
+                        let u = asked.u.clone();
+                        Observation { u, ..self.map.planned(line, asked) }
                     })
                     .collect();
                 let identifiable = determined(model, &rows).map_err(fail)?;
@@ -172,12 +198,12 @@ impl Plan {
             }
             Choice::Optimal { count, candidates } => {
                 let moved: Vec<usize> = self.map.moved().collect();
-                let samples = joint_samples(manipulator, &moved, *candidates);
+                let inputs = self.map.moved_inputs(&self.machine);
+                let samples = joint_samples(manipulator, &moved, *candidates)
+                    .and_then(|samples| samples.inputs(manipulator, &inputs));
                 let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
-                let list: Vec<Observation> = (1..)
-                    .zip(samples)
-                    .map(|(line, sample)| self.map.planned(line, sample.q, description))
-                    .collect();
+                let list: Vec<Observation> =
+                    (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample)).collect();
                 let identifiable = determined(model, &list).map_err(fail)?;
                 let design = d_optimal(model, &list, &identifiable, *count).map_err(fail)?;
                 let chosen = design.iter().flat_map(|design| &design.chosen);
@@ -188,6 +214,19 @@ impl Plan {
         }
     }
 
+    /// Where the inputs are in these rows.
+    fn inputs(&self, rows: &[Observation]) -> Vec<Input> {
+        let inputs = self.machine.spec.inputs.iter().enumerate().filter(|(_, input)| has_range(input));
+        let inputs = inputs.map(|(i, input)| {
+            let values = rows.iter().map(|row| row.u[i]);
+            let between = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], value| {
+                [least.min(value), largest.max(value)]
+            });
+            Input { name: input.name.clone(), unit: input.unit.clone(), between }
+        });
+        inputs.collect()
+    }
+
     /// Where the machine is to be used: nothing is measured there.
     fn used(
         &self,
@@ -195,7 +234,9 @@ impl Plan {
         description: &Description,
     ) -> Result<Vec<Observation>, Diagnostics> {
         let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, error);
-        let workspace = self.study.region.workspace(manipulator, None).map_err(fail)?;
+        let mut region = self.study.region.clone();
+        region.fix(self.machine.fixed_inputs());
+        let workspace = region.workspace(manipulator, None).map_err(fail)?;
         let step = workspace.len().div_ceil(USED).max(1);
         let places = (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
         let mut places: Vec<_> = places.collect();
@@ -203,10 +244,8 @@ impl Plan {
             let every: Vec<usize> = (0..description.variables.len()).collect();
             places = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
         }
-        let u: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
         let nothing = || Measurement::Points(Vec::new());
-        let rows =
-            (1..).zip(places).map(|(line, place)| Observation::new(line, place.q, u.clone(), nothing()));
+        let rows = (1..).zip(places).map(|(line, place)| Observation::new(line, place.q, place.u, nothing()));
         Ok(rows.collect())
     }
 }

@@ -7,7 +7,8 @@
 //!
 //! [[set]]
 //! name = "treatment volume"
-//! workspace.joints = { samples = 50 }      # any form that a study's workspace has
+//! workspace.joints = { samples = 50 }      # any form that a study's workspace has; inputs that it does not name stay
+//!                                          # nominal here, for each value is measured
 //!
 //! [[set]]
 //! name = "one axis at a time"              # all others at home
@@ -53,12 +54,6 @@ enum Content {
     Axes(Vec<Axis>),
 }
 
-/// A configuration and the inputs it is measured with.
-pub(super) struct Asked {
-    pub(super) q: Vec<f64>,
-    pub(super) u: Vec<f64>,
-}
-
 /// How many rows a set has.
 #[derive(Clone, Debug, Serialize)]
 pub struct Counted {
@@ -89,25 +84,20 @@ impl Sets {
         manipulator: &dyn Manipulator,
         description: &Description,
         notes: &mut dyn Notes,
-    ) -> Result<(Vec<Asked>, Vec<Counted>), Diagnostics> {
+    ) -> Result<(Vec<Configuration>, Vec<Counted>), Diagnostics> {
         let home = Configuration::home(description);
-        let nominal: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
-        let mut all_inputs = vec![nominal];
+        // Every combination of the plan's inputs, each by index and value.
+        let mut combinations: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
         for axis in &self.inputs {
-            let each = |u: &Vec<f64>| {
-                let u = u.clone();
-                let with = move |value: &f64| {
-                    let mut u = u.clone();
-                    u[axis.index] = *value;
-                    u
-                };
-                axis.values.iter().map(with).collect::<Vec<_>>()
+            let with = |before: &Vec<(usize, f64)>| {
+                let before = before.clone();
+                axis.values.iter().map(move |value| [&before[..], &[(axis.index, *value)]].concat())
             };
-            all_inputs = all_inputs.iter().flat_map(each).collect();
+            combinations = combinations.iter().flat_map(with).collect();
         }
         let (mut rows, mut counts) = (Vec::new(), Vec::new());
         for set in &self.sets {
-            let configurations: Vec<Vec<f64>> = match &set.content {
+            let configurations: Vec<Configuration> = match &set.content {
                 Content::Workspace(region) => {
                     let workspace = region.workspace(manipulator, None);
                     let workspace = workspace.map_err(|error| mistake::whole(&set.name, error))?;
@@ -115,23 +105,26 @@ impl Sets {
                     if unreached > 0 {
                         notes.note(&format!("{}: {unreached} configurations cannot be reached", set.name));
                     }
-                    workspace.reached().into_iter().map(|configuration| configuration.q).collect()
+                    workspace.reached()
                 }
                 Content::Axes(axes) => axes
                     .iter()
                     .flat_map(|axis| {
                         axis.values.iter().map(|value| {
-                            let mut q = home.q.clone();
-                            q[axis.index] = *value;
-                            q
+                            let mut configuration = home.clone();
+                            configuration.q[axis.index] = *value;
+                            configuration
                         })
                     })
                     .collect(),
             };
             let before = rows.len();
-            for u in &all_inputs {
+            for inputs in &combinations {
                 for _ in 0..self.repeat {
-                    rows.extend(configurations.iter().map(|q| Asked { q: q.clone(), u: u.clone() }));
+                    rows.extend(configurations.iter().cloned().map(|mut configuration| {
+                        inputs.iter().for_each(|(input, value)| configuration.u[*input] = *value);
+                        configuration
+                    }));
                 }
             }
             counts.push(Counted { name: set.name.clone(), rows: rows.len() - before });

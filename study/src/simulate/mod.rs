@@ -1,14 +1,17 @@
 //! Measurements of a machine whose errors are known.
 
+use abbe::Manipulator;
 use abbe::analysis::{Workspace, random_joint_samples};
 use abbe::identify::{Chance, Failure, Observation, Uncertainty, simulate};
-use abbe::{Description, Manipulator};
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::spec::Input;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
-use crate::data::{Data, Map, Table};
+use crate::data::{Channel, Data, Map, Table};
 use crate::identify::Setup;
+use crate::number::quantity;
+use crate::workspace::has_range;
 use crate::{Machine, Notes, mistake};
 
 /// What would an instrument measure of this machine?
@@ -34,7 +37,8 @@ pub struct Simulate {
 pub enum Places {
     /// At the commands of a file.
     Rows(Data),
-    /// At so many random configurations within the limits; what the map holds fixed stays so.
+    /// At so many random configurations within the limits, with inputs within their ranges; what the map holds fixed
+    /// stays so.
     Samples(usize),
 }
 
@@ -50,7 +54,7 @@ pub struct Report {
 
 impl Simulate {
     /// Measures row by row.
-    pub fn run(&self, _notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
@@ -58,7 +62,8 @@ impl Simulate {
         let list = match &self.at {
             Places::Rows(data) => data,
             Places::Samples(count) => {
-                sampled = self.sampled(&interpreter, description, *count)?;
+                self.note_fixed_inputs(notes);
+                sampled = self.sampled(&interpreter, *count)?;
                 &sampled
             }
         };
@@ -89,16 +94,33 @@ impl Simulate {
         Ok(Report { table, observations })
     }
 
-    fn sampled(
-        &self,
-        manipulator: &dyn Manipulator,
-        description: &Description,
-        count: usize,
-    ) -> Result<Data, Diagnostics> {
+    /// Says which inputs could be drawn within their ranges if the map had a column for them.
+    fn note_fixed_inputs(&self, notes: &mut dyn Notes) {
+        let Self { machine, map, .. } = self;
+        let drawn = map.moved_inputs(machine);
+        for (i, input) in machine.spec.inputs.iter().enumerate() {
+            if has_range(input) && !drawn.contains(&i) && !machine.fixed_inputs().contains(&i) {
+                let Input { name, unit, .. } = input;
+                let value = match map.inputs[i] {
+                    Channel::Fixed(value) => value,
+                    Channel::Column(..) => input.value,
+                };
+                notes.note(&format!(
+                    "`{name}` stays at {}: the map has no column for it; with `{name} = {{ column = \"{name}\", unit = \"{unit}\" }}` \
+                     under [inputs] it is drawn within its range",
+                    quantity(value, unit),
+                ));
+            }
+        }
+    }
+
+    fn sampled(&self, manipulator: &dyn Manipulator, count: usize) -> Result<Data, Diagnostics> {
         let moved: Vec<usize> = self.map.moved().collect();
-        let samples = random_joint_samples(manipulator, &moved, count, self.seed);
+        let inputs = self.map.moved_inputs(&self.machine);
+        let samples = random_joint_samples(manipulator, &moved, count, self.seed)
+            .and_then(|samples| samples.inputs(manipulator, &inputs));
         let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
-        let rows = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample.q, description));
+        let rows = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
         Ok(Data { file: "--samples".to_owned(), observations: rows.collect(), ..Data::default() })
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! [[figure]]
-//! kind = "travel"                          # the error against the travel of a variable or parameter
+//! kind = "travel"                          # the error against the travel of a variable, parameter or input
 //! source = "base rail curvature"           # if not given: all repeatable sources together
 //! over = "d1"
 //! paper = "Figure 8"                       # the figure of the paper that this one stands for
@@ -25,7 +25,7 @@ use abbe_codegen::spec::Spec;
 use serde::Serialize;
 
 use super::keys;
-use crate::workspace::{Region, read_region};
+use crate::workspace::{Form, Region, read_region};
 
 /// A figure to draw.
 #[derive(Clone, Debug, Serialize)]
@@ -69,6 +69,8 @@ pub enum Over {
     Variable(usize),
     /// A parameter, by its index.
     Parameter(usize),
+    /// An input, by its index.
+    Input(usize),
 }
 
 #[derive(Clone, Copy)]
@@ -98,19 +100,32 @@ impl Figure {
         Self { content, source: None, caption: String::new(), paper: String::new(), region: None }
     }
 
-    /// Those of a study that asks for none: everything together, over each variable that moves.
+    /// Whether it is drawn over one of these inputs.
+    pub(super) fn is_over(&self, inputs: &[usize]) -> bool {
+        let over = match &self.content {
+            Content::Travel(over) => std::slice::from_ref(over),
+            Content::Surface(both) => both,
+            _ => &[],
+        };
+        over.iter().any(|over| matches!(over, Over::Input(i) if inputs.contains(i)))
+    }
+
+    /// Those of a study that asks for none: everything together, over each variable and input that moves.
     pub(super) fn defaults(region: &Region) -> Vec<Self> {
-        let moved = match region {
-            Region::Presented(presentation) => {
+        let moved = match &region.form {
+            Form::Presented(presentation) => {
                 let approaches = presentation.approaches.iter().map(|axis| axis.index);
                 presentation.solved.iter().copied().chain(approaches).collect()
             }
-            Region::Grid(axes) => axes.iter().map(|axis| axis.index).collect(),
-            Region::Samples { moved, .. } => moved.clone(),
-            Region::Box(region) => region.solved.clone(),
-            Region::Path(path) => path.variables().collect(),
+            Form::Grid(axes) => axes.iter().map(|axis| axis.index).collect(),
+            Form::Samples { moved, .. } => moved.clone(),
+            Form::Box(region) => region.solved.clone(),
+            Form::Path(path) => path.variables().collect(),
         };
-        let travels = moved.into_iter().map(|variable| Content::Travel(Over::Variable(variable)));
+        let moved: Vec<usize> = moved;
+        let over = moved.into_iter().map(Over::Variable);
+        let over = over.chain(region.moving_inputs().into_iter().map(Over::Input));
+        let travels = over.map(Content::Travel);
         let whole = [Content::Manipulator(UP), Content::Pareto, Content::Cloud, Content::Histogram];
         whole.into_iter().chain(travels).map(Self::of).collect()
     }
@@ -156,7 +171,8 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         }
         Kind::Surface => {
             let item = section.required("over", document)?;
-            let entries: [Item<'_>; 2] = document.entries(&item, "two names: variables or parameters")?;
+            let entries: [Item<'_>; 2] =
+                document.entries(&item, "two names: variables, parameters or inputs")?;
             let [first, second] = entries.map(|entry| over(&entry, document, spec));
             Content::Surface([first?, second?])
         }
@@ -177,7 +193,9 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         figure.source = Some(name);
     }
     if let Some(item) = section.get("workspace") {
-        figure.region = Some(read_region(&item, document, spec)?);
+        let mut region = read_region(&item, document, spec)?;
+        region.over_ranges(spec);
+        figure.region = Some(region);
     }
     figure.caption = section.optional_text("caption", document);
     figure.paper = section.optional_text("paper", document);
@@ -188,10 +206,13 @@ fn over(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Over> {
     let name = document.string(item)?;
     let variables = spec.variables.iter().map(|variable| variable.name.as_str());
     let parameters = spec.parameters.iter().map(|parameter| parameter.name.as_str());
-    let names = variables.chain(parameters).collect::<Vec<_>>();
-    let index = find_name(document, item.span(), &name, &names, "variable or parameter")?;
-    Some(match index.checked_sub(spec.variables.len()) {
-        None => Over::Variable(index),
-        Some(parameter) => Over::Parameter(parameter),
+    let inputs = spec.inputs.iter().map(|input| input.name.as_str());
+    let names = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
+    let index = find_name(document, item.span(), &name, &names, "variable, parameter or input")?;
+    let (variables, parameters) = (spec.variables.len(), spec.parameters.len());
+    Some(match index {
+        _ if index < variables => Over::Variable(index),
+        _ if index < variables + parameters => Over::Parameter(index - variables),
+        _ => Over::Input(index - variables - parameters),
     })
 }

@@ -11,11 +11,16 @@
 //! samples = 1000
 //! # … random ones: [workspace.random]  samples = 1000, seed = 7
 //! # … or every combination: [workspace.grid]  q4 = { from = "-90 deg", to = "90 deg", step = "5 deg" }
+//! #     inputs may stand there, too: payload = ["0 kg", "2 kg", "5 kg"]
 //! # … or tool points brought to a point of the room: [workspace.presented], as in studies/pps.toml
 //! # … or a box of points in F_0, by inverse kinematics from home: [workspace.box]
 //! #     x = { from = "400 mm", to = "600 mm", count = 5 }, y and z likewise
 //! #     orientation = "free" (or "home": that of home is kept), solve = ["q1", …] (all variables if not given)
 //! # … or a CSV file beside the study: [workspace.path]  file = "path.csv", with columns `d1 (mm)`, `q4 (deg)`, …
+//!
+//! [workspace.inputs]                       # beside any form: everything again with each of these
+//! payload = ["0 kg", "2 kg", "5 kg"]       # not named, an input with a range is sampled with the joints, or both its
+//!                                          # ends are taken where nothing is sampled; `set` keeps it where it is
 //!
 //! [compensation]                           # what is left of the repeatable sources
 //! default = 0.05                           # a share of the error

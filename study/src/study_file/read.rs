@@ -42,6 +42,10 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     root.check_keys(&[&keys::FILE], document);
     let head = root.required("study", document).and_then(|item| document.section(&item));
     let region = root.required("workspace", document).and_then(|item| read_region(&item, document, spec));
+    let region = region.map(|mut region| {
+        region.over_ranges(spec);
+        region
+    });
     let published = read_published(root, document, spec);
     let compensated = root.get("compensated").and_then(|item| read_compensated(&item, document, spec));
     let compensation = root.get("compensation").and_then(|item| compensation::read(&item, document, spec));

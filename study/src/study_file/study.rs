@@ -45,11 +45,25 @@ impl Study {
         any
     }
 
-    /// That of a manipulator without one: a thousand samples of the joints, and no tolerance.
+    /// Keeps inputs nominal in its workspaces, whatever is said of them there; figures over them are left out.
+    pub fn fix(&mut self, inputs: &[usize]) {
+        self.region.fix(inputs);
+        self.figures.retain(|figure| !figure.is_over(inputs));
+        self.figures
+            .iter_mut()
+            .filter_map(|figure| figure.region.as_mut())
+            .for_each(|region| region.fix(inputs));
+    }
+
+    /// That of a manipulator without one: a thousand samples of the joints with both ends of every input, and no tolerance.
     pub fn joint_samples(spec: &Spec) -> Self {
         let region = Region::samples(spec);
         Self {
-            title: "No study: the limits of the joints are the workspace".to_owned(),
+            title: match region.moving_inputs().is_empty() {
+                true => "No study: the limits of the joints are the workspace".to_owned(),
+                false => "No study: the limits of the joints and the ranges of the inputs are the workspace"
+                    .to_owned(),
+            },
             publisher: String::new(),
             tolerance: None,
             changes: Changes::default(),

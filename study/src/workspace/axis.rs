@@ -1,10 +1,15 @@
-//! The values that a variable or a parameter goes through.
+//! The values that a variable, a parameter or an input goes through.
 
+use std::ops::Range;
+
+use abbe::LengthUnit;
 use abbe::analysis::{Axis, sampling};
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item};
 use abbe_codegen::expr::{Dimension, find_name};
 use abbe_codegen::spec::{Spec, VariableKind};
+
+use crate::number;
 
 use super::constant::{constant, count};
 use super::keys;
@@ -12,43 +17,74 @@ use super::keys;
 /// The most values of an axis: they are stored.
 const VALUES: usize = 10_000_000;
 
-/// What can be an axis, with its dimensions.
+/// What can be an axis.
 pub struct Candidates<'a> {
-    /// `variable` or `parameter`.
+    /// `variable`, `parameter` or `input`.
     pub(super) what: &'static str,
-    names: Vec<&'a str>,
-    dimensions: Vec<Dimension>,
+    list: Vec<Candidate<'a>>,
+}
+
+/// One of them.
+struct Candidate<'a> {
+    name: &'a str,
+    dimension: Dimension,
+    unit: Unit<'a>,
+    /// `limits` or `range`, and its ends; infinite where there is none.
+    within: (&'static str, [f64; 2]),
+}
+
+/// How its values are shown.
+enum Unit<'a> {
+    Joint(VariableKind, LengthUnit),
+    Coherent(&'a str),
 }
 
 impl<'a> Candidates<'a> {
     /// The variables of a spec.
     pub fn variables(spec: &'a Spec) -> Self {
-        let dimension = |kind| match kind {
-            VariableKind::Revolute => Dimension::NONE,
-            VariableKind::Prismatic => Dimension::LENGTH,
-        };
-        Self {
-            what: "variable",
-            names: spec.variables.iter().map(|variable| variable.name.as_str()).collect(),
-            dimensions: spec.variables.iter().map(|variable| dimension(variable.kind)).collect(),
-        }
+        let list = spec.variables.iter().map(|variable| Candidate {
+            name: &variable.name,
+            dimension: match variable.kind {
+                VariableKind::Revolute => Dimension::NONE,
+                VariableKind::Prismatic => Dimension::LENGTH,
+            },
+            unit: Unit::Joint(variable.kind, spec.length),
+            within: ("limits", variable.limits),
+        });
+        Self { what: "variable", list: list.collect() }
     }
 
     pub(super) fn parameters(spec: &'a Spec) -> Self {
-        Self {
-            what: "parameter",
-            names: spec.parameters.iter().map(|parameter| parameter.name.as_str()).collect(),
-            dimensions: spec.parameters.iter().map(|parameter| parameter.dimension).collect(),
-        }
+        let list = spec.parameters.iter().map(|parameter| Candidate {
+            name: &parameter.name,
+            dimension: parameter.dimension,
+            unit: Unit::Coherent(&parameter.unit),
+            within: ("range", [f64::NEG_INFINITY, f64::INFINITY]),
+        });
+        Self { what: "parameter", list: list.collect() }
     }
 
     /// The inputs of a spec.
     pub fn inputs(spec: &'a Spec) -> Self {
-        Self {
-            what: "input",
-            names: spec.inputs.iter().map(|input| input.name.as_str()).collect(),
-            dimensions: spec.inputs.iter().map(|input| input.dimension).collect(),
-        }
+        let list = spec.inputs.iter().map(|input| Candidate {
+            name: &input.name,
+            dimension: input.dimension,
+            unit: Unit::Coherent(&input.unit),
+            within: ("range", input.range),
+        });
+        Self { what: "input", list: list.collect() }
+    }
+
+    /// The variables of a spec, then its inputs.
+    pub(super) fn variables_and_inputs(spec: &'a Spec) -> Self {
+        let mut all = Self::variables(spec);
+        all.list.extend(Self::inputs(spec).list);
+        Self { what: "variable or input", ..all }
+    }
+
+    fn find(&self, document: &mut Document, span: Range<usize>, name: &str) -> Option<usize> {
+        let names = self.list.iter().map(|candidate| candidate.name).collect::<Vec<_>>();
+        find_name(document, span, name, &names, self.what)
     }
 
     /// A table of axes, `NAME = VALUES` each.
@@ -56,21 +92,24 @@ impl<'a> Candidates<'a> {
         let Some(section) = document.section(item) else { return Vec::new() };
         let mut axes = Vec::new();
         for item in section.items() {
-            let index = find_name(document, item.key_span.clone(), &item.key, &self.names, self.what);
-            let Some(index) = index else { continue };
-            let values = values(&item, document, spec, self.dimensions[index]);
-            axes.extend(values.map(|values| Axis { index, values }));
+            let Some(index) = self.find(document, item.key_span.clone(), &item.key) else { continue };
+            let candidate = &self.list[index];
+            if let Some(values) = values(&item, document, spec, candidate.dimension) {
+                candidate.require_within(&values, &item, document);
+                axes.push(Axis { index, values });
+            }
         }
         axes
     }
 
     /// A list of names, as indices.
     pub(super) fn list(&self, item: &Item<'_>, document: &mut Document) -> Vec<usize> {
-        let items = document.array(item, "a list of names of variables").unwrap_or_default();
+        let items =
+            document.array(item, &format!("a list of names, each a {}", self.what)).unwrap_or_default();
         let mut indices = Vec::new();
         for item in items {
             let Some(name) = document.string(&item) else { continue };
-            let index = find_name(document, item.span(), &name, &self.names, self.what);
+            let index = self.find(document, item.span(), &name);
             if index.is_some_and(|index| indices.contains(&index)) {
                 document.mistake(
                     Diagnostic::new(item.span(), format!("`{name}` stands here twice"))
@@ -80,6 +119,29 @@ impl<'a> Candidates<'a> {
             indices.extend(index);
         }
         indices
+    }
+}
+
+impl Candidate<'_> {
+    /// A mistake if a value is outside the limits or the range: that is not where the machine works.
+    fn require_within(&self, values: &[f64], item: &Item<'_>, document: &mut Document) {
+        let (what, [lower, upper]) = self.within;
+        let Some(outside) = values.iter().find(|value| !(lower..=upper).contains(*value)) else { return };
+        let message = format!("`{}` goes beyond its {what}", self.name);
+        let label = format!("{} is asked for here", self.show(*outside));
+        let help = format!(
+            "its {what} in the spec: {} … {}; stay within, or change the spec",
+            self.show(lower),
+            self.show(upper)
+        );
+        document.mistake(Diagnostic::new(item.span(), message).label(label).help(help));
+    }
+
+    fn show(&self, value: f64) -> String {
+        match self.unit {
+            Unit::Joint(kind, length) => number::of_variable(value, kind, length),
+            Unit::Coherent(unit) => number::quantity(value, unit),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The forms that the workspace of a study can have.
 
-use abbe::analysis::{BaseBox, Presentation, ToolOrientation};
+use abbe::analysis::{Axis, BaseBox, Presentation, ToolOrientation};
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::Dimension;
@@ -8,15 +8,15 @@ use abbe_codegen::spec::Spec;
 
 use super::axis::{Candidates, values};
 use super::constant::{constant, count, whole};
-use super::keys::{self, WORKSPACE};
+use super::keys::{self, BESIDE, WORKSPACE};
 use super::path;
-use super::region::{LARGEST, Region};
+use super::region::{Form, LARGEST, Region, has_range};
 
-/// `[workspace]`: one of the forms.
+/// `[workspace]`: one of the forms, and `inputs` with values of their own. Inputs that are not named stay nominal.
 pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
     let mut section = document.section(item)?;
     section.name = "[workspace]".to_owned();
-    section.check_keys(&[&WORKSPACE], document);
+    section.check_keys(&[&WORKSPACE, &BESIDE], document);
     let mut forms = section.items().filter(|item| WORKSPACE.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
         let forms = WORKSPACE.keys.iter().map(|form| format!("`{form}`")).collect::<Vec<_>>();
@@ -28,7 +28,17 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
         );
         return None;
     };
-    let region = read_form(&form, document, spec)?;
+    let mut region = read_form(&form, document, spec)?;
+    if let Some(item) = section.get("inputs") {
+        for axis in Candidates::inputs(spec).axes(&item, document, spec) {
+            if region.moving_inputs().contains(&axis.index) {
+                let message = format!("`{}` moves twice", spec.inputs[axis.index].name);
+                let mistake = Diagnostic::new(item.key_span.clone(), message);
+                document.mistake(mistake.help(format!("take it out of `inputs` or out of `{}`", form.key)));
+            }
+            region.inputs.push(axis);
+        }
+    }
     if region.count().is_none() {
         let message = format!("this workspace has more than {LARGEST} configurations");
         document.mistake(
@@ -43,16 +53,29 @@ pub fn read_region(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
 /// Reads the form of that key.
 fn read_form(form: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Region> {
     if form.key == "grid" {
-        return Some(Region::Grid(Candidates::variables(spec).axes(form, document, spec)));
+        return Some(grid(form, document, spec));
     }
     let section = document.section(form)?;
     match form.key.as_str() {
-        "presented" => presented(&section, document, spec).map(Region::Presented),
-        "box" => base_box(&section, document, spec).map(Region::Box),
-        "path" => path::read(&section, document, spec).map(Region::Path),
+        "presented" => presented(&section, document, spec).map(Form::Presented).map(Region::new),
+        "box" => base_box(&section, document, spec).map(Form::Box).map(Region::new),
+        "path" => path::read(&section, document, spec).map(Form::Path).map(Region::new),
         "random" => samples(&section, document, spec, true),
         _ => samples(&section, document, spec, false),
     }
+}
+
+/// `[workspace.grid]`: values of variables and inputs.
+fn grid(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Region {
+    let mut region = Region::new(Form::Grid(Vec::new()));
+    let Form::Grid(axes) = &mut region.form else { return region };
+    for axis in Candidates::variables_and_inputs(spec).axes(item, document, spec) {
+        match axis.index.checked_sub(spec.variables.len()) {
+            None => axes.push(axis),
+            Some(index) => region.inputs.push(Axis { index, ..axis }),
+        }
+    }
+    region
 }
 
 /// `[workspace.presented]`: tool points, each brought to one point of the room.
@@ -106,14 +129,24 @@ fn base_box(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
 fn samples(section: &Section<'_>, document: &mut Document, spec: &Spec, random: bool) -> Option<Region> {
     let known = [&keys::SAMPLES, &keys::RANDOM];
     section.check_keys(if random { &known } else { &known[..1] }, document);
+    let variables = spec.variables.len();
     let moved = match section.get("moved") {
-        Some(item) => Candidates::variables(spec).list(&item, document),
-        None => (0..spec.variables.len()).collect(),
+        Some(item) => Candidates::variables_and_inputs(spec).list(&item, document),
+        None => (0..variables).collect(),
     };
+    let (moved, inputs): (Vec<usize>, Vec<usize>) = moved.into_iter().partition(|i| *i < variables);
+    let sampled_inputs: Vec<usize> = inputs.into_iter().map(|i| i - variables).collect();
+    if let Some(input) = sampled_inputs.iter().map(|i| &spec.inputs[*i]).find(|input| !has_range(input)) {
+        let message = format!("`{}` has no range to move in", input.name);
+        let help = "give it one in the spec: `range = [LOWER, UPPER]`";
+        document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
+        return None;
+    }
     let seed = match section.get("seed").filter(|_| random) {
         Some(item) => Some(whole(&item, [0, LARGEST], document, spec)? as u64),
         None => random.then_some(0),
     };
     let samples = section.required("samples", document)?;
-    Some(Region::Samples { moved, count: count(&samples, LARGEST, document, spec)?, seed })
+    let count = count(&samples, LARGEST, document, spec)?;
+    Some(Region { sampled_inputs, ..Region::new(Form::Samples { moved, count, seed }) })
 }

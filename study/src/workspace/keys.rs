@@ -2,6 +2,7 @@
 
 abbe_codegen::tables! {
     WORKSPACE: ["[workspace]"], ["presented", "grid", "joints", "random", "box", "path"];
+    BESIDE: ["[workspace]"], ["inputs"];
     PRESENTED: ["[workspace.presented]"], ["point", "tool_points", "approaches", "solve"];
     SAMPLES: ["[workspace.joints]", "[workspace.random]"], ["samples", "moved"];
     RANDOM: ["[workspace.random]"], ["seed"];

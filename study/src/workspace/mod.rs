@@ -15,4 +15,4 @@ pub use constant::{constant, count, positive_length, whole};
 pub use forms::read_region;
 pub use keys::TABLES;
 pub use path::Path;
-pub use region::Region;
+pub use region::{Form, Region, has_range};

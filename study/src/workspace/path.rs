@@ -5,7 +5,7 @@
 //! 38,-90,250
 //! ```
 //!
-//! Columns are named like variables and parameters, each with the unit of its numbers; without one they are in the
+//! Columns are named like variables, parameters and inputs, each with the unit of its numbers; without one they are in the
 //! spec's length unit or in rad. What has no column stays at home.
 
 use std::path;
@@ -15,10 +15,11 @@ use abbe::analysis::Configuration;
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Section};
 use abbe_codegen::expr::{Dimension, find_name, parse_value};
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_codegen::spec::{Input, Spec, VariableKind};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::keys;
+use crate::number::quantity;
 
 /// Configurations from a file.
 #[derive(Clone, Debug)]
@@ -41,6 +42,7 @@ struct Column {
 enum Place {
     Variable(usize),
     Parameter(usize),
+    Input(usize),
 }
 
 impl Path {
@@ -48,7 +50,7 @@ impl Path {
     pub fn parameters(&self) -> impl Iterator<Item = usize> {
         self.columns.iter().filter_map(|column| match column.place {
             Place::Parameter(i) => Some(i),
-            Place::Variable(_) => None,
+            Place::Variable(_) | Place::Input(_) => None,
         })
     }
 
@@ -56,8 +58,24 @@ impl Path {
     pub fn variables(&self) -> impl Iterator<Item = usize> {
         self.columns.iter().filter_map(|column| match column.place {
             Place::Variable(i) => Some(i),
-            Place::Parameter(_) => None,
+            Place::Parameter(_) | Place::Input(_) => None,
         })
+    }
+
+    /// The inputs that have a column.
+    pub fn inputs(&self) -> impl Iterator<Item = usize> {
+        self.columns.iter().filter_map(|column| match column.place {
+            Place::Input(i) => Some(i),
+            Place::Variable(_) | Place::Parameter(_) => None,
+        })
+    }
+
+    /// Takes the column of an input away, if it has one.
+    pub(super) fn forget_input(&mut self, input: usize) {
+        if let Some(column) = self.columns.iter().position(|column| column.place == Place::Input(input)) {
+            self.columns.remove(column);
+            self.configurations.iter_mut().for_each(|values| _ = values.remove(column));
+        }
     }
 
     /// The configurations of that manipulator.
@@ -69,6 +87,7 @@ impl Path {
                 match column.place {
                     Place::Variable(i) => configuration.q[i] = *value,
                     Place::Parameter(i) => configuration.s[i] = *value,
+                    Place::Input(i) => configuration.u[i] = *value,
                 }
             }
             configuration
@@ -109,7 +128,7 @@ fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64
     let mut configurations = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| error.to_string())?;
-        configurations.push(values(&record, &columns)?);
+        configurations.push(values(&record, &columns, spec)?);
     }
     if configurations.is_empty() {
         return Err("there is no configuration in it".to_owned());
@@ -117,14 +136,27 @@ fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64
     Ok((columns, configurations))
 }
 
-fn values(record: &StringRecord, columns: &[Column]) -> Result<Vec<f64>, String> {
+fn values(record: &StringRecord, columns: &[Column], spec: &Spec) -> Result<Vec<f64>, String> {
     let line = record.position().map_or(0, csv::Position::line);
     let value = |(field, column): (&str, &Column)| {
         let value = field.parse::<f64>().ok().map(|value| value * column.unit);
         let value = value.filter(|value| value.is_finite());
-        value.ok_or_else(|| format!("line {line}: `{}` is not a number", field.escape_debug()))
+        let value =
+            value.ok_or_else(|| format!("line {line}: `{}` is not a number", field.escape_debug()))?;
+        match column.place {
+            Place::Input(i) if !within(value, spec.inputs[i].range) => {
+                let Input { name, unit, range: [lower, upper], .. } = &spec.inputs[i];
+                let [value, lower, upper] = [value, *lower, *upper].map(|value| quantity(value, unit));
+                Err(format!("line {line}: `{name}` is {value}, outside its range {lower} … {upper}"))
+            }
+            _ => Ok(value),
+        }
     };
     record.iter().zip(columns).map(value).collect()
+}
+
+fn within(value: f64, [lower, upper]: [f64; 2]) -> bool {
+    (lower..=upper).contains(&value)
 }
 
 /// `d1`, or `d1 (mm)`.
@@ -141,11 +173,13 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
     let variables = variables.map(|(i, v)| (v.name.as_str(), Place::Variable(i), dimension(v.kind)));
     let parameters = spec.parameters.iter().enumerate();
     let parameters = parameters.map(|(i, p)| (p.name.as_str(), Place::Parameter(i), p.dimension));
-    let all = variables.chain(parameters).collect::<Vec<_>>();
+    let inputs = spec.inputs.iter().enumerate();
+    let inputs = inputs.map(|(i, u)| (u.name.as_str(), Place::Input(i), u.dimension));
+    let all = variables.chain(parameters).chain(inputs).collect::<Vec<_>>();
     let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
 
     let mut document = Document::new("", name);
-    let found = find_name(&mut document, 0..name.len(), name, &names, "variable or parameter");
+    let found = find_name(&mut document, 0..name.len(), name, &names, "variable, parameter or input");
     let (_, place, dimension) = found.map(|found| all[found]).ok_or_else(|| mistake(&document))?;
     let text = format!("1 {}", unit.unwrap_or_default());
     let mut document = Document::new("", text.as_str());

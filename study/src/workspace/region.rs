@@ -1,11 +1,11 @@
 //! The workspace of a study.
 
 use abbe::analysis::{
-    Axis, BaseBox, Presentation, ToolOrientation, Workspace, base_box, joint_grid, joint_samples, listed,
-    presented_volume, random_joint_samples,
+    Axis, BaseBox, JointSamples, Presentation, ToolOrientation, Workspace, base_box, joint_grid,
+    joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
 };
 use abbe::{Error, Manipulator};
-use abbe_codegen::spec::Spec;
+use abbe_codegen::spec::{Input, Spec};
 
 use super::path::Path;
 use crate::number;
@@ -16,9 +16,23 @@ const SAMPLES: usize = 1000;
 /// The most configurations that are analyzed: none is stored, but time is finite.
 pub(super) const LARGEST: usize = 1_000_000_000;
 
+/// How many inputs at most are looked at in every combination of their ends if nobody says; more are sampled.
+const COMBINED: usize = 6;
+
 /// Which configurations are looked at.
 #[derive(Clone, Debug)]
-pub enum Region {
+pub struct Region {
+    /// Those of joints and parameters.
+    pub form: Form,
+    /// Inputs with values of their own: every configuration is looked at with every combination of them.
+    pub inputs: Vec<Axis>,
+    /// Inputs that move with the joints, within their ranges: forms with samples only.
+    pub sampled_inputs: Vec<usize>,
+}
+
+/// Which configurations of joints and parameters.
+#[derive(Clone, Debug)]
+pub enum Form {
     /// A volume of tool points, each presented at a point of the room.
     Presented(Presentation),
     /// Every combination of values of some variables.
@@ -39,22 +53,67 @@ pub enum Region {
 }
 
 impl Region {
-    /// All variables, sampled.
+    /// A form, and nominal inputs.
+    pub(super) fn new(form: Form) -> Self {
+        Self { form, inputs: Vec::new(), sampled_inputs: Vec::new() }
+    }
+
+    /// All variables, sampled, with every combination of both ends of the inputs' ranges.
     pub fn samples(spec: &Spec) -> Self {
-        Self::Samples { moved: (0..spec.variables.len()).collect(), count: SAMPLES, seed: None }
+        let moved = (0..spec.variables.len()).collect();
+        let mut region = Self::new(Form::Samples { moved, count: SAMPLES, seed: None });
+        if spec.inputs.iter().filter(|input| has_range(input)).count() <= COMBINED {
+            region.inputs = (0..spec.inputs.len()).filter_map(|i| ends(i, spec)).collect();
+        }
+        region.over_ranges(spec);
+        region
+    }
+
+    /// Moves every input that has a range and of which nothing is said: samples of it where there are samples, elsewhere
+    /// both ends.
+    pub fn over_ranges(&mut self, spec: &Spec) {
+        let named = self.moving_inputs();
+        for i in (0..spec.inputs.len()).filter(|i| !named.contains(i)) {
+            let Some(ends) = ends(i, spec) else { continue };
+            match self.form {
+                Form::Samples { .. } => self.sampled_inputs.push(i),
+                _ => self.inputs.push(ends),
+            }
+        }
+    }
+
+    /// Keeps inputs nominal, whatever was said of them.
+    pub fn fix(&mut self, inputs: &[usize]) {
+        self.inputs.retain(|axis| !inputs.contains(&axis.index));
+        self.sampled_inputs.retain(|i| !inputs.contains(i));
+        if let Form::Path(path) = &mut self.form {
+            inputs.iter().for_each(|input| path.forget_input(*input));
+        }
+    }
+
+    /// The inputs that are not nominal everywhere.
+    pub fn moving_inputs(&self) -> Vec<usize> {
+        let own = self.inputs.iter().map(|axis| axis.index).chain(self.sampled_inputs.iter().copied());
+        let mut moving: Vec<usize> = match &self.form {
+            Form::Path(path) => own.chain(path.inputs()).collect(),
+            _ => own.collect(),
+        };
+        moving.sort_unstable();
+        moving
     }
 
     /// How many configurations are asked for, if they are not too many.
     pub(super) fn count(&self) -> Option<usize> {
-        let sizes: Vec<usize> = match self {
-            Self::Presented(Presentation { tool_points, approaches, .. }) => {
+        let sizes: Vec<usize> = match &self.form {
+            Form::Presented(Presentation { tool_points, approaches, .. }) => {
                 tool_points.iter().chain(approaches).map(|axis| axis.values.len()).collect()
             }
-            Self::Grid(axes) => axes.iter().map(|axis| axis.values.len()).collect(),
-            Self::Box(region) => region.points.iter().map(Vec::len).collect(),
-            Self::Samples { count, .. } => vec![*count],
-            Self::Path(path) => vec![path.configurations.len()],
+            Form::Grid(axes) => axes.iter().map(|axis| axis.values.len()).collect(),
+            Form::Box(region) => region.points.iter().map(Vec::len).collect(),
+            Form::Samples { count, .. } => vec![*count],
+            Form::Path(path) => vec![path.configurations.len()],
         };
+        let sizes = sizes.into_iter().chain(self.inputs.iter().map(|axis| axis.values.len()));
         sizes.into_iter().try_fold(1, usize::checked_mul).filter(|count| *count <= LARGEST)
     }
 
@@ -64,29 +123,35 @@ impl Region {
         manipulator: &'a dyn Manipulator,
         seed: Option<u64>,
     ) -> Result<Box<dyn Workspace + 'a>, Error> {
-        Ok(match self {
-            Self::Presented(presentation) => Box::new(presented_volume(manipulator, presentation)?),
-            Self::Grid(axes) => Box::new(joint_grid(manipulator, axes)?),
-            Self::Samples { moved, count, seed: None } => {
-                Box::new(joint_samples(manipulator, moved, *count)?)
+        let sampled = |samples: JointSamples| samples.inputs(manipulator, &self.sampled_inputs);
+        let workspace: Box<dyn Workspace + 'a> = match &self.form {
+            Form::Presented(presentation) => Box::new(presented_volume(manipulator, presentation)?),
+            Form::Grid(axes) => Box::new(joint_grid(manipulator, axes)?),
+            Form::Samples { moved, count, seed: None } => {
+                Box::new(sampled(joint_samples(manipulator, moved, *count)?)?)
             }
-            Self::Samples { moved, count, seed: Some(own) } => {
-                Box::new(random_joint_samples(manipulator, moved, *count, seed.unwrap_or(*own))?)
+            Form::Samples { moved, count, seed: Some(own) } => {
+                let seed = seed.unwrap_or(*own);
+                Box::new(sampled(random_joint_samples(manipulator, moved, *count, seed)?)?)
             }
-            Self::Box(region) => Box::new(base_box(manipulator, region)?),
-            Self::Path(path) => Box::new(listed(manipulator, path.configurations(manipulator))?),
+            Form::Box(region) => Box::new(base_box(manipulator, region)?),
+            Form::Path(path) => Box::new(listed(manipulator, path.configurations(manipulator))?),
+        };
+        Ok(match &self.inputs[..] {
+            [] => workspace,
+            inputs => Box::new(with_inputs(manipulator, workspace, inputs.to_vec())?),
         })
     }
 
     /// The parameters that are not nominal everywhere.
     pub fn varying(&self, spec: &Spec) -> Vec<usize> {
-        let mut varying = match self {
-            Self::Presented(Presentation { tool_points, .. }) => {
+        let mut varying = match &self.form {
+            Form::Presented(Presentation { tool_points, .. }) => {
                 let nominal = |axis: &Axis| spec.parameters[axis.index].value;
                 let varies = |axis: &&Axis| axis.values.iter().any(|value| *value != nominal(axis));
                 tool_points.iter().filter(varies).map(|axis| axis.index).collect()
             }
-            Self::Path(path) => path.parameters().collect(),
+            Form::Path(path) => path.parameters().collect(),
             _ => Vec::new(),
         };
         varying.sort_unstable();
@@ -95,9 +160,20 @@ impl Region {
 
     /// The workspace in a sentence.
     pub fn describe(&self, spec: &Spec) -> String {
+        let sentence = self.describe_form(spec);
+        if self.inputs.is_empty() {
+            return sentence;
+        }
+        let each = self.inputs.iter().map(|axis| describe_input(axis, spec)).collect::<Vec<_>>().join(", ");
+        let combinations: usize = self.inputs.iter().map(|axis| axis.values.len()).product();
+        let single = self.count().unwrap_or_default() / combinations.max(1);
+        format!("{sentence}, each with {each}: {combinations} × {single} configurations")
+    }
+
+    fn describe_form(&self, spec: &Spec) -> String {
         let variable = |i: &usize| spec.variables[*i].name.as_str();
-        match self {
-            Self::Presented(Presentation { point, tool_points, approaches, solved }) => {
+        match &self.form {
+            Form::Presented(Presentation { point, tool_points, approaches, solved }) => {
                 let sizes = |axes: &[Axis]| axes.iter().map(|axis| axis.values.len()).product::<usize>();
                 let parameters = tool_points.iter().map(|axis| spec.parameters[axis.index].name.as_str());
                 let held = approaches.iter().map(|axis| variable(&axis.index));
@@ -112,19 +188,18 @@ impl Region {
                     names(solved.iter().map(variable)),
                 )
             }
-            Self::Grid(axes) => {
+            Form::Grid(axes) => {
                 let axes =
                     axes.iter().map(|axis| format!("{} × {}", axis.values.len(), variable(&axis.index)));
                 format!("grid of {}", names(axes))
             }
-            Self::Samples { moved, count, seed } => {
+            Form::Samples { moved, count, seed } => {
                 let random = if seed.is_some() { "random " } else { "" };
-                format!(
-                    "{count} {random}samples of {} within their limits",
-                    names(moved.iter().map(variable))
-                )
+                let inputs = self.sampled_inputs.iter().map(|i| spec.inputs[*i].name.as_str());
+                let moved = names(moved.iter().map(variable).chain(inputs));
+                format!("{count} {random}samples of {moved} within their limits")
             }
-            Self::Box(BaseBox { points, orientation, solved }) => {
+            Form::Box(BaseBox { points, orientation, solved }) => {
                 let [x, y, z] = points.each_ref().map(Vec::len);
                 let turned = match orientation {
                     ToolOrientation::Free => "in any orientation",
@@ -133,9 +208,38 @@ impl Region {
                 let solved = names(solved.iter().map(variable));
                 format!("box of {x} × {y} × {z} points in F_0, each reached {turned} by {solved}")
             }
-            Self::Path(path) => {
+            Form::Path(path) => {
                 format!("{} configurations of {}", path.configurations.len(), path.file)
             }
+        }
+    }
+}
+
+/// Whether an input has a range to go through.
+pub fn has_range(input: &Input) -> bool {
+    let [lower, upper] = input.range;
+    lower.is_finite() && upper.is_finite() && lower < upper
+}
+
+/// Both ends of an input's range, if it has one.
+fn ends(index: usize, spec: &Spec) -> Option<Axis> {
+    let input = &spec.inputs[index];
+    has_range(input).then(|| Axis { index, values: input.range.to_vec() })
+}
+
+/// `payload = 0 kg and 5 kg`, or `payload = 0 kg … 5 kg (11 values)`.
+fn describe_input(axis: &Axis, spec: &Spec) -> String {
+    let Input { name, unit, .. } = &spec.inputs[axis.index];
+    let show = |value: &f64| number::quantity(*value, unit);
+    match &axis.values[..] {
+        values @ ([_] | [_, _] | [_, _, _]) => {
+            let values = values.iter().map(show).collect::<Vec<_>>();
+            format!("{name} = {}", values.join(" and "))
+        }
+        values => {
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            format!("{name} = {} … {} ({} values)", show(&least), show(&largest), values.len())
         }
     }
 }

@@ -64,7 +64,7 @@ impl<F: FnMut(&Row)> Watch for F {
     }
 }
 
-/// What the sources do over a workspace with inputs `u`, section 5 of the paper.
+/// What the sources do over a workspace, section 5 of the paper.
 ///
 /// `residuals` says what compensation leaves of each source, none of random ones. Nothing is stored, blocks are
 /// evaluated in parallel (feature `parallel`), and on one instruction set the result is the same to the last bit for
@@ -72,20 +72,19 @@ impl<F: FnMut(&Row)> Watch for F {
 pub fn error_budget(
     manipulator: &dyn Sweepable,
     workspace: &dyn Workspace,
-    u: &[f64],
     residuals: Option<&[Option<Residual>]>,
     watch: &mut dyn Watch,
 ) -> Result<Budget, Unevaluated> {
     let description = manipulator.description();
-    ready(manipulator, workspace, u)?;
+    ready(manipulator, workspace)?;
     let mut home = Vec::new();
-    sweep(manipulator, &One(workspace.home()), u, &mut |row| home.extend_from_slice(row.sources))
+    sweep(manipulator, &One(workspace.home()), &mut |row| home.extend_from_slice(row.sources))
         .map_err(|Unevaluated { error, .. }| Unevaluated { configuration: None, error })?;
 
     // If one of these cannot be evaluated, the sweep over all of them will say which.
     let (mut points, mut ellipsoid) = (Vec::new(), Ellipsoid::default());
     let scattered = Subset { workspace, count: SCATTERED };
-    let _ = sweep(manipulator, &scattered, u, &mut |row| {
+    let _ = sweep(manipulator, &scattered, &mut |row| {
         points.push(position(&row.repeatable));
         let other = Ellipsoid::new(covariance(&description.sources, row.sources), row.index);
         if other.semi_axes[0] > ellipsoid.semi_axes[0] {
@@ -100,7 +99,6 @@ pub fn error_budget(
     let start = Start {
         manipulator,
         workspace,
-        u,
         classes: description.sources.iter().map(|source| source.class).collect(),
         home: &home,
         residuals,
@@ -145,7 +143,6 @@ pub fn error_budget(
 struct Start<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
-    u: &'a [f64],
     classes: Vec<Class>,
     home: &'a [[f64; 6]],
     residuals: Option<&'a [Option<Residual>]>,
@@ -205,7 +202,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
 
     #[inline(always)]
     fn run<R: Register>(self) -> Self::Output {
-        let Start { manipulator, workspace, u, ref classes, home, residuals, ellipsoid, shell } = *self.start;
+        let Start { manipulator, workspace, ref classes, home, residuals, ellipsoid, shell } = *self.start;
         let mut part = Part::new(self.start);
         let of_sources = classes.iter().zip(home);
         let mut singles: Vec<_> =
@@ -215,7 +212,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
         let mut compensated = remaining_errors::Lane::<R>::new();
         let mut norm_of = vec![Lanes::constant(0.0); classes.len()];
         let mut indices = Vec::with_capacity(self.range.len());
-        let mut block = Block::new(manipulator, workspace, u, BLOCK.min(self.range.len()));
+        let mut block = Block::new(manipulator, workspace, BLOCK.min(self.range.len()));
         for first in self.range.clone().step_by(BLOCK) {
             block.evaluate(first..self.range.end.min(first + BLOCK))?;
             let before = indices.len();
@@ -245,7 +242,7 @@ impl<'a> Kernel for Chunk<'_, 'a> {
             part.unreachable.append(&mut block.unreachable);
             if self.rows {
                 let size = BLOCK.min(self.range.len());
-                part.blocks.push(core::mem::replace(&mut block, Block::new(manipulator, workspace, u, size)));
+                part.blocks.push(core::mem::replace(&mut block, Block::new(manipulator, workspace, size)));
             }
         }
         let index = |place: usize| indices[place];

@@ -39,21 +39,20 @@ pub struct MonteCarlo {
     pub inside_ellipsoid: Option<f64>,
 }
 
-/// Draws all sources at a configuration with inputs `u`, `draws` times. The result follows from the seed alone,
+/// Draws all sources at a configuration, `draws` times. The result follows from the seed alone,
 /// not from the number of threads.
 ///
 /// Eight bytes are held for every draw. Errors as for [`sweep`] and [`Manipulator::transforms`](crate::Manipulator::transforms).
 pub fn monte_carlo(
     manipulator: &dyn Sweepable,
     configuration: &Configuration,
-    u: &[f64],
     draws: usize,
     seed: u64,
 ) -> Result<MonteCarlo, Error> {
     let description = manipulator.description();
     let mut first_order = [[0.0; 3]; 3];
     let mut ideal = Pose::IDENTITY;
-    sweep(manipulator, &One(configuration), u, &mut |row| {
+    sweep(manipulator, &One(configuration), &mut |row| {
         first_order = covariance(&description.sources, row.sources);
         ideal = row.pose;
     })
@@ -61,7 +60,7 @@ pub fn monte_carlo(
     let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
     manipulator.transforms(&configuration.q, &configuration.s, &mut transforms)?;
     let mut effects = vec![0.0; description.effects.len()];
-    manipulator.effects(&configuration.q, &configuration.s, u, &mut effects)?;
+    manipulator.effects(&configuration.q, &configuration.s, &configuration.u, &mut effects)?;
     let chain = Chain { description, transforms, effects, ideal };
 
     let without_random = chain.error(&mut vec![[0.0; 6]; description.frames.len()], |_| 0.0);

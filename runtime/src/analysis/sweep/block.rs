@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::{Row, Sweepable, Unevaluated};
 use crate::analysis::{Configuration, ReachError, Unreachable, Workspace};
 use crate::lanes::{InstructionSet, Kernel, Lanes, Register, Tiles};
-use crate::{Class, Error, Function, MINIMUM_MARGIN, Orientation, Pose, Quantity, Scalar};
+use crate::{Class, Error, Function, MINIMUM_MARGIN, Orientation, Pose, Quantity, Scalar, checks};
 
 /// A block of configurations, evaluated again and again for others.
 pub(in crate::analysis) struct Block<'a> {
@@ -22,11 +22,10 @@ pub(in crate::analysis) struct Block<'a> {
 }
 
 impl<'a> Block<'a> {
-    /// Of a manipulator in a workspace with inputs `u`, for as many configurations as are asked for at most.
+    /// Of a manipulator in a workspace, for as many configurations as are asked for at most.
     pub(in crate::analysis) fn new(
         manipulator: &'a dyn Sweepable,
         workspace: &'a dyn Workspace,
-        u: &[f64],
         size: usize,
     ) -> Self {
         let description = manipulator.description();
@@ -34,7 +33,7 @@ impl<'a> Block<'a> {
         let set = InstructionSet::best();
         let mut arguments = Tiles::new(set, signature.arguments_len(description), size);
         let home = workspace.home();
-        for (row, value) in home.q.iter().chain(&home.s).chain(u).enumerate() {
+        for (row, value) in home.q.iter().chain(&home.s).chain(&home.u).enumerate() {
             arguments.fill_row(row, *value);
         }
         let bounds = description.sources.iter().map(|source| match source.class {
@@ -54,7 +53,7 @@ impl<'a> Block<'a> {
 
     /// Evaluates the configurations of a range of indices, no more than there is room for.
     pub(in crate::analysis) fn evaluate(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
-        self.fill(range);
+        self.fill(range)?;
         loop {
             let evaluated = self.manipulator.source_displacements(&self.arguments, &mut self.displacements);
             evaluated.map_err(|error| self.at(0, error))?;
@@ -79,7 +78,7 @@ impl<'a> Block<'a> {
     }
 
     /// Writes those configurations of a range that can be reached, one after the other.
-    fn fill(&mut self, range: Range<usize>) {
+    fn fill(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
         self.indices.clear();
         self.arguments.resize(range.len());
         if self.workspace.fill_rows(range.clone(), &mut self.arguments) {
@@ -87,8 +86,10 @@ impl<'a> Block<'a> {
         } else {
             let mut place = self.workspace.home().clone();
             for index in range {
-                match self.workspace.fill(index, &mut place.q, &mut place.s) {
+                match self.workspace.fill(index, &mut place) {
                     Ok(()) => {
+                        let inputs = checks::inputs(&self.manipulator.description().inputs, &place.u);
+                        inputs.map_err(|error| Unevaluated { configuration: Some(index), error })?;
                         self.write(self.indices.len(), &place);
                         self.indices.push(index);
                     }
@@ -100,6 +101,7 @@ impl<'a> Block<'a> {
             }
         }
         self.finish_filling();
+        Ok(())
     }
 
     fn finish_filling(&mut self) {
@@ -109,16 +111,19 @@ impl<'a> Block<'a> {
     }
 
     fn write(&mut self, place: usize, configuration: &Configuration) {
-        for (row, value) in configuration.q.iter().chain(&configuration.s).enumerate() {
+        let Configuration { q, s, u } = configuration;
+        for (row, value) in q.iter().chain(s).chain(u).enumerate() {
             self.arguments.set_value(row, place, *value);
         }
     }
 
     /// Reads a configuration back, as long as those of the workspace.
     pub(in crate::analysis) fn configuration(&self, place: usize, configuration: &mut Configuration) {
-        let variables = configuration.q.len();
-        self.arguments.copy_rows(0..variables, place, &mut configuration.q);
-        self.arguments.copy_rows(variables..variables + configuration.s.len(), place, &mut configuration.s);
+        let Configuration { q, s, u } = configuration;
+        let (first_s, first_u) = (q.len(), q.len() + s.len());
+        self.arguments.copy_rows(0..first_s, place, q);
+        self.arguments.copy_rows(first_s..first_u, place, s);
+        self.arguments.copy_rows(first_u..first_u + u.len(), place, u);
     }
 
     /// Where Euler rows do not exist there is nothing to sum up: set aside and counted, like a point that cannot be
@@ -126,9 +131,6 @@ impl<'a> Block<'a> {
     fn set_aside(&mut self) -> Result<(), Unevaluated> {
         let description = self.manipulator.description();
         let mut here = self.workspace.home().clone();
-        let u: Vec<f64> = (here.q.len() + here.s.len()..self.arguments.rows())
-            .map(|row| self.arguments.get(row, 0))
-            .collect();
         let mut kept = 0;
         for place in 0..self.indices.len() {
             self.configuration(place, &mut here);
@@ -137,7 +139,7 @@ impl<'a> Block<'a> {
             let mut effects = vec![0.0; description.effects.len()];
             let evaluated = self.manipulator.error_jacobian(&here.q, &here.s, &mut columns);
             let evaluated =
-                evaluated.and_then(|_| self.manipulator.effects(&here.q, &here.s, &u, &mut effects));
+                evaluated.and_then(|_| self.manipulator.effects(&here.q, &here.s, &here.u, &mut effects));
             match evaluated {
                 Ok(()) => {
                     let infinite = |source: &usize| {

@@ -57,15 +57,14 @@ pub struct Row<'a> {
 ///
 /// The effects of one source share one magnitude, so its ΔX is their sum with signs. What cannot be reached is
 /// counted in the result. Blocks are evaluated in parallel (feature `parallel`), the results are the same for
-/// any number of threads. [`Error::Count`] before anything is visited if the workspace is not the manipulator's
-/// or `u` has not as many values as it has inputs.
+/// any number of threads. [`Error::Count`] before anything is visited if the workspace is not the manipulator's,
+/// [`Error::OutOfRange`] where an input is outside its range.
 pub fn sweep(
     manipulator: &dyn Sweepable,
     workspace: &dyn Workspace,
-    u: &[f64],
     visit: &mut dyn FnMut(&Row),
 ) -> Result<UnreachableSummary, Unevaluated> {
-    ready(manipulator, workspace, u)?;
+    ready(manipulator, workspace)?;
     let mut here = workspace.home().clone();
     let mut unreachables = UnreachableSummary::default();
     let count = workspace.len();
@@ -73,7 +72,7 @@ pub fn sweep(
         count.div_ceil(BLOCK),
         |block| {
             let range = block * BLOCK..count.min((block + 1) * BLOCK);
-            let mut block = Block::new(manipulator, workspace, u, range.len());
+            let mut block = Block::new(manipulator, workspace, range.len());
             block.evaluate(range)?;
             Ok(block)
         },
@@ -85,14 +84,13 @@ pub fn sweep(
     Ok(unreachables)
 }
 
-/// Whether a workspace and inputs are those of a manipulator.
+/// Whether a workspace is that of a manipulator.
 pub(in crate::analysis) fn ready(
     manipulator: &dyn Sweepable,
     workspace: &dyn Workspace,
-    u: &[f64],
 ) -> Result<(), Unevaluated> {
     let description = manipulator.description();
-    let Configuration { q, s } = workspace.home();
+    let Configuration { q, s, u } = workspace.home();
     let at_home = |error| Unevaluated { configuration: None, error };
     for (quantity, expected, found) in [
         (Quantity::Variables, description.variables.len(), q.len()),

@@ -11,8 +11,8 @@ fn every_number_of_threads_gives_the_same_to_the_last_bit() {
         pool.install(|| {
             let mut rows = Vec::new();
             let mut visit = |row: &Row| rows.push((row.index, row.repeatable, row.random));
-            let budget = error_budget(&OneByOne(Pps), &workspace, &[], None, &mut visit).unwrap();
-            let drawn = monte_carlo(&OneByOne(Pps), workspace.home(), &[], 10_000, 5).unwrap();
+            let budget = error_budget(&OneByOne(Pps), &workspace, None, &mut visit).unwrap();
+            let drawn = monte_carlo(&OneByOne(Pps), workspace.home(), 10_000, 5).unwrap();
             (budget, rows, drawn)
         })
     };
@@ -50,7 +50,7 @@ fn a_box_is_reached_point_by_point() {
             let place = [index / 4, index / 2 % 2, index % 2];
             let point = [0, 1, 2].map(|axis| points[axis][place[axis]]);
             assert_eq!(workspace.point(index), Some(point));
-            let Ok(Configuration { q, s }) = workspace.configuration(index) else { continue };
+            let Ok(Configuration { q, s, .. }) = workspace.configuration(index) else { continue };
             reached += 1;
             let pose = Puma.pose(&q, &s).unwrap();
             assert!((0..3).all(|i| (pose.position()[i] - point[i]).abs() < 1e-9));
@@ -69,13 +69,12 @@ fn home_of(manipulator: &dyn Manipulator) -> Configuration {
 
 #[test]
 fn what_cannot_be_reached_is_counted_by_reason() {
-    let at = |d1: f64, d2: f64| Configuration { q: vec![d1, d2, 0.0, 0.0, 0.0, 0.0], s: home().s };
+    let at = |d1: f64, d2: f64| Configuration { q: vec![d1, d2, 0.0, 0.0, 0.0, 0.0], ..home() };
     let mut configurations = vec![at(-1.0, 0.0); 1500];
     configurations.extend(vec![at(0.0, 561.0); 2000]);
     let nowhere = listed(&Pps, configurations.clone()).unwrap();
     let budget =
-        error_budget(&OneByOne(Pps), &nowhere, &[], None, &mut |_: &Row| panic!("nothing is reached"))
-            .unwrap();
+        error_budget(&OneByOne(Pps), &nowhere, None, &mut |_: &Row| panic!("nothing is reached")).unwrap();
     assert_eq!((budget.configurations, budget.unreachable.count), (0, 3500));
     assert_eq!(budget.unreachable.first.len(), 1000);
     let kinds = budget.unreachable.reasons.iter().map(|(reason, count)| match reason {
@@ -88,8 +87,7 @@ fn what_cannot_be_reached_is_counted_by_reason() {
     let somewhere = listed(&Pps, configurations).unwrap();
     let mut visited = Vec::new();
     let budget =
-        error_budget(&OneByOne(Pps), &somewhere, &[], None, &mut |row: &Row| visited.push(row.index))
-            .unwrap();
+        error_budget(&OneByOne(Pps), &somewhere, None, &mut |row: &Row| visited.push(row.index)).unwrap();
     assert_eq!((budget.configurations, visited), (1, vec![3500]));
     assert_eq!(budget.sources[0].worst, Some(3500));
     // One point: its errors are all there is, and the smallest sphere around them is a point.

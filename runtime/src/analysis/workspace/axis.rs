@@ -1,13 +1,13 @@
-//! Values that variables and parameters go through, and their combinations.
+//! Values that variables, parameters and inputs go through, and their combinations.
 
 use crate::{Error, Quantity};
 
-/// The values that one variable or one parameter goes through.
+/// The values that one variable, parameter or input goes through.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// Which of them, from 0.
     pub index: usize,
-    /// The values: the length unit, or rad.
+    /// The values: the length unit, rad, or coherent units.
     pub values: Vec<f64>,
 }
 

@@ -66,16 +66,16 @@ impl Workspace for ReachedBox<'_> {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
-        q.copy_from_slice(&self.home.q);
-        s.copy_from_slice(&self.home.s);
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(&self.home);
         let mut pose = self.pose;
         pose.0[3] = self.at(index);
         let target = match self.orientation {
             ToolOrientation::Free => Target::Point(pose.position()),
             ToolOrientation::Home => Target::Pose(pose),
         };
-        q.copy_from_slice(&inverse(self.manipulator, s, q, &self.solved, &target)?);
+        let Configuration { q, s, .. } = &*configuration;
+        configuration.q = inverse(self.manipulator, s, q, &self.solved, &target)?;
         Ok(())
     }
 

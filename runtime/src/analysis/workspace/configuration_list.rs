@@ -14,14 +14,16 @@ pub struct Listed {
 
 /// A list of configurations; those with a variable outside its limits count as unreachable.
 ///
-/// [`Error::Count`] if one has not as many variables or parameters as the manipulator.
+/// [`Error::Count`] if one has not as many variables, parameters or inputs as the manipulator.
 pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>) -> Result<Listed, Error> {
     let description = manipulator.description();
     let home = Configuration::home(description);
-    for Configuration { q, s } in &configurations {
-        for (quantity, expected, found) in
-            [(Quantity::Variables, home.q.len(), q.len()), (Quantity::Parameters, home.s.len(), s.len())]
-        {
+    for Configuration { q, s, u } in &configurations {
+        for (quantity, expected, found) in [
+            (Quantity::Variables, home.q.len(), q.len()),
+            (Quantity::Parameters, home.s.len(), s.len()),
+            (Quantity::Inputs, home.u.len(), u.len()),
+        ] {
             if expected != found {
                 return Err(Error::Count { quantity, expected, found });
             }
@@ -40,10 +42,9 @@ impl Workspace for Listed {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
-        let configuration = self.configurations.get(index).unwrap_or(&self.home);
-        q.copy_from_slice(&configuration.q);
-        s.copy_from_slice(&configuration.s);
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(self.configurations.get(index).unwrap_or(&self.home));
+        let q = &configuration.q;
         let outside = |(value, [lower, upper]): (&f64, &[f64; 2])| value < lower || value > upper;
         match q.iter().zip(&self.limits).position(outside) {
             Some(variable) => {

@@ -19,14 +19,14 @@ pub trait Workspace: Sync {
         self.len() == 0
     }
 
-    /// The configuration that errors relative to home are relative to; it says how long `q` and `s` are.
+    /// The configuration that errors relative to home are relative to; it says how long `q`, `s` and `u` are.
     fn home(&self) -> &Configuration;
 
-    /// Writes configuration `index`, less than [`len`](Self::len), over `q` and `s`, which are as long as those
-    /// of home. If it cannot be had they hold what was asked for.
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError>;
+    /// Writes configuration `index`, less than [`len`](Self::len), over one that is as long as that of home. If it
+    /// cannot be had, that holds what was asked for.
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError>;
 
-    /// Writes what differs from home in the configurations of a range into rows q, s of `rows`, which hold those of
+    /// Writes what differs from home in the configurations of a range into rows q, s, u of `rows`, which hold those of
     /// home, if all can be had and this is quicker than one by one; says whether it did.
     fn fill_rows(&self, _range: Range<usize>, _rows: &mut Tiles) -> bool {
         false
@@ -40,7 +40,7 @@ pub trait Workspace: Sync {
     /// Configuration `index`, or why it cannot be had.
     fn configuration(&self, index: usize) -> Result<Configuration, ReachError> {
         let mut configuration = self.home().clone();
-        self.fill(index, &mut configuration.q, &mut configuration.s)?;
+        self.fill(index, &mut configuration)?;
         Ok(configuration)
     }
 
@@ -62,9 +62,8 @@ impl Workspace for One<'_> {
         self.0
     }
 
-    fn fill(&self, _: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
-        q.copy_from_slice(&self.0.q);
-        s.copy_from_slice(&self.0.s);
+    fn fill(&self, _: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(self.0);
         Ok(())
     }
 }

@@ -14,7 +14,7 @@ pub struct JointGrid {
 
 /// Every combination of the values of some variables, the last one fastest; the others stay at home.
 ///
-/// Parameters are nominal. [`Error::Count`] if an axis names a variable that there is not.
+/// Parameters and inputs are nominal; [`with_inputs`](super::with_inputs) moves these. [`Error::Count`] if an axis names a variable that there is not.
 pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointGrid, Error> {
     let description = manipulator.description();
     let indices = axes.iter().map(|axis| axis.index);
@@ -31,10 +31,9 @@ impl Workspace for JointGrid {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
-        q.copy_from_slice(&self.home.q);
-        s.copy_from_slice(&self.home.s);
-        combine(index, &self.axes, q);
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(&self.home);
+        combine(index, &self.axes, &mut configuration.q);
         Ok(())
     }
 }

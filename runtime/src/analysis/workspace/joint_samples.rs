@@ -1,4 +1,4 @@
-//! Samples of joint variables, evenly spread or random.
+//! Samples of joint variables and inputs, evenly spread or random.
 
 use core::ops::Range;
 
@@ -16,23 +16,38 @@ use crate::{Error, Manipulator, Quantity};
 enum Spread {
     /// The Halton sequence.
     Even,
-    /// Random numbers: a stream for every variable and [`STREAM`] configurations.
+    /// Random numbers: a stream for everything that moves and [`STREAM`] configurations.
     Random { seed: u64 },
 }
 
-/// Samples of some variables; see [`joint_samples`] and [`random_joint_samples`].
+/// Samples of some variables and inputs; see [`joint_samples`] and [`random_joint_samples`].
 #[derive(Clone, Debug)]
 pub struct JointSamples {
     home: Configuration,
-    /// A moved variable, its range, and the base of its radical inverse.
-    moved: Vec<(usize, [f64; 2], usize)>,
+    moved: Vec<Moved>,
     count: usize,
     spread: Spread,
 }
 
+/// What moves.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    what: What,
+    range: [f64; 2],
+    /// Of its radical inverse.
+    base: usize,
+}
+
+/// A variable or an input, by its index.
+#[derive(Clone, Copy, Debug)]
+enum What {
+    Variable(usize),
+    Input(usize),
+}
+
 /// `count` samples of the joints in `moved`, spread evenly within their limits; the others stay at home.
 ///
-/// Parameters are nominal. [`Error::Count`] if `moved` names a variable that there is not.
+/// Parameters and inputs are nominal; [`JointSamples::inputs`] moves these. [`Error::Count`] if `moved` names a variable that there is not.
 pub fn joint_samples(
     manipulator: &dyn Manipulator,
     moved: &[usize],
@@ -61,10 +76,12 @@ fn samples(
     in_range(moved.iter().copied(), Quantity::Variables, description.variables.len())?;
     let home = Configuration::home(description);
     let arm = sampling::arm_length(manipulator, &home.s)?;
-    let range = |(dimension, &i): (usize, &usize)| {
-        (i, sampling::joint_range(&description.variables[i], arm), sampling::prime(dimension))
-    };
-    let moved = moved.iter().enumerate().map(range).collect();
+    let moved = moved.iter().enumerate().map(|(dimension, &i)| Moved {
+        what: What::Variable(i),
+        range: sampling::joint_range(&description.variables[i], arm),
+        base: sampling::prime(dimension),
+    });
+    let moved = moved.collect();
     Ok(JointSamples { home, moved, count, spread })
 }
 
@@ -77,20 +94,19 @@ impl Workspace for JointSamples {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
-        q.copy_from_slice(&self.home.q);
-        s.copy_from_slice(&self.home.s);
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(&self.home);
         match self.spread {
             Spread::Even => {
-                for &(i, [lower, upper], base) in &self.moved {
-                    q[i] = lower + (upper - lower) * sampling::radical_inverse(index + 1, base);
+                for &Moved { what, range: [lower, upper], base } in &self.moved {
+                    let share = sampling::radical_inverse(index + 1, base);
+                    *what.value(configuration) = lower + (upper - lower) * share;
                 }
             }
             Spread::Random { seed } => {
-                for (random, &(i, range, _)) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved)
-                {
+                for (random, moved) in self.streams(seed, index / STREAM).iter_mut().zip(&self.moved) {
                     (0..index % STREAM).for_each(|_| _ = random.next_u64());
-                    q[i] = between(range, random);
+                    *moved.what.value(configuration) = between(moved.range, random);
                 }
             }
         }
@@ -102,20 +118,55 @@ impl Workspace for JointSamples {
         if !range.start.is_multiple_of(STREAM) {
             return false;
         }
-        let moved = self.moved.iter().map(|moved| moved.0).collect::<Vec<_>>();
+        let moved = self.moved.iter().map(|moved| self.row(moved.what)).collect::<Vec<_>>();
         for first in range.clone().step_by(STREAM) {
             let mut streams = self.streams(seed, first / STREAM);
             let count = STREAM.min(range.end - first);
             rows.set_each(&moved, first - range.start, count, |which| {
-                between(self.moved[which].1, &mut streams[which])
+                between(self.moved[which].range, &mut streams[which])
             });
         }
         true
     }
 }
 
+impl What {
+    /// Its value in a configuration.
+    fn value(self, configuration: &mut Configuration) -> &mut f64 {
+        match self {
+            Self::Variable(i) => &mut configuration.q[i],
+            Self::Input(i) => &mut configuration.u[i],
+        }
+    }
+}
+
 impl JointSamples {
-    /// The streams of all variables that are moved, for so many configurations: made side by side they do not wait
+    /// Moves these inputs too, each within its range.
+    ///
+    /// [`Error::Count`] if there is no such input, [`Error::NotFinite`] if its range has no end.
+    pub fn inputs(mut self, manipulator: &dyn Manipulator, inputs: &[usize]) -> Result<Self, Error> {
+        let description = manipulator.description();
+        in_range(inputs.iter().copied(), Quantity::Inputs, description.inputs.len())?;
+        for &i in inputs {
+            let range = description.inputs[i].range;
+            if !range.iter().all(|end| end.is_finite()) {
+                return Err(Error::NotFinite { quantity: Quantity::Inputs, index: i });
+            }
+            let base = sampling::prime(self.moved.len());
+            self.moved.push(Moved { what: What::Input(i), range, base });
+        }
+        Ok(self)
+    }
+
+    /// The row of what moves, among q, s, u.
+    fn row(&self, what: What) -> usize {
+        match what {
+            What::Variable(i) => i,
+            What::Input(i) => self.home.q.len() + self.home.s.len() + i,
+        }
+    }
+
+    /// The streams of everything that is moved, for so many configurations: made side by side they do not wait
     /// for each other.
     fn streams(&self, seed: u64, block: usize) -> Vec<impl Rng> {
         let moved = self.moved.len();

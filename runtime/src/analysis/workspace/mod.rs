@@ -1,7 +1,7 @@
 //! The configurations over which errors are analyzed.
 //!
 //! A [`Workspace`] makes configurations by index: grids and samples of joints, a volume of tool points presented at one
-//! point, a box of points, a list. What could not be reached is counted by reason.
+//! point, a box of points, a list; each of them with inputs that go through values of their own. What could not be reached is counted by reason.
 
 mod axis;
 mod base_box;
@@ -13,6 +13,7 @@ mod joint_samples;
 mod presented_volume;
 mod subset;
 mod unreachable;
+mod with_inputs;
 
 pub use axis::Axis;
 pub(in crate::analysis) use axis::in_range;
@@ -27,3 +28,4 @@ pub use joint_samples::{JointSamples, joint_samples, random_joint_samples};
 pub use presented_volume::{Presentation, PresentedVolume, presented_volume};
 pub use subset::Subset;
 pub use unreachable::{Unreachable, UnreachableSummary};
+pub use with_inputs::{WithInputs, with_inputs};

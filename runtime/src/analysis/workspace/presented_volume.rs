@@ -55,13 +55,13 @@ impl Workspace for PresentedVolume<'_> {
         &self.home
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
         let Presentation { point, tool_points, approaches, solved } = &self.presentation;
-        q.copy_from_slice(&self.home.q);
-        s.copy_from_slice(&self.home.s);
-        let tool_point = combine(index, approaches, q);
-        combine(tool_point, tool_points, s);
-        q.copy_from_slice(&inverse(self.manipulator, s, q, solved, &Target::Point(*point))?);
+        configuration.copy_from(&self.home);
+        let tool_point = combine(index, approaches, &mut configuration.q);
+        combine(tool_point, tool_points, &mut configuration.s);
+        let Configuration { q, s, .. } = &*configuration;
+        configuration.q = inverse(self.manipulator, s, q, solved, &Target::Point(*point))?;
         Ok(())
     }
 }

@@ -23,12 +23,12 @@ impl Workspace for Subset<'_> {
         self.workspace.home()
     }
 
-    fn fill(&self, index: usize, q: &mut [f64], s: &mut [f64]) -> Result<(), ReachError> {
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
         let all = self.workspace.len();
         let place = match all <= self.count {
             true => index,
             false => ((index as f64 * GOLDEN).fract() * all as f64) as usize,
         };
-        self.workspace.fill(place, q, s)
+        self.workspace.fill(place, configuration)
     }
 }

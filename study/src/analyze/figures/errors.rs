@@ -28,4 +28,5 @@ pub fn norm(vector: [f64; 3]) -> f64 {
 pub(super) struct Place {
     q: Vec<f64>,
     s: Vec<f64>,
+    u: Vec<f64>,
 }

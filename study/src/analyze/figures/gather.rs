@@ -106,5 +106,6 @@ fn value(over: Over, configuration: &Configuration) -> f64 {
     match over {
         Over::Variable(variable) => configuration.q[variable],
         Over::Parameter(parameter) => configuration.s[parameter],
+        Over::Input(input) => configuration.u[input],
     }
 }

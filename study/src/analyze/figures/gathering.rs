@@ -1,7 +1,7 @@
 //! All figures of a study in the making, during the sweep and after it.
 
 use abbe::Description;
-use abbe::analysis::{Configuration, Row, Sweepable, sampling, sweep};
+use abbe::analysis::{Configuration, Row, Sweepable, sweep};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 
@@ -75,8 +75,7 @@ fn sweep_own(
 ) -> Result<Option<[usize; 2]>, Diagnostics> {
     let Some(region) = &gather.figure.region else { return Ok(None) };
     let workspace = region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, error))?;
-    let u = sampling::nominal_inputs(manipulator.description());
-    let unreachable = sweep(manipulator, &*workspace, &u, &mut |row| gather.add(row))
+    let unreachable = sweep(manipulator, &*workspace, &mut |row| gather.add(row))
         .map_err(|error| mistake::whole(&spec.file, error))?;
     Ok(Some([workspace.len() - unreachable.count, unreachable.count]))
 }

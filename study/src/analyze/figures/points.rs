@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn they_are_few_and_evenly_spread() {
         let mut points = Points::default();
-        let configuration = Configuration { q: Vec::new(), s: Vec::new() };
+        let configuration = Configuration { q: Vec::new(), s: Vec::new(), u: Vec::new() };
         for i in 0..54_321 {
             let repeatable = [f64::from(i), 0.0, 0.0];
             points.add(&Errors { repeatable, random: [0.0; 3] }, false, &configuration);
