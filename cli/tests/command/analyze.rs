@@ -124,7 +124,12 @@ fn every_shipped_manipulator_can_be_analyzed() {
     for shipped in SHIPPED {
         narrow(&prints(&["analyze", shipped.name]));
         let report = json(&["analyze", shipped.name, "--json"]);
-        let expected = if shipped.study.is_some() { 999 } else { 1000 };
+        // The temperature of machine3 is looked at with both ends of its range.
+        let expected = match shipped.name {
+            _ if shipped.study.is_some() => 999,
+            "machine3" => 2000,
+            _ => 1000,
+        };
         assert_eq!(report["configurations"], expected, "{}", shipped.name);
         assert!(report["combined"]["radius"].as_f64().is_some_and(|radius| radius >= 0.0));
     }

@@ -7,6 +7,7 @@ mod compensate;
 mod documents;
 mod generate;
 mod identify;
+mod inputs;
 mod jacobian;
 mod measure;
 mod readme;

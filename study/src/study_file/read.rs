@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
 use abbe_codegen::document::{Document, Item, Section};
+use abbe_codegen::expr::Symbol;
 use abbe_codegen::spec::Spec;
 use sha2::{Digest, Sha256};
 
@@ -15,7 +16,7 @@ use super::published::{read_compensated, read_published};
 use super::study::Study;
 use crate::changes::{Changes, find_symbol};
 use crate::machine::Machine;
-use crate::workspace::{constant, positive_length, read_region};
+use crate::workspace::{Region, constant, positive_length, read_region};
 
 impl Study {
     /// The study of that file, or else the one shipped with the manipulator, or else joint samples.
@@ -42,6 +43,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     root.check_keys(&[&keys::FILE], document);
     let head = root.required("study", document).and_then(|item| document.section(&item));
     let region = root.required("workspace", document).and_then(|item| read_region(&item, document, spec));
+    let moved = region.as_ref().map_or_else(Vec::new, Region::moving_inputs);
     let region = region.map(|mut region| {
         region.over_ranges(spec);
         region
@@ -57,7 +59,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     Some(Study {
         publisher: head.optional_text("publisher", document),
         tolerance: head.get("tolerance").and_then(|item| positive_length(&item, document, spec)),
-        changes: read_changes(&head, document, spec),
+        changes: read_changes(&head, document, spec, &moved),
         not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item, document)),
         title: title?,
         region: region?,
@@ -76,12 +78,19 @@ fn identify(document: &Document) -> (String, String) {
     (name, hash.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec) -> Changes {
+/// What `set`, `enable` and `disable` change; `moved` are the inputs that the workspace names.
+fn read_changes(head: &Section<'_>, document: &mut Document, spec: &Spec, moved: &[usize]) -> Changes {
     let mut changes = Changes::default();
     if let Some(section) = head.get("set").and_then(|item| document.section(&item)) {
         for item in section.items() {
             let symbol = find_symbol(document, item.key_span.clone(), &item.key, spec);
             let Some((symbol, dimension)) = symbol else { continue };
+            if matches!(symbol, Symbol::Input(i) if moved.contains(&i)) {
+                let message = format!("`{}` is set, and the workspace moves it", item.key);
+                let mistake = Diagnostic::new(item.key_span.clone(), message);
+                document.mistake(mistake.help("take it out of `set`, or out of the workspace"));
+                continue;
+            }
             let what = format!("the value of `{}`", item.key);
             if let Some(value) = constant(&item, document, spec, dimension, &what) {
                 changes.set(document, item.span(), spec, symbol, value);

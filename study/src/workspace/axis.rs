@@ -79,7 +79,14 @@ impl<'a> Candidates<'a> {
     pub(super) fn variables_and_inputs(spec: &'a Spec) -> Self {
         let mut all = Self::variables(spec);
         all.list.extend(Self::inputs(spec).list);
-        Self { what: "variable or input", ..all }
+        let what = if spec.inputs.is_empty() { "variable" } else { "variable or input" };
+        Self { what, ..all }
+    }
+
+    /// The same without limits: what lies beyond them is counted as unreachable.
+    pub(super) fn unlimited(mut self) -> Self {
+        self.list.iter_mut().for_each(|candidate| candidate.within.1 = [f64::NEG_INFINITY, f64::INFINITY]);
+        self
     }
 
     fn find(&self, document: &mut Document, span: Range<usize>, name: &str) -> Option<usize> {

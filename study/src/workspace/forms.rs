@@ -84,7 +84,7 @@ fn presented(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opt
     let point = section.required("point", document).and_then(|item| point(&item, document, spec));
     let tool_points = section.get("tool_points");
     let tool_points = tool_points.map(|item| Candidates::parameters(spec).axes(&item, document, spec));
-    let variables = Candidates::variables(spec);
+    let variables = Candidates::variables(spec).unlimited();
     let approaches =
         section.get("approaches").map(|item| (variables.axes(&item, document, spec), item.span()));
     let (approaches, span) = approaches.unwrap_or_default();

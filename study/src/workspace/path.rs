@@ -179,7 +179,8 @@ fn column(heading: &str, spec: &Spec) -> Result<Column, String> {
     let names = all.iter().map(|(name, ..)| *name).collect::<Vec<_>>();
 
     let mut document = Document::new("", name);
-    let found = find_name(&mut document, 0..name.len(), name, &names, "variable, parameter or input");
+    let what = if spec.inputs.is_empty() { "variable or parameter" } else { "variable, parameter or input" };
+    let found = find_name(&mut document, 0..name.len(), name, &names, what);
     let (_, place, dimension) = found.map(|found| all[found]).ok_or_else(|| mistake(&document))?;
     let text = format!("1 {}", unit.unwrap_or_default());
     let mut document = Document::new("", text.as_str());
