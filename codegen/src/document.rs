@@ -291,6 +291,11 @@ impl<'d> Item<'d> {
         Some(Self { key: key.get_ref().to_string(), key_span: key.span(), value })
     }
 
+    /// Whether the value is a string.
+    pub(crate) fn is_text(&self) -> bool {
+        self.value.get_ref().is_str()
+    }
+
     /// Whether the value is a table.
     pub fn is_table(&self) -> bool {
         self.value.get_ref().is_table()

@@ -70,20 +70,25 @@ fn every_recipe_gives_its_formula() {
         let (ei, m) = (4e15, 250.0 * w);
         // About z of F_0 by −M c, about x by M s … of the unturned column; then seen from the turned table.
         let (about_z, about_x) = (-m * c * l / ei, -m * s * l / ei);
-        let (along_x, along_z) = (-about_z * l / 2.0, about_x * l / 2.0);
+        // The tool pushes along −x of F_0: it bends the column about z, and twists it by 250 mm sin q2.
+        let (f, gj) = (200e3, 3e15);
+        let (along_x, along_z) = (-about_z * l / 2.0 - f * l.powi(3) / (3.0 * ei), about_x * l / 2.0);
+        let (about_z, about_y) = (about_z + f * l * l / (2.0 * ei), 250.0 * s * f * l / gj);
         close(
             at("bending of the column", 1),
             [
                 c * along_x - s * along_z,
                 0.0,
                 s * along_x + c * along_z,
-                0.0,
+                about_y,
                 s * about_x + c * about_z,
                 c * about_x - s * about_z,
             ],
         );
         let give = at("bearing of the table", 1);
-        close(give, [0.0, -5e-10 * w, 0.0, 0.0, -2e-13 * m, 0.0]);
+        close(give, [-1e-9 * f * c, -5e-10 * w, -1e-9 * f * s, 0.0, -2e-13 * m, 0.0]);
+        // Of the column 30 kg, which the bearing at its end does not carry.
+        close(at("carriage of the rail", 0), [0.0, -1e-9 * (w + 30.0 * 9806.65), 0.0, 0.0, 0.0, 0.0]);
         close(at("scale slips", 0), [0.005, 0.0, 0.0, 0.0, 0.0, 0.0]);
         close(at("scale slips", 1), [-0.002 * c, 0.0, -0.002 * s, 0.0, 0.0, 0.0]);
     }

@@ -2,8 +2,8 @@
 //!
 //! `walk` goes along the chain factor by factor and keeps every frame's pose in `F_0`; `error_jacobian` (with
 //! `moments`) and `symbol_jacobian` read their columns off these poses by the structured product rule; `rows` turns a
-//! small rotation into rows 4–6; `sources` gives ε, with `deviation` for errors
-//! of joints and parameters. The other way, `accumulate` goes from the tip to the base over the
+//! small rotation into rows 4–6; `sources` gives ε, with `deviation` for errors of joints and parameters and `elastic`
+//! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
 //! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`. `real` is the exact
 //! chain with errors. [`Model`] holds the results.
 
@@ -12,6 +12,7 @@ mod by_source;
 mod covariance;
 mod deviation;
 mod displacement;
+mod elastic;
 mod error_jacobian;
 mod local;
 mod local_twist;

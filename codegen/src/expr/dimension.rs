@@ -28,6 +28,8 @@ impl Dimension {
     pub const FORCE_TIMES_AREA: Self = Self { halves: [6, 2, -4, 0] };
     /// An acceleration.
     pub const ACCELERATION: Self = Self { halves: [2, 0, -4, 0] };
+    /// A mass per length.
+    pub const MASS_PER_LENGTH: Self = Self { halves: [-2, 2, 0, 0] };
     /// A pressure.
     pub const PRESSURE: Self = Self { halves: [-2, 2, -4, 0] };
 
@@ -108,6 +110,7 @@ impl fmt::Display for Dimension {
             Self::MOMENT => "a moment",
             Self::FORCE_TIMES_AREA => "a bending or torsional stiffness",
             Self::ACCELERATION => "an acceleration",
+            Self::MASS_PER_LENGTH => "a mass per length",
             other => return write!(f, "a quantity in {}", other.unit("m")),
         };
         f.write_str(name)

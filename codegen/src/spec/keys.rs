@@ -23,7 +23,8 @@ crate::tables! {
     DEVIATION: ["[[source]]", "[[source.effect]]"], ["joint", "parameter", "error", "dh"];
     NUMBERS: ["[source.dh]"], ["theta", "d", "a", "alpha"];
     MAGNITUDE: ["[source.magnitude]"], ["value", "standard_deviation"];
-    BEAM: ["[source.beam]"], ["length", "axis", "EI_y", "EI_z", "GJ", "EA"];
+    BEAM: ["[source.beam]"], ["length", "axis", "EI_y", "EI_z", "GJ", "EA", "mass_per_length"];
     COMPLIANCE: ["[source.compliance]"], ["diagonal", "matrix"];
-    LOAD: ["[[load]]"], ["name", "mass", "frame", "point", "description", "reference"];
+    LOAD: ["[[load]]"],
+        ["name", "mass", "force", "moment", "axes", "frame", "point", "description", "reference"];
 }

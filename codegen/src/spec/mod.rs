@@ -1,16 +1,19 @@
 //! A manipulator's spec file: read, checked, and as the rest of the pipeline sees it.
 //!
 //! [`Spec`] is what a file says once nothing is wrong with it. `declarations` reads the names, `frames` the
-//! transforms, `sources`, `effects`, `deviations` and `loads` the physical errors; `rigid` shows that every matrix is a rigid motion.
+//! transforms, `sources`, `effects`, `elastic`, `deviations` and `loads` the physical errors; `positive` checks the signs of masses and
+//! stiffnesses, `rigid` that every matrix is a rigid motion.
 
 mod declarations;
 mod describe;
 mod deviations;
 mod effects;
+mod elastic;
 mod frames;
 mod keys;
 mod loads;
 mod names;
+mod positive;
 mod read;
 mod rigid;
 mod sources;
@@ -19,6 +22,6 @@ mod types;
 pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
 pub use keys::TABLES;
 pub use types::{
-    Beam, Cause, ChainNumber, Compliance, Deviation, DhConvention, DhNumber, Effect, Factor, Frame, Input,
-    Load, Magnitude, Matrix, Parameter, Source, Spec, Variable,
+    Axes, Beam, Cause, ChainNumber, Compliance, Deviation, DhConvention, DhNumber, Effect, Factor, Frame,
+    Input, Load, Magnitude, Matrix, Parameter, Point, Source, Spec, Variable,
 };

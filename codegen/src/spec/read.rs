@@ -11,6 +11,7 @@ use super::frames::{OwnVariable, convention, read_factors};
 use super::keys;
 use super::loads::{check_loaded, read_gravity, read_loads};
 use super::names::{check_identifier, title_of};
+use super::positive::check_signs;
 use super::rigid::check_rigid;
 use super::sources::read_sources;
 use super::{Factor, Frame, Orientation, Spec};
@@ -91,6 +92,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         None => None,
     };
     check_loaded(root, &sources, &loads, gravity.is_some(), document);
+    check_signs(&sources, &loads, &declarations, document);
     raw_frames?;
     complete.then_some(())?;
     let Declarations { parameters, inputs, variables, .. } = declarations;

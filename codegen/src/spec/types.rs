@@ -212,20 +212,46 @@ pub struct Beam {
     pub torsion: Option<Expression>,
     /// Stiffness against extension; rigid if there is none.
     pub extension: Option<Expression>,
+    /// Its own mass per length; it weighs nothing if there is none.
+    pub mass_per_length: Option<Expression>,
 }
 
 /// Six errors per unit of six forces and moments, both in the order of ε; none where zero.
 pub type Compliance = [[Option<Expression>; 6]; 6];
 
-/// A mass that weighs on the structure.
+/// What acts on the structure: the weight of a mass, a force, a moment.
 #[derive(Clone, Debug)]
 pub struct Load {
-    /// Its mass.
-    pub mass: Expression,
+    /// What weighs under gravity.
+    pub mass: Option<Expression>,
+    /// A force, along x, y and z.
+    pub force: Option<[Expression; 3]>,
+    /// A moment, about x, y and z.
+    pub moment: Option<[Expression; 3]>,
+    /// Whose axes force and moment are in.
+    pub axes: Axes,
     /// The frame it moves with, from 0.
     pub frame: usize,
-    /// Where it is, as seen from that frame.
-    pub point: [Expression; 3],
+    /// Where it acts.
+    pub point: Point,
+}
+
+/// The axes of a force or moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// Those of its load's frame: it turns with that.
+    Frame,
+    /// Those of `F_0`.
+    Base,
+}
+
+/// Where a load acts.
+#[derive(Clone, Debug)]
+pub enum Point {
+    /// Here, as seen from its frame.
+    Here([Expression; 3]),
+    /// At the tool point; its frame is the last one.
+    Tool,
 }
 
 /// A number of the nominal chain that is not what the chain says: `A_i(q + δq)` where `A_i(q)` is meant.

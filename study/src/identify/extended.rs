@@ -1,21 +1,25 @@
 //! A spec with terms as sources: what is fitted, and what `analyze` then computes, are one and the same.
 
 use abbe_codegen::expr::{Dimension, Expression, Function, Symbol, Unit};
-use abbe_codegen::spec::{Cause, Class, Compliance, Effect, Load, Source, Spec};
+use abbe_codegen::spec::{Axes, Cause, Class, Compliance, Effect, Load, Point, Source, Spec};
 
 use super::terms::{Basis, Term};
 
 /// The spec with all terms as repeatable sources of magnitude 1, behind its own.
 ///
-/// Where a term gives way under weight and the spec has no loads, 1 kg hangs on the last frame.
+/// Where a term gives way under weight and the spec has no loads, 1 kg hangs at the tool point.
 pub fn extended(spec: &Spec, terms: &[Term]) -> Spec {
     let mut extended = spec.clone();
     if terms.iter().any(|term| term.basis == Basis::Moment) {
-        let zero = || Expression::from_number(0.0, Dimension::LENGTH);
         if spec.loads.is_empty() {
-            let mass = Expression::from_number(1.0, Dimension::MASS);
-            let frame = spec.frames.len().saturating_sub(1);
-            extended.loads.push(Load { mass, frame, point: [zero(), zero(), zero()] });
+            extended.loads.push(Load {
+                mass: Some(Expression::from_number(1.0, Dimension::MASS)),
+                force: None,
+                moment: None,
+                axes: Axes::Frame,
+                frame: spec.frames.len().saturating_sub(1),
+                point: Point::Tool,
+            });
         }
         let down = || Expression::from_number(-gravity(spec), Dimension::ACCELERATION);
         let none = || Expression::from_number(0.0, Dimension::ACCELERATION);

@@ -103,7 +103,9 @@ fn number(value: f64) -> String {
 /// What compliances need beside their sources: a load and gravity, if the spec has none.
 fn weight(spec: &Spec) -> [String; 2] {
     let last = spec.frames.last().map_or("", |frame| frame.name.as_str());
-    let load = format!("\n[[load]]\nname = \"weight at the tip\"\nmass = \"1 kg\"\nframe = {last:?}\n");
+    let load = format!(
+        "\n[[load]]\nname = \"weight at the tool point\"\nmass = \"1 kg\"\nframe = {last:?}\npoint = \"tool\"\n"
+    );
     let gravity = "gravity = [0, 0, \"-9.80665 m/s^2\"]\n".to_owned();
     [
         if spec.loads.is_empty() { load } else { String::new() },

@@ -1,0 +1,317 @@
+//! Beams and compliances under loads: what each of them carries, and how far it gives way.
+//!
+//! A load acts where it is. What is beyond an element is carried by it as a whole: loads of frames behind its own, and of
+//! its own frame. A beam extends from its end M back to where it is clamped, and a load of its own frame acts on it
+//! where the load's point projects onto it: beyond M at M, before the clamp not at all.
+
+use super::sources::{six, vectors};
+use super::walk::transform;
+use crate::expr::{Function, Motion, motion};
+use crate::graph::{Frame, Graph, Node, Vector};
+use crate::spec::{Axes, Beam, Cause, Component, Effect, Load, Point, Spec};
+
+/// Six errors per unit of a force and a moment, both in the order of ε.
+type Compliance = [[Node; 6]; 6];
+
+/// A beam or compliance on the link of a frame.
+pub(super) struct Element<'a> {
+    pub(super) effect: &'a Effect,
+    /// Its place M, as seen from the frame.
+    pub(super) place: &'a Frame,
+}
+
+/// Everything that acts on the structure.
+pub(super) struct Loads<'a> {
+    /// The poses of all frames in `F_0`.
+    frames: &'a [Frame],
+    acting: Vec<Acting>,
+    weights: Vec<Weight<'a>>,
+}
+
+/// A force and a moment at a point.
+#[derive(Clone, Copy)]
+struct Acting {
+    /// The frame that they move with.
+    frame: usize,
+    /// The point, as seen from that frame.
+    point: Vector,
+    /// In the axes of `F_0`.
+    force: Vector,
+    /// In the axes of `F_0`.
+    moment: Vector,
+}
+
+/// A beam's own weight.
+struct Weight<'a> {
+    effect: &'a Effect,
+    /// Its end M, as seen from its frame.
+    end: Frame,
+    axis: usize,
+    length: Node,
+    /// Force per length, in the axes of `F_0`.
+    force: Vector,
+}
+
+impl<'a> Loads<'a> {
+    pub(super) fn new(graph: &mut Graph, spec: &'a Spec, frames: &'a [Frame]) -> Self {
+        let zero = [graph.zero(); 3];
+        let gravity = spec.gravity.as_ref();
+        let gravity = gravity.map_or(zero, |gravity| gravity.each_ref().map(|entry| graph.lower(entry)));
+        let acting = spec.loads.iter().map(|load| acting(graph, spec, load, frames, gravity)).collect();
+        let mut weights = Vec::new();
+        for effect in spec.enabled_sources().flat_map(|source| &source.effects) {
+            let Cause::Beam(beam) = &effect.cause else { continue };
+            if let Some(mass) = &beam.mass_per_length {
+                let (end, mass) = (transform(graph, &effect.at), graph.lower(mass));
+                let (length, force) = (graph.lower(&beam.length), graph.scale(mass, gravity));
+                weights.push(Weight { effect, end, axis: beam.axis, length, force });
+            }
+        }
+        Self { frames, acting, weights }
+    }
+
+    /// `ε = C w` of a compliance, in its axes.
+    pub(super) fn give_way(
+        &self,
+        graph: &mut Graph,
+        element: &Element<'_>,
+        compliance: &Compliance,
+    ) -> [Node; 6] {
+        let there = graph.then(&self.frames[element.effect.frame], element.place);
+        let mut carried = self.carried(graph, element);
+        for weight in self.weights.iter().filter(|weight| weight.effect.frame == element.effect.frame) {
+            // What of the beam is beyond the place of the compliance.
+            let before = graph.sub_vectors(element.place.position, weight.end.position);
+            let along = graph.dot(weight.end.axes[weight.axis], before);
+            let beyond = back(graph, along, weight.length);
+            carried.push(weight.of_last(graph, beyond));
+        }
+        let wrench = self.wrench(graph, &there.axes, there.position, &carried);
+        product(graph, compliance, wrench)
+    }
+
+    /// The end of a beam, clamped at its other end, in the axes of M.
+    ///
+    /// At a distance ℓ before the end, a load bends the beam up to there and swings the straight rest:
+    ///
+    /// ```text
+    /// (δ, θ) = C(L − ℓ) w        δ_M = δ + θ × ℓ a        θ_M = θ
+    /// ```
+    pub(super) fn bend(&self, graph: &mut Graph, element: &Element<'_>, beam: &Beam) -> [Node; 6] {
+        let there = graph.then(&self.frames[element.effect.frame], element.place);
+        let length = graph.lower(&beam.length);
+        let axis = element.place.axes[beam.axis];
+        let mut carried = self.carried(graph, element);
+        for weight in self.weights.iter().filter(|weight| weight.effect.frame == element.effect.frame) {
+            if !std::ptr::eq(weight.effect, element.effect) {
+                carried.push(weight.of_last(graph, weight.length));
+            }
+        }
+        let (mut beyond, mut within) = (Vec::new(), Vec::new());
+        for load in carried {
+            let lever = graph.sub_vectors(load.point, element.place.position);
+            let along = graph.dot(axis, lever);
+            let behind = load.frame > element.effect.frame;
+            let back = if behind { graph.zero() } else { back(graph, along, length) };
+            if back == graph.zero() { beyond.push(load) } else { within.push((back, load)) }
+        }
+        let compliance = beam_compliance(graph, beam, length);
+        let wrench = self.wrench(graph, &there.axes, there.position, &beyond);
+        let mut sum = product(graph, &compliance, wrench);
+        for (back, load) in within {
+            let offset = graph.scale(back, there.axes[beam.axis]);
+            let at = graph.sub_vectors(there.position, offset);
+            let wrench = self.wrench(graph, &there.axes, at, &[load]);
+            let up_to_there = graph.sub(length, back);
+            let compliance = beam_compliance(graph, beam, up_to_there);
+            let (shift, turn) = vectors(product(graph, &compliance, wrench));
+            let mut rest = [graph.zero(); 3];
+            rest[beam.axis] = back;
+            let swing = graph.cross(turn, rest);
+            let shift = graph.add_vectors(shift, swing);
+            sum = add(graph, sum, six(shift, turn));
+        }
+        let own = self.weights.iter().find(|weight| std::ptr::eq(weight.effect, element.effect));
+        if let Some(weight) = own {
+            let force = local(graph, &there.axes, weight.force);
+            let under_own_weight = own_weight(graph, beam, length, force);
+            sum = add(graph, sum, under_own_weight);
+        }
+        sum
+    }
+
+    /// The loads at the element's frame or behind it, and the weights of all beams of frames behind it.
+    fn carried(&self, graph: &mut Graph, element: &Element<'_>) -> Vec<Acting> {
+        let frame = element.effect.frame;
+        let mut carried: Vec<Acting> =
+            self.acting.iter().filter(|load| load.frame >= frame).copied().collect();
+        for weight in self.weights.iter().filter(|weight| weight.effect.frame > frame) {
+            carried.push(weight.of_last(graph, weight.length));
+        }
+        carried
+    }
+
+    /// The force and moment of loads about a point, both in `F_0`, in the order of ε and along some axes.
+    fn wrench(&self, graph: &mut Graph, axes: &[Vector; 3], about: Vector, loads: &[Acting]) -> [Node; 6] {
+        let mut force = [graph.zero(); 3];
+        let mut moment = force;
+        for load in loads {
+            let frame = &self.frames[load.frame];
+            let offset = graph.turn(&frame.axes, load.point);
+            let point = graph.add_vectors(frame.position, offset);
+            force = graph.add_vectors(force, load.force);
+            let lever = graph.sub_vectors(point, about);
+            let part = graph.cross(lever, load.force);
+            moment = graph.add_vectors(moment, part);
+            moment = graph.add_vectors(moment, load.moment);
+        }
+        six(local(graph, axes, force), local(graph, axes, moment))
+    }
+}
+
+fn acting(graph: &mut Graph, spec: &Spec, load: &Load, frames: &[Frame], gravity: Vector) -> Acting {
+    let zero = [graph.zero(); 3];
+    let point = match &load.point {
+        Point::Here(point) => point.each_ref().map(|coordinate| graph.lower(coordinate)),
+        Point::Tool => transform(graph, &spec.tool).position,
+    };
+    let mut in_base = |vector: &Option<[_; 3]>| {
+        let vector = vector.as_ref().map_or(zero, |vector| vector.each_ref().map(|entry| graph.lower(entry)));
+        match load.axes {
+            Axes::Frame => graph.turn(&frames[load.frame].axes, vector),
+            Axes::Base => vector,
+        }
+    };
+    let (force, moment) = (in_base(&load.force), in_base(&load.moment));
+    let weight = match &load.mass {
+        Some(mass) => {
+            let mass = graph.lower(mass);
+            graph.scale(mass, gravity)
+        }
+        None => zero,
+    };
+    Acting { frame: load.frame, point, force: graph.add_vectors(weight, force), moment }
+}
+
+impl Weight<'_> {
+    /// The weight of the last part of the beam, so long, in the middle of that.
+    fn of_last(&self, graph: &mut Graph, length: Node) -> Acting {
+        let two = graph.constant(2.0);
+        let half = graph.div(length, two);
+        let offset = graph.scale(half, self.end.axes[self.axis]);
+        Acting {
+            frame: self.effect.frame,
+            point: graph.sub_vectors(self.end.position, offset),
+            force: graph.scale(length, self.force),
+            moment: [graph.zero(); 3],
+        }
+    }
+}
+
+/// How far before the end of a beam a point is that lies so far `along` it from there: `min(max(−along, 0), length)`.
+fn back(graph: &mut Graph, along: Node, length: Node) -> Node {
+    let minus = graph.neg(along);
+    let back = match graph.value(minus) {
+        Some(value) => graph.constant(value.max(0.0)),
+        None => {
+            let (size, two) = (graph.call(Function::Abs, minus), graph.constant(2.0));
+            let twice = graph.add(minus, size);
+            graph.div(twice, two)
+        }
+    };
+    if back == graph.zero() {
+        return back;
+    }
+    if let (Some(back), Some(length)) = (graph.value(back), graph.value(length)) {
+        return graph.constant(back.min(length));
+    }
+    // min(a, b) = (a + b − |a − b|)/2
+    let (sum, difference) = (graph.add(back, length), graph.sub(back, length));
+    let (size, two) = (graph.call(Function::Abs, difference), graph.constant(2.0));
+    let twice = graph.sub(sum, size);
+    graph.div(twice, two)
+}
+
+/// Components along axes: `Rᵀ v`.
+fn local(graph: &mut Graph, axes: &[Vector; 3], v: Vector) -> Vector {
+    axes.map(|axis| graph.dot(axis, v))
+}
+
+fn add(graph: &mut Graph, a: [Node; 6], b: [Node; 6]) -> [Node; 6] {
+    std::array::from_fn(|i| graph.add(a[i], b[i]))
+}
+
+/// `C w`.
+fn product(graph: &mut Graph, compliance: &Compliance, wrench: [Node; 6]) -> [Node; 6] {
+    compliance.map(|row| {
+        let products: Vec<Node> = row.iter().zip(wrench).map(|(c, w)| graph.mul(*c, w)).collect();
+        products.into_iter().fold(graph.zero(), |sum, product| graph.add(sum, product))
+    })
+}
+
+/// The index of a motion along or about an axis, counted on from a beam's own, in the order of ε.
+fn index(kind: Motion, axis: usize) -> usize {
+    Component::ALL.iter().position(|c| motion(*c) == (kind, axis % 3)).expect("six components")
+}
+
+/// Euler–Bernoulli: the end of a clamped beam along a, with b and c the axes that follow it in cyclic order.
+///
+/// ```text
+/// δ_a = F_a L/EA      δ_b = F_b L³/3EI_c + M_c L²/2EI_c      δ_c = F_c L³/3EI_b − M_b L²/2EI_b
+/// θ_a = M_a L/GJ      θ_c = F_b L²/2EI_c + M_c L/EI_c        θ_b = M_b L/EI_b − F_c L²/2EI_b
+/// ```
+fn beam_compliance(graph: &mut Graph, beam: &Beam, length: Node) -> Compliance {
+    let shift = |axis: usize| index(Motion::Translation, axis);
+    let turn = |axis: usize| index(Motion::Rotation, axis);
+    let (a, b, c) = (beam.axis, beam.axis + 1, beam.axis + 2);
+    let mut compliance = [[graph.zero(); 6]; 6];
+    if let Some(extension) = &beam.extension {
+        let stiffness = graph.lower(extension);
+        compliance[shift(a)][shift(a)] = graph.div(length, stiffness);
+    }
+    if let Some(torsion) = &beam.torsion {
+        let stiffness = graph.lower(torsion);
+        compliance[turn(a)][turn(a)] = graph.div(length, stiffness);
+    }
+    // Bending about c moves along b; about b it moves along −c.
+    for (along, about, stiffness, sign) in [(b, c, &beam.bending[1], 1.0), (c, b, &beam.bending[0], -1.0)] {
+        let stiffness = graph.lower(stiffness);
+        let angle = graph.div(length, stiffness);
+        let (two, three) = (graph.constant(2.0 * sign), graph.constant(3.0));
+        let square = graph.mul(angle, length);
+        let mixed = graph.div(square, two);
+        let cube = graph.mul(square, length);
+        compliance[turn(about)][turn(about)] = angle;
+        compliance[turn(about)][shift(along)] = mixed;
+        compliance[shift(along)][turn(about)] = mixed;
+        compliance[shift(along)][shift(along)] = graph.div(cube, three);
+    }
+    compliance
+}
+
+/// The end of the same beam under a force w per length, which is `C(x) w dx` summed up:
+///
+/// ```text
+/// δ_a = w_a L²/2EA      δ_b = w_b L⁴/8EI_c      δ_c = w_c L⁴/8EI_b      θ_c = w_b L³/6EI_c      θ_b = −w_c L³/6EI_b
+/// ```
+fn own_weight(graph: &mut Graph, beam: &Beam, length: Node, force: Vector) -> [Node; 6] {
+    let mut errors = [graph.zero(); 6];
+    let (a, b, c) = (beam.axis, beam.axis + 1, beam.axis + 2);
+    let power = |graph: &mut Graph, exponent: f64, divisor: f64| {
+        let (power, divisor) = (graph.power(length, exponent), graph.constant(divisor));
+        graph.div(power, divisor)
+    };
+    if let Some(extension) = &beam.extension {
+        let (stiffness, square) = (graph.lower(extension), power(graph, 2.0, 2.0));
+        let per_length = graph.div(force[a], stiffness);
+        errors[index(Motion::Translation, a)] = graph.mul(per_length, square);
+    }
+    for (along, about, stiffness, sign) in [(b, c, &beam.bending[1], 1.0), (c, b, &beam.bending[0], -1.0)] {
+        let stiffness = graph.lower(stiffness);
+        let per_length = graph.div(force[along % 3], stiffness);
+        let (fourth, third) = (power(graph, 4.0, 8.0), power(graph, 3.0, 6.0 * sign));
+        errors[index(Motion::Translation, along)] = graph.mul(per_length, fourth);
+        errors[index(Motion::Rotation, about)] = graph.mul(per_length, third);
+    }
+    errors
+}
