@@ -216,7 +216,8 @@ fn vectors([x, y, z, spin, roll, pitch]: [f64; 6]) -> [Vector; 2] {
 
 fn close(found: [Vector; 2], expected: [Vector; 2], what: &str) {
     for (found, expected) in found.iter().zip(expected) {
-        let size = expected.iter().fold(1e-6_f64, |size, v| size.max(v.abs()));
+        // Metres carry rounding errors of 1e-15.
+        let size = expected.iter().fold(1e-5_f64, |size, v| size.max(v.abs()));
         for (a, b) in found.iter().zip(expected) {
             assert!((a - b).abs() <= 1e-10 * size, "{what}: {found:?}, expected {expected:?}");
         }
