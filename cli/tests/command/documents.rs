@@ -15,8 +15,11 @@ fn blocks(text: &str) -> Vec<(&str, &str)> {
 fn what_they_show_is_what_is_printed() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = 0;
-    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")).unwrap() {
-        let text = fs::read_to_string(entry.unwrap().path()).unwrap();
+    let pages = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")).unwrap();
+    let pages =
+        pages.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "md"));
+    for page in pages {
+        let text = fs::read_to_string(page).unwrap();
         for (language, block) in blocks(&text) {
             // A file says its name in its first line.
             if let Some(name) = block.lines().next().and_then(|line| line.strip_prefix("# "))

@@ -21,10 +21,11 @@ crate::tables! {
     CAUSE: ["[[source]]", "[[source.effect]]"],
         ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p", "beam", "compliance"];
     DEVIATION: ["[[source]]", "[[source.effect]]"], ["joint", "parameter", "error", "dh"];
-    NUMBERS: ["[source.dh]"], ["theta", "d", "a", "alpha"];
+    NUMBERS: ["[source.dh]", "[source.effect.dh]"], ["theta", "d", "a", "alpha"];
     MAGNITUDE: ["[source.magnitude]"], ["value", "standard_deviation"];
-    BEAM: ["[source.beam]"], ["length", "axis", "EI_y", "EI_z", "GJ", "EA", "mass_per_length"];
-    COMPLIANCE: ["[source.compliance]"], ["diagonal", "matrix"];
+    BEAM: ["[source.beam]", "[source.effect.beam]"],
+        ["length", "axis", "EI_y", "EI_z", "GJ", "EA", "mass_per_length"];
+    COMPLIANCE: ["[source.compliance]", "[source.effect.compliance]"], ["diagonal", "matrix"];
     LOAD: ["[[load]]"],
         ["name", "mass", "force", "moment", "axes", "frame", "point", "description", "reference"];
 }

@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 use abbe::analysis::{Axis, Configuration};
 use abbe::{Description, Manipulator};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
 use abbe_codegen::document::{Document, Section};
 use abbe_codegen::spec::Spec;
 use serde::Serialize;
@@ -148,6 +148,10 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
     };
     let items =
         root.required("set", document).and_then(|item| document.array(&item, "tables, each a [[set]]"))?;
+    if items.is_empty() {
+        let item = root.get("set").map_or(0..0, |item| item.span());
+        document.mistake(Diagnostic::new(item, "a plan needs at least one set").help("add a [[set]]"));
+    }
     let mut sets = Vec::new();
     for item in &items {
         let mut section = document.section(item)?;
@@ -156,6 +160,14 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
         section.check_keys(&[&keys::SET], document);
         let name = section.optional_text("name", document);
         let content = if let Some(axes) = section.get("axes") {
+            if let Some(workspace) = section.get("workspace") {
+                document.mistake(
+                    Diagnostic::new(axes.key_span.clone(), "a set has a `workspace` or `axes`, not both")
+                        .label("one too many")
+                        .context(workspace.key_span, "the other one")
+                        .help("make two sets of them"),
+                );
+            }
             Content::Axes(Candidates::variables(spec).axes(&axes, document, spec))
         } else {
             let workspace = section.required("workspace", document)?;

@@ -1,0 +1,49 @@
+//! Every mistake that a study, a map or a plan can have is shown with its place, the line, a caret and a way out.
+//!
+//! As `bad_specs`: `bad-studies/NAME.toml` is a study of `machine3` with a mistake, `bad-studies/NAME.txt` what is said of it, and so
+//! are `bad-maps` and `bad-plans`. `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the texts.
+
+use std::path::{Path, PathBuf};
+
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::document::Document;
+use abbe_study::data::Map;
+use abbe_study::plan::Sets;
+use abbe_study::{Machine, Study};
+use expect_test::expect_file;
+
+/// The mistakes of every file of a folder. Tests run beside it, so that messages name no folder of this machine.
+fn told(folder: &str, least: usize, read: impl Fn(&Path, &Machine) -> Option<Diagnostics>) {
+    let machine = Machine::find("machine3").unwrap();
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> =
+        entries.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
+    files.sort();
+    assert!(files.len() >= least);
+    for file in files {
+        let mistakes = read(&file, &machine);
+        let mistakes =
+            mistakes.unwrap_or_else(|| panic!("{} is read as if nothing were wrong", file.display()));
+        let text = mistakes.to_string();
+        for (part, least) in [("error: ", 1), ("--> ", 1), ("= help: ", mistakes.list.len().min(20))] {
+            assert!(text.matches(part).count() >= least, "`{part}` is missing in\n{text}");
+        }
+        let snapshot = std::env::current_dir().unwrap().join(file.with_extension("txt"));
+        expect_file![snapshot].assert_eq(&format!("{text}\n"));
+    }
+}
+
+#[test]
+fn every_study_is_told_what_is_wrong_with_it() {
+    told("bad-studies", 50, |file, machine| Study::read(Document::read(file).unwrap(), &machine.spec).err());
+}
+
+#[test]
+fn every_map_is_told_what_is_wrong_with_it() {
+    told("bad-maps", 25, |file, machine| Map::find(file, &machine.spec).err());
+}
+
+#[test]
+fn every_plan_is_told_what_is_wrong_with_it() {
+    told("bad-plans", 10, |file, machine| Sets::find(file, &machine.spec).err());
+}

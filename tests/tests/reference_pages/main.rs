@@ -1,0 +1,181 @@
+//! `docs/reference` says of every key what the readers do with it, neither less nor more.
+//!
+//! The readers' keys are the `TABLES` of their `keys.rs`. Every key has a row; every key stands in an example of its page; its
+//! example value stands there, too; a key is `required` if the example without it is told that it is missing; and what is
+//! said of a mistake is what `bad-specs` and its like say: `UPDATE_EXPECT=1` writes it.
+
+mod example;
+mod page;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::document::Document;
+use abbe_codegen::expr::{FUNCTION_NAMES, UNIT_NAMES};
+use abbe_codegen::keys::Keys;
+use abbe_codegen::spec::{self, Spec};
+use abbe_study::data::Map;
+use abbe_study::plan::Sets;
+use abbe_study::{Study, data, plan, study_file, workspace};
+use example::{Use, uses};
+use page::Page;
+use tempfile::TempDir;
+
+/// What reads a file of that name and text.
+type Reader = fn(&Path, &str) -> Result<(), Diagnostics>;
+
+/// Every page, its keys, and the reader of its examples.
+fn pages() -> Vec<(Page, Vec<&'static Keys>, Reader)> {
+    vec![
+        (Page::read("spec.md"), all(&[spec::TABLES]), |_, text| {
+            Spec::parse("example", text)?;
+            Ok(())
+        }),
+        (Page::read("study.md"), all(&[study_file::TABLES, workspace::TABLES]), |path, text| {
+            Study::read(Document::new(path.to_string_lossy(), text), &cell())?;
+            Ok(())
+        }),
+        (Page::read("map.md"), all(&[data::TABLES]), |_, text| {
+            Map::parse("example", text, &cell())?;
+            Ok(())
+        }),
+        (Page::read("plan.md"), all(&[plan::TABLES]), |path, text| {
+            std::fs::write(path, text).unwrap();
+            Sets::find(path, &cell())?;
+            Ok(())
+        }),
+    ]
+}
+
+fn all(tables: &[&'static [Keys]]) -> Vec<&'static Keys> {
+    tables.iter().copied().flatten().collect()
+}
+
+/// The manipulator of `spec.md`, which all other pages are about.
+fn cell() -> Spec {
+    let page = Page::read("spec.md");
+    let (name, text) = page.files()[0];
+    Spec::parse(name, text).unwrap()
+}
+
+/// The files of a page in a folder, where they find each other.
+fn written(page: &Page) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in page.files() {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+fn nothing(problems: &[String]) {
+    assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));
+}
+
+#[test]
+fn every_key_has_a_row_and_every_row_a_key() {
+    let mut problems = Vec::new();
+    for (page, keys, _) in pages() {
+        let known: BTreeSet<(&str, &str)> = keys
+            .iter()
+            .flat_map(|keys| keys.tables.iter().flat_map(|table| keys.keys.iter().map(|key| (*table, *key))))
+            .collect();
+        let rows = page.rows();
+        let explained: BTreeSet<(&str, &str)> = rows
+            .iter()
+            .flat_map(|row| row.tables.iter().map(|table| (table.as_str(), row.key.as_str())))
+            .collect();
+        for (table, key) in known.difference(&explained) {
+            problems.push(format!(
+                "docs/reference/{} has no row for the key `{key}` of `{table}`: add it to a table below a heading that names `{table}`.",
+                page.name
+            ));
+        }
+        for (table, key) in explained.difference(&known) {
+            problems.push(format!(
+                "docs/reference/{} explains the key `{key}` of `{table}`, which no reader knows: remove the row, or add the key to keys.rs.",
+                page.name
+            ));
+        }
+    }
+    nothing(&problems);
+}
+
+#[test]
+fn every_key_stands_in_an_example_as_its_row_says() {
+    let mut problems = Vec::new();
+    for (page, _, read) in pages() {
+        let folder = written(&page);
+        let files = page.files();
+        let files = files.into_iter().filter(|(name, _)| name.ends_with(".toml")).collect::<Vec<_>>();
+        let every: Vec<(&str, &str, Use)> = files
+            .iter()
+            .flat_map(|(name, text)| uses(text).into_iter().map(|key| (*name, *text, key)))
+            .collect();
+        for row in page.rows() {
+            let name =
+                format!("docs/reference/{}: the key `{}` of {}", page.name, row.key, row.tables.join(", "));
+            let here = every.iter().filter(|(_, _, key)| row.describes(key)).collect::<Vec<_>>();
+            if here.is_empty() {
+                problems.push(format!("{name} stands in no example of the page: add it to one."));
+                continue;
+            }
+            // Tables that are written with a heading cannot be taken out.
+            let without = here.iter().filter_map(|(file, text, key)| Some((file, key.removed(text)?)));
+            let told = without.map(|(file, text)| match read(&folder.path().join(file), &text) {
+                Ok(()) => false,
+                Err(mistakes) => mistakes.to_string().contains(&format!("`{}` is missing in", row.key)),
+            });
+            let told = told.collect::<Vec<_>>();
+            if !told.is_empty() && told.contains(&true) != row.default.starts_with("required") {
+                let truth = if told.contains(&true) { "is required" } else { "is not required" };
+                problems.push(format!("{name} {truth}, but its default is \"{}\".", row.default));
+            }
+            let value = row.example.strip_prefix('`').and_then(|value| value.strip_suffix('`'));
+            if value.is_some_and(|value| !here.iter().any(|(_, _, key)| key.value == value)) {
+                problems.push(format!("{name}: no example of the page has the value {}.", row.example));
+            }
+        }
+    }
+    nothing(&problems);
+}
+
+#[test]
+fn every_key_says_what_is_said_of_a_mistake() {
+    let mut problems = Vec::new();
+    for (page, ..) in pages() {
+        if std::env::var_os("UPDATE_EXPECT").is_some() {
+            page.write_mistakes();
+            continue;
+        }
+        for row in page.rows() {
+            let name = format!("docs/reference/{}, `{}`", page.name, row.key);
+            match row.said() {
+                Some(said) if said == row.mistake => {}
+                Some(said) => problems.push(format!(
+                    "{name}: {} says \"{said}\", not \"{}\": run this test with UPDATE_EXPECT=1.",
+                    row.golden, row.mistake
+                )),
+                None => problems.push(format!(
+                    "{name}: its last cell must be [?](../../tests/bad-specs/NAME.txt) with a file that exists, not {}.",
+                    row.golden
+                )),
+            }
+        }
+    }
+    nothing(&problems);
+}
+
+#[test]
+fn every_unit_and_function_is_listed() {
+    let page = Page::read("spec.md");
+    for (heading, known) in [("## Units", &UNIT_NAMES[..]), ("## Functions", &FUNCTION_NAMES[..])] {
+        let listed = page.names(heading);
+        let listed: BTreeSet<&str> = listed.iter().map(String::as_str).collect();
+        let known: BTreeSet<&str> = known.iter().copied().collect();
+        let missing = known.difference(&listed).collect::<Vec<_>>();
+        let stale = listed.difference(&known).collect::<Vec<_>>();
+        assert!(missing.is_empty(), "docs/reference/spec.md, {heading}: add {missing:?} to the table");
+        assert!(stale.is_empty(), "docs/reference/spec.md, {heading}: there is no {stale:?}");
+    }
+}
