@@ -5,18 +5,18 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 
 /// A key where it stands in an example.
-pub struct Use {
+pub(crate) struct Use {
     /// The tables that it is in, from the file inwards; lists are left out.
-    pub tables: Vec<String>,
-    pub key: String,
+    pub(crate) tables: Vec<String>,
+    pub(crate) key: String,
     /// The value as it is written.
-    pub value: String,
+    pub(crate) value: String,
     /// Where `key = value` stands, if it is written so.
     place: Option<Range<usize>>,
 }
 
 /// Every key of a file.
-pub fn uses(text: &str) -> Vec<Use> {
+pub(crate) fn uses(text: &str) -> Vec<Use> {
     let mut found = Vec::new();
     let tables = DeTable::parse(text).unwrap_or_else(|error| panic!("{error}"));
     walk(tables.get_ref(), &[], text, &mut found);
@@ -51,7 +51,7 @@ fn walk(table: &DeTable<'_>, tables: &[String], text: &str, found: &mut Vec<Use>
 
 impl Use {
     /// Whether it is in that table: `NAME` is any name, and what a table stands in need not be said.
-    pub fn is_in(&self, table: &str) -> bool {
+    pub(crate) fn is_in(&self, table: &str) -> bool {
         if table == "the file" {
             return self.tables.is_empty();
         }
@@ -63,7 +63,7 @@ impl Use {
     }
 
     /// The file without it, if that can be written.
-    pub fn removed(&self, text: &str) -> Option<String> {
+    pub(crate) fn removed(&self, text: &str) -> Option<String> {
         let Range { start, end } = self.place.clone()?;
         let (before, after) = (&text[..start], &text[end..]);
         if let Some(after) = after.trim_start_matches(' ').strip_prefix(',') {

@@ -6,35 +6,35 @@ use std::path::PathBuf;
 use crate::example::Use;
 
 /// A page, line by line.
-pub struct Page {
-    pub name: &'static str,
+pub(crate) struct Page {
+    pub(crate) name: &'static str,
     path: PathBuf,
     text: String,
 }
 
 /// One key of a table.
-pub struct Row {
+pub(crate) struct Row {
     /// The tables that the heading names, as `[tool]` and `[[frame]]`, or `the file`.
-    pub tables: Vec<String>,
-    pub key: String,
-    pub default: String,
+    pub(crate) tables: Vec<String>,
+    pub(crate) key: String,
+    pub(crate) default: String,
     /// A value between backticks, or words that say where one stands.
-    pub example: String,
+    pub(crate) example: String,
     /// What is said of a mistake, and the file that it is said of.
-    pub mistake: String,
-    pub golden: String,
+    pub(crate) mistake: String,
+    pub(crate) golden: String,
     line: usize,
 }
 
 impl Page {
-    pub fn read(name: &'static str) -> Self {
+    pub(crate) fn read(name: &'static str) -> Self {
         let path = folder().join(name);
         let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         Self { name, path, text }
     }
 
     /// Every row of a table that begins with `key`.
-    pub fn rows(&self) -> Vec<Row> {
+    pub(crate) fn rows(&self) -> Vec<Row> {
         let (mut rows, mut tables, mut in_table) = (Vec::new(), Vec::new(), false);
         for (line, text) in self.text.lines().enumerate() {
             if text.starts_with('#') {
@@ -66,21 +66,21 @@ impl Page {
     }
 
     /// The names that the first cells below a heading list.
-    pub fn names(&self, heading: &str) -> Vec<String> {
+    pub(crate) fn names(&self, heading: &str) -> Vec<String> {
         let below = self.text.lines().skip_while(|line| *line != heading).skip(1);
         let rows = below.take_while(|line| !line.starts_with('#')).filter(|line| line.starts_with("| `"));
         rows.flat_map(|row| spans(row.split(" | ").next().unwrap_or_default())).collect()
     }
 
     /// The files that the page shows: those blocks that say their name in the first line.
-    pub fn files(&self) -> Vec<(&str, &str)> {
+    pub(crate) fn files(&self) -> Vec<(&str, &str)> {
         let blocks = self.text.split("```").skip(1).step_by(2);
         let blocks = blocks.filter_map(|block| block.split_once('\n')).map(|(_, block)| block);
         blocks.filter_map(|block| Some((block.lines().next()?.strip_prefix("# ")?, block))).collect()
     }
 
     /// Writes what is said of mistakes beside their keys.
-    pub fn write_mistakes(&self) {
+    pub(crate) fn write_mistakes(&self) {
         let mut lines: Vec<String> = self.text.lines().map(str::to_owned).collect();
         for row in self.rows() {
             let link = lines[row.line].rfind("| [").expect("a link");
@@ -93,12 +93,12 @@ impl Page {
 
 impl Row {
     /// Whether the row is about that key.
-    pub fn describes(&self, key: &Use) -> bool {
+    pub(crate) fn describes(&self, key: &Use) -> bool {
         key.key == self.key && self.tables.iter().any(|table| key.is_in(table))
     }
 
     /// What is said of the mistake that the row points at: the message that has the key in it, or else the first.
-    pub fn said(&self) -> Option<String> {
+    pub(crate) fn said(&self) -> Option<String> {
         let golden = folder().join(&self.golden);
         let text = fs::read_to_string(&golden).ok()?;
         let messages = text.lines().filter_map(|line| line.strip_prefix("error: ")).collect::<Vec<_>>();
