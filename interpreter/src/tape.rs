@@ -120,18 +120,13 @@ impl<'r> Packer<'r> {
             let count = array.len(&self.routines.description);
             let index = arrays.places.len();
             // What is filled once and at once is where its values are.
-            let is_alias = array.role != Role::Identity && self.is_filled_once(routine, index);
+            let is_alias = self.is_filled_once(routine, index);
             let slots: Vec<Slot> = match is_alias {
                 true => Vec::new(),
                 false => (0..count).map(|_| self.new_slot()).collect(),
             };
-            match array.role {
-                Role::Zeros if !is_alias => self.set(slots.iter().map(|slot| (*slot, 0.0)).collect()),
-                Role::Identity => {
-                    let diagonal = |i: usize| f64::from(u8::from(i < 9 && i.is_multiple_of(4)));
-                    self.set(slots.iter().enumerate().map(|(i, slot)| (*slot, diagonal(i))).collect());
-                }
-                _ => {}
+            if array.role == Role::Zeros && !is_alias {
+                self.set(slots.iter().map(|slot| (*slot, 0.0)).collect());
             }
             arrays.places.push(slots);
         }
@@ -203,8 +198,9 @@ impl<'r> Packer<'r> {
                 self.parts.push(Part::Sum { constants, factors });
             }
             Stage::Copy { from, to } => {
-                let from = arrays.places[*from].clone();
-                self.fill(arrays, *to, &from);
+                let from = self.row(arrays, from.array, from.row, 0);
+                let to = arrays.places[*to].iter().copied();
+                self.parts.push(Part::Move(from.into_iter().zip(to).map(|(from, to)| [from, to]).collect()));
             }
             Stage::Clear(array) => {
                 self.set(arrays.places[*array].iter().map(|slot| (*slot, 0.0)).collect());
@@ -218,7 +214,8 @@ impl<'r> Packer<'r> {
         let count = declared.place_len(row, &self.routines.description);
         let slots = &arrays.places[array];
         let first = match row {
-            Row::All => 0,
+            Row::All | Row::First => 0,
+            Row::AllButFirst => slots.len() - count,
             Row::Last => slots.len() - count,
             Row::Each { stride, offset } => (stride * i + offset) * count,
             Row::Listed { table, column } => self.routines.tables[table].rows[i][column] * count,
@@ -246,8 +243,7 @@ impl<'r> Packer<'r> {
         let mut locals = Vec::new();
         let mut moving = Vec::new();
         for place in &block.reads {
-            let is_written = block.writes.iter().any(|written| written.array == place.array);
-            if matches!(place.row, Row::All | Row::Last) && !is_written {
+            if block.is_constant(place) {
                 locals.extend(self.row(arrays, place.array, place.row, 0));
             } else {
                 let count =

@@ -77,6 +77,8 @@ pub enum Count {
     Frames,
     /// Its frames and the tool: n + 1.
     FramesAndTool,
+    /// Its base, its frames and the tool: n + 2.
+    BaseToTool,
     /// Its generalized errors: 6n.
     Errors,
     /// Vectors of a frame's six columns of `J_e` that are neither zero nor repeated: see [`distinct`](crate::distinct).
@@ -295,6 +297,7 @@ impl Count {
             Self::Exactly(count) => count,
             Self::Frames => description.frames.len(),
             Self::FramesAndTool => description.frames.len() + 1,
+            Self::BaseToTool => description.frames.len() + 2,
             Self::Errors => 6 * description.frames.len(),
             Self::Distinct => crate::distinct::vectors(description.orientation),
             Self::Variables => description.variables.len(),

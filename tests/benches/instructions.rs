@@ -1,5 +1,5 @@
-//! Instruction counts, which do not depend on what else the machine does: generated functions, a batch by the
-//! interpreter, and generation. `tests/instructions.rs` holds them against `golden/instructions.txt`.
+//! Instruction counts, which do not depend on what else the machine does: generated functions (`long` is a chain of 40
+//! frames), a batch by the interpreter, and generation. `tests/instructions.rs` holds them against `golden/instructions.txt`.
 //!
 //! `cargo bench -p abbe-tests --bench instructions --features instructions`, with valgrind and the gungraun-runner of the same version as the crate.
 #![allow(missing_docs)] // of what gungraun's macros make
@@ -11,7 +11,8 @@ use abbe::{Function, Manipulator};
 use abbe_codegen::print;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
-use abbe_manipulators::SHIPPED;
+use abbe_manipulators::{self as shipped, SHIPPED};
+use abbe_tests::golden;
 use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
 /// What is counted; everything before it is not.
@@ -21,18 +22,19 @@ type Work = Box<dyn FnMut()>;
 const COUNT: usize = 16;
 
 macro_rules! functions {
-    ($($module:ident),+) => {
+    ($($path:ident::$module:ident),+) => {
         /// A function of a generated module at one configuration.
         mod functions {
             use super::{Function, Work, black_box};
             $(pub(super) fn $module(function: Function) -> Work {
-                use abbe_manipulators::$module::{
+                use super::$path::$module::{
                     DESCRIPTION, DISTINCT, ERRORS, FRAMES, Parameters, VARIABLES, raw,
                 };
                 let q: [f64; VARIABLES] = core::array::from_fn(|i| DESCRIPTION.variables[i].home + 0.1);
                 let s = Parameters::NOMINAL.to_array();
                 let errors = [[1e-3; 6]; FRAMES];
                 let (mut pose, mut columns) = ([[0.0; 3]; 4], [[0.0; 6]; ERRORS]);
+                let mut joints = [[0.0; 6]; VARIABLES];
                 let mut distinct = [[[0.0; 3]; DISTINCT]; FRAMES];
                 let (mut shift, mut covariance) = ([0.0; 6], [[0.0; 6]; 6]);
                 match function {
@@ -43,6 +45,10 @@ macro_rules! functions {
                     Function::ErrorJacobian => Box::new(move || {
                         let _ = black_box(raw::error_jacobian(black_box(&q), &s, &mut pose, &mut columns));
                         black_box((&mut pose, &mut columns));
+                    }),
+                    Function::JointJacobian => Box::new(move || {
+                        let _ = black_box(raw::joint_jacobian(black_box(&q), &s, &mut pose, &mut joints));
+                        black_box((&mut pose, &mut joints));
                     }),
                     Function::ErrorJacobianDistinct => Box::new(move || {
                         let _ = black_box(raw::error_jacobian_distinct(black_box(&q), &s, &mut pose, &mut distinct));
@@ -62,7 +68,7 @@ macro_rules! functions {
         }
     };
 }
-functions!(iiwa, machine3, pps, puma560);
+functions!(shipped::iiwa, golden::long, shipped::machine3, shipped::pps, shipped::puma560);
 
 fn spec(name: &str) -> Spec {
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).expect("a shipped robot");
@@ -93,6 +99,7 @@ macro_rules! counted {
         #[bench::pose(functions::$module(Function::Pose))]
         #[bench::error_jacobian(functions::$module(Function::ErrorJacobian))]
         #[bench::error_jacobian_distinct(functions::$module(Function::ErrorJacobianDistinct))]
+        #[bench::joint_jacobian(functions::$module(Function::JointJacobian))]
         #[bench::displacement(functions::$module(Function::Displacement))]
         #[bench::covariance(functions::$module(Function::Covariance))]
         fn $module(mut work: Work) -> Work {
@@ -101,7 +108,7 @@ macro_rules! counted {
         }
     )+};
 }
-counted!(iiwa, machine3, pps, puma560);
+counted!(iiwa, long, machine3, pps, puma560);
 
 #[library_benchmark]
 #[bench::interpreted_error_jacobian_distinct(interpreter("puma560", Function::ErrorJacobianDistinct))]
@@ -113,7 +120,7 @@ fn whole(mut work: Work) -> Work {
     work
 }
 
-library_benchmark_group!(name = counts, benchmarks = [iiwa, machine3, pps, puma560, whole]);
+library_benchmark_group!(name = counts, benchmarks = [iiwa, long, machine3, pps, puma560, whole]);
 main!(
     config = LibraryBenchmarkConfig::default().tool(Callgrind::with_args(["--cache-sim=no"])),
     library_benchmark_groups = counts

@@ -57,10 +57,10 @@ impl<'s> Names<'s> {
         self.locals.clear();
     }
 
-    /// Names those numbers of a row that are used: of a pose by row and column, of errors by component, else x, y, z or
-    /// counted.
-    pub(super) fn name_locals(&mut self, array: &Array, used: &[bool]) -> Vec<Option<String>> {
-        let letter = if array.name == "transforms" { "a" } else { &array.name[..1] };
+    /// Names those numbers of a row that are used, the first of them local symbol `first`: of a pose by row and column,
+    /// of errors by component, else x, y, z or counted.
+    pub(super) fn name_locals(&mut self, array: &Array, first: usize, used: &[bool]) -> Vec<Option<String>> {
+        let letter = self.letter(array);
         let singular = array.name.trim_end_matches('s');
         let proposed = |i: usize| match (used.len(), array.name) {
             (12, _) if i < 9 => format!("{letter}_{}{}", i % 3 + 1, i / 3 + 1),
@@ -74,8 +74,26 @@ impl<'s> Names<'s> {
         };
         let names: Vec<Option<String>> =
             used.iter().enumerate().map(|(i, used)| used.then(|| self.free(&proposed(i)))).collect();
-        self.locals.extend(names.iter().map(|name| name.clone().unwrap_or_default()));
+        self.take_locals(first, &names);
         names
+    }
+
+    /// The first letter of an array; where its numbers have names already, that of the next one.
+    fn letter(&self, array: &Array) -> char {
+        // Links are the transforms A_i.
+        let first = if array.name == "links" { 'a' } else { array.name.chars().next().unwrap_or('x') };
+        let is_taken = |letter: &char| self.used.contains(&format!("{letter}_x"));
+        (first..='z').find(|letter| !is_taken(letter)).unwrap_or(first)
+    }
+
+    /// What local symbols from `first` on are called.
+    pub(super) fn take_locals(&mut self, first: usize, names: &[Option<String>]) {
+        self.used.extend(names.iter().flatten().cloned());
+        let last = first + names.len();
+        self.locals.resize(self.locals.len().max(last), String::new());
+        for (local, name) in self.locals[first..].iter_mut().zip(names) {
+            local.clone_from(name.as_ref().unwrap_or(&String::new()));
+        }
     }
 
     /// A variable, parameter, input, generalized error, or what a loop reads.

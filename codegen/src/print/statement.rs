@@ -17,8 +17,8 @@ pub(super) enum Statement {
     Declare(usize),
     /// Zeros for an array.
     Clear(usize),
-    /// One array becomes another one.
-    Copy { from: usize, to: usize },
+    /// An array becomes what rows of another one are.
+    Copy { from: Place, to: usize },
     /// Row `index` of a place becomes these; a `fresh` array begins with them.
     Assign { to: Place, index: usize, values: Vec<Value>, fresh: bool },
     /// Another routine; of the arrays that it fills, those that begin here.

@@ -125,13 +125,9 @@ impl Writer<'_> {
         statements.extend(arrays.into_iter().map(Statement::Declare));
     }
 
-    /// What begins as zeros or as no motion takes their names.
+    /// What begins as zeros takes their name.
     fn take_zeros(&mut self, arrays: &[usize]) {
-        for array in arrays {
-            let role = self.routine.arrays[*array].role;
-            self.constants[0] |= matches!(role, Role::Zeros | Role::Identity);
-            self.constants[1] |= role == Role::Identity;
-        }
+        self.constants[0] |= arrays.iter().any(|array| self.routine.arrays[*array].role == Role::Zeros);
     }
 
     fn stage(&mut self, stage: &Stage, statements: &mut Vec<Statement>) {
@@ -147,8 +143,9 @@ impl Writer<'_> {
                     None => self.block(block, statements),
                     Some(repeated) => {
                         // A loop is a scope of its own: it may use names again.
-                        let outermost = self.outermost.clone().unwrap_or_else(|| self.names.clone());
-                        let names = std::mem::replace(&mut self.names, outermost);
+                        let mut names = self.outermost.clone().unwrap_or_else(|| self.names.clone());
+                        self.read_before(block, &mut names, statements);
+                        let names = std::mem::replace(&mut self.names, names);
                         let mut body = Vec::new();
                         self.block(block, &mut body);
                         self.names = names;
@@ -203,18 +200,42 @@ impl Writer<'_> {
         Statement::Comment(format!("Frame {}: {}", frame + 1, name.trim()))
     }
 
-    fn block(&mut self, block: &Block, statements: &mut Vec<Statement>) {
+    /// The places that a block reads, the number of the first local symbol of each, and which of its numbers are used.
+    fn reads<'b>(&self, block: &'b Block) -> Vec<(&'b Place, usize, Vec<bool>)> {
         // What reads nothing has no local symbols.
         let used = if block.reads.is_empty() { HashSet::new() } else { used_symbols(&block.program) };
-        let mut number = 0;
-        self.names.forget_locals();
-        for place in &block.reads {
+        let mut first = 0;
+        let mut read = |place: &'b Place| {
+            let next = first + self.routine.arrays[place.array].place_len(place.row, self.description);
+            let taken = (first..next).map(|local| used.contains(&Symbol::Local(local))).collect();
+            (place, std::mem::replace(&mut first, next), taken)
+        };
+        block.reads.iter().map(&mut read).collect()
+    }
+
+    /// What is the same in every turn of a loop is read before it, with names that are free inside of it and outside.
+    fn read_before(&mut self, block: &Block, names: &mut Names<'_>, statements: &mut Vec<Statement>) {
+        names.forget_locals();
+        for (place, first, taken) in
+            self.reads(block).into_iter().filter(|(place, ..)| block.is_constant(place))
+        {
             let array = &self.routine.arrays[place.array];
-            let count = array.place_len(place.row, self.description);
-            let taken: Vec<bool> =
-                (number..number + count).map(|local| used.contains(&Symbol::Local(local))).collect();
-            let names = self.names.name_locals(array, &taken);
-            number += count;
+            let free = self.names.name_locals(array, first, &taken);
+            names.take_locals(first, &free);
+            if taken.contains(&true) {
+                statements.push(Statement::Unpack { names: free, from: *place });
+            }
+        }
+    }
+
+    fn block(&mut self, block: &Block, statements: &mut Vec<Statement>) {
+        if block.repeated.is_none() {
+            self.names.forget_locals();
+        }
+        for (place, first, taken) in
+            self.reads(block).into_iter().filter(|(place, ..)| !block.is_constant(place))
+        {
+            let names = self.names.name_locals(&self.routine.arrays[place.array], first, &taken);
             if taken.contains(&true) {
                 statements.push(Statement::Unpack { names, from: *place });
             }
@@ -313,7 +334,7 @@ fn uses(routine: &Routine, symbols: &HashSet<Symbol>, description: &Description,
         Stage::Call { arrays, .. } => arrays.contains(&array),
         Stage::Sums { terms, entries, .. } => [*terms, *entries].contains(&array),
         Stage::Clear(cleared) => *cleared == array,
-        Stage::Copy { from, to } => [*from, *to].contains(&array),
+        Stage::Copy { from, to } => [from.array, *to].contains(&array),
     };
     as_symbols || some && routine.stages.iter().any(in_stage)
 }

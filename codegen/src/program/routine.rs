@@ -15,6 +15,8 @@ pub struct Routine {
     pub function: Option<Function>,
     /// What it is called.
     pub name: &'static str,
+    /// What it computes.
+    pub documentation: &'static str,
     /// What it takes and fills, in the order of the function's signature, then the margin, then what it needs itself.
     pub arrays: Vec<Array>,
     /// One after the other.
@@ -45,8 +47,6 @@ pub enum Role {
     Margin,
     /// It begins as zeros, and is not seen from outside.
     Zeros,
-    /// It begins as a pose that is no motion.
-    Identity,
 }
 
 /// A part of a routine.
@@ -72,10 +72,10 @@ pub enum Stage {
     },
     /// Zeros for an array.
     Clear(usize),
-    /// One array becomes another one, which has its shape.
+    /// An array becomes what rows of another one are.
     Copy {
-        /// Index of the array that stays as it is.
-        from: usize,
+        /// What stays as it is.
+        from: Place,
         /// Index of the array that is filled.
         to: usize,
     },
@@ -117,8 +117,12 @@ pub struct Place {
 pub enum Row {
     /// All of them.
     All,
+    /// The first one.
+    First,
     /// The last one.
     Last,
+    /// All that come after the first one.
+    AllButFirst,
     /// Of the loop's counter i, row `stride · i + offset`.
     Each {
         /// How many rows belong to one i.
@@ -149,9 +153,26 @@ impl Routine {
     }
 }
 
+impl Block {
+    /// Whether a place that is read holds the same in every turn of the loop.
+    pub fn is_constant(&self, place: &Place) -> bool {
+        let is_written = self.writes.iter().any(|written| written.array == place.array);
+        self.repeated.is_some() && matches!(place.row, Row::All | Row::First | Row::Last) && !is_written
+    }
+}
+
+impl Place {
+    /// The whole array.
+    pub const fn all(array: usize) -> Self {
+        Self { array, row: Row::All }
+    }
+}
+
 impl Row {
     /// Row i.
     pub const EACH: Self = Self::Each { stride: 1, offset: 0 };
+    /// Row i + 1.
+    pub const NEXT: Self = Self::Each { stride: 1, offset: 1 };
 }
 
 impl Array {
@@ -180,6 +201,7 @@ impl Array {
     pub fn place_len(&self, row: Row, description: &Description) -> usize {
         match row {
             Row::All => self.len(description),
+            Row::AllButFirst => self.len(description) - self.row_len(description),
             _ if self.shape.len() == 1 => 1,
             _ => self.row_len(description),
         }

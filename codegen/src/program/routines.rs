@@ -67,7 +67,8 @@ impl Routines {
                 stages
             };
             let operations = Operations::default();
-            list.push(Routine { function: Some(function), name: signature.name, arrays, stages, operations });
+            let Signature { name, documentation, .. } = *signature;
+            list.push(Routine { function: Some(function), name, documentation, arrays, stages, operations });
         }
         let (helpers, tables, sums) = loops.map_or_else(Default::default, Loops::finish);
         list.extend(helpers);

@@ -31,7 +31,7 @@ fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
     writer.lines("/**");
     if let Some(function) = routine.function {
         let signature = function.signature();
-        writer.documentation(signature.documentation);
+        writer.documentation(routine.documentation);
         writer.documentation_line("");
         let numbers = |array: &abbe::function::Array| {
             let shape = array.shape.iter().map(|count| count.value(&routines.description).to_string());
@@ -84,6 +84,19 @@ impl Printer<'_> {
         self.routine.arrays[array].len(&self.routines.description)
     }
 
+    /// The numbers of some rows.
+    fn part(&self, Place { array, row }: Place) -> String {
+        let name = self.name(array);
+        let (all, row_len) =
+            (self.len(array), self.routine.arrays[array].row_len(&self.routines.description));
+        match row {
+            Row::First => format!("{name}.subarray(0, {row_len})"),
+            Row::Last => format!("{name}.subarray({})", all - row_len),
+            Row::AllButFirst => format!("{name}.subarray({row_len})"),
+            Row::All | Row::Each { .. } | Row::Listed { .. } => name,
+        }
+    }
+
     /// Number k of row `index` of a place.
     fn place(&self, Place { array, row }: Place, index: usize, k: usize) -> String {
         let declared = &self.routine.arrays[array];
@@ -96,7 +109,8 @@ impl Printer<'_> {
             if factor == 1 { what.to_owned() } else { format!("{factor} * {what}") }
         };
         let at = match row {
-            Row::All => (len * index + k).to_string(),
+            Row::All | Row::First => (len * index + k).to_string(),
+            Row::AllButFirst => (declared.row_len(&self.routines.description) + k).to_string(),
             Row::Last => (self.len(array) - len + k).to_string(),
             Row::Each { stride, offset } => plus(times(stride * len, "i"), offset * len + k),
             Row::Listed { table, column } => {
@@ -125,16 +139,13 @@ impl Printer<'_> {
                 }
             }
             Statement::Declare(array) => {
-                let value = match self.routine.arrays[*array].role {
-                    Role::Identity => "Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0)".to_owned(),
-                    _ => format!("new Float64Array({})", self.len(*array)),
-                };
-                self.writer.lines(&format!("const {} = {value};", self.name(*array)));
+                let line = format!("const {} = new Float64Array({});", self.name(*array), self.len(*array));
+                self.writer.lines(&line);
             }
             // What is cleared has only begun.
             Statement::Clear(_) => {}
             Statement::Copy { from, to } => {
-                let line = format!("{}.set({});", self.name(*to), self.name(*from));
+                let line = format!("{}.set({});", self.name(*to), self.part(*from));
                 self.writer.lines(&line);
             }
             Statement::Assign { to, values, fresh: true, .. } => {

@@ -31,7 +31,16 @@ pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines
         if index == given {
             printer.constants(constants);
         }
-        printer.statement(statement, index + 1 == list.len());
+        if let (Statement::Call { routine, arrays, fresh }, Some(Statement::Return(_))) =
+            (statement, list.get(index + 1))
+            && printer.gives_margin(arrays)
+        {
+            // What is returned at once needs no name.
+            let call = printer.call(routine, arrays, fresh);
+            printer.writer.lines(&call);
+            break;
+        }
+        printer.statement(statement);
     }
     if given == list.len() {
         printer.constants(constants);
@@ -54,6 +63,7 @@ fn size(count: Count) -> String {
         Count::Exactly(count) => return count.to_string(),
         Count::Frames => "FRAMES",
         Count::FramesAndTool => "FRAMES + 1",
+        Count::BaseToTool => "FRAMES + 2",
         Count::Errors => "ERRORS",
         Count::Distinct => "DISTINCT",
         Count::Variables => "VARIABLES",
@@ -65,11 +75,17 @@ fn size(count: Count) -> String {
     .to_owned()
 }
 
+/// The index of the last row of so many.
+fn last(count: Count) -> String {
+    match count {
+        Count::FramesAndTool => "FRAMES".to_owned(),
+        Count::BaseToTool => "FRAMES + 1".to_owned(),
+        count => format!("{} - 1", size(count)),
+    }
+}
+
 fn documentation(writer: &mut Writer, routine: &Routine, has_margin: bool) {
-    let Some(function) = routine.function else {
-        return writer.documentation(&format!("{}.", operations(routine)));
-    };
-    writer.documentation(function.signature().documentation);
+    writer.documentation(routine.documentation);
     writer.documentation_line("");
     if has_margin {
         writer.documentation("Returns `cos ρ`; where that is 0, rows 4–6 are not finite.");
@@ -99,7 +115,7 @@ impl Printer<'_> {
         }
     }
 
-    fn statement(&mut self, statement: &Statement, is_last: bool) {
+    fn statement(&mut self, statement: &Statement) {
         match statement {
             Statement::Unpack { names, from } => self.unpack(names, *from),
             Statement::Comment(text) => self.writer.comment(text),
@@ -112,22 +128,20 @@ impl Printer<'_> {
                 let reference = if array.role == Role::Result { "*" } else { "" };
                 self.writer.lines(&format!("{reference}{} = {value};", array.name));
             }
-            Statement::Copy { from, to } => {
-                let [from, to] = [from, to].map(|array| self.routine.arrays[*array].name);
-                self.writer.lines(&format!("*{to} = {from};"));
-            }
+            Statement::Copy { from, to } => self.copy(*from, *to),
             Statement::Assign { to, index, values, fresh } => self.assign(*to, *index, values, *fresh),
-            Statement::Call { routine, arrays, fresh } => self.call(routine, arrays, fresh, is_last),
+            Statement::Call { routine, arrays, fresh } => {
+                let named = if self.gives_margin(arrays) { "let margin = " } else { "" };
+                let call = self.call(routine, arrays, fresh);
+                self.writer.lines(&format!("{named}{call};"));
+            }
             Statement::Sums { sums, terms, entries } => self.sums(*sums, *terms, *entries),
             Statement::For { repeated, body } => {
-                let count = match repeated.count {
-                    Count::FramesAndTool => "=FRAMES".to_owned(),
-                    count => size(count),
-                };
+                let count = size(repeated.count);
                 let range =
                     if repeated.backwards { format!("(0..{count}).rev()") } else { format!("0..{count}") };
                 self.writer.open(&format!("for i in {range}"));
-                body.iter().for_each(|statement| self.statement(statement, false));
+                body.iter().for_each(|statement| self.statement(statement));
                 self.writer.close("}");
             }
             Statement::Return(value) => self.writer.lines(value),
@@ -185,16 +199,19 @@ impl Printer<'_> {
 
     fn declare(&mut self, array: usize) {
         let array = &self.routine.arrays[array];
-        let value = match array.role {
-            Role::Zeros => self.zeros(array),
-            Role::Identity => {
-                let rows = ["[one, zero, zero]", "[zero, one, zero]", "[zero, zero, one]", "[zero; 3]"];
-                let before = format!("let mut {} = ", array.name);
-                return self.writer.array(&before, &rows.map(str::to_owned), ";");
-            }
-            Role::Argument | Role::Result | Role::Margin => return,
+        if array.role == Role::Zeros {
+            let value = self.zeros(array);
+            self.writer.lines(&format!("let mut {} = {value};", array.name));
+        }
+    }
+
+    fn copy(&mut self, from: Place, to: usize) {
+        let from_rows = self.place(from, 0);
+        let line = match from.row {
+            Row::AllButFirst => format!("{}.copy_from_slice(&{from_rows});", self.routine.arrays[to].name),
+            _ => format!("{} = {from_rows};", self.place(Place::all(to), 0)),
         };
-        self.writer.lines(&format!("let mut {} = {value};", array.name));
+        self.writer.lines(&line);
     }
 
     fn assign(&mut self, to: Place, index: usize, values: &[Value], fresh: bool) {
@@ -238,8 +255,11 @@ impl Printer<'_> {
                 format!("{}{name}", if reference { "*" } else { "" })
             }
             Row::All => format!("{name}{}", inner(index)),
-            Row::Last => format!("{name}[FRAMES]"),
-            Row::Each { stride: 1, .. } => format!("{name}[i]"),
+            Row::First => format!("{name}[0]"),
+            Row::Last => format!("{name}[{}]", last(array.shape[0])),
+            Row::AllButFirst => format!("{name}[1..]"),
+            Row::Each { stride: 1, offset: 0 } => format!("{name}[i]"),
+            Row::Each { stride: 1, offset } => format!("{name}[i + {offset}]"),
             Row::Each { offset, .. } if outer.len() == 2 => format!("{name}[i][{offset}]"),
             Row::Each { stride, offset: 0 } => format!("{name}[{stride} * i]"),
             Row::Each { stride, offset } => format!("{name}[{stride} * i + {offset}]"),
@@ -249,17 +269,22 @@ impl Printer<'_> {
         }
     }
 
-    fn call(&mut self, routine: &str, arrays: &[usize], fresh: &[usize], is_last: bool) {
+    /// Whether a call returns the margin.
+    fn gives_margin(&self, arrays: &[usize]) -> bool {
+        arrays.iter().any(|array| self.routine.arrays[*array].role == Role::Margin)
+    }
+
+    /// The arrays that begin with a call, and the call.
+    fn call(&mut self, routine: &str, arrays: &[usize], fresh: &[usize]) -> String {
         fresh.iter().for_each(|array| self.declare(*array));
         let callee = self.routines.named(routine);
         let mut arguments = Vec::new();
-        let mut margin = false;
         for (array, wanted) in arrays.iter().zip(&callee.arrays) {
             let array = &self.routine.arrays[*array];
-            let is_local = matches!(array.role, Role::Zeros | Role::Identity);
+            let is_local = array.role == Role::Zeros;
             let mutable = if wanted.role == Role::Argument { "&" } else { "&mut " };
             match wanted.role {
-                Role::Margin => margin = true,
+                Role::Margin => {}
                 // A single row of what has several dimensions.
                 _ if array.shape.len() > wanted.shape.len() => {
                     arguments.push(format!("&mut {}[0]", array.name));
@@ -270,9 +295,7 @@ impl Printer<'_> {
         }
         // A result may have the name of the function.
         let path = if self.routine.arrays.iter().any(|array| array.name == routine) { "self::" } else { "" };
-        let call = format!("{path}{routine}({})", arguments.join(", "));
-        let _ = is_last;
-        self.writer.lines(&if margin { format!("let margin = {call};") } else { format!("{call};") });
+        format!("{path}{routine}({})", arguments.join(", "))
     }
 
     fn sums(&mut self, sums: usize, terms: usize, entries: usize) {
@@ -281,10 +304,10 @@ impl Printer<'_> {
         let flattened = ".as_flattened_mut()".repeat(entries.shape.len() - 1);
         let terms = terms.name;
         self.writer.lines(&format!("let entries = {}{flattened};", entries.name));
-        self.writer.open(&format!("for (entry, constant) in entries.iter_mut().zip({name}_CONSTANTS)"));
-        self.writer.lines("*entry = T::constant(constant);");
+        self.writer.open(&format!("for (entry, constant) in entries.iter_mut().zip(&{name}_CONSTANTS)"));
+        self.writer.lines("*entry = T::constant(*constant);");
         self.writer.close("}");
-        self.writer.open(&format!("for (entry, term, factor) in {name}_FACTORS"));
+        self.writer.open(&format!("for &(entry, term, factor) in &{name}_FACTORS"));
         self.writer
             .lines(&format!("entries[entry] = {terms}[term].mul_add(T::constant(factor), entries[entry]);"));
         self.writer.close("}");

@@ -32,11 +32,16 @@ impl<'g> Sum<'g> {
         Self { graph, terms: IndexSet::new(), sums: Vec::new(), tables: Vec::new() }
     }
 
-    /// The entries of all transforms.
+    /// The entries of `F_0`, which is no motion, and of all transforms.
     pub(super) fn motions(&mut self, transforms: &[Frame]) -> usize {
         let entries = transforms.iter().flat_map(|frame| frame.axes.iter().flatten().chain(&frame.position));
         let entries: Vec<Node> = entries.copied().collect();
-        self.entries("MOTION", &entries)
+        let sums = self.entries("MOTION", &entries);
+        let Sums { constants, factors, .. } = &mut self.sums[sums];
+        let base = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+        constants.splice(0..0, base);
+        factors.iter_mut().for_each(|(entry, ..)| *entry += base.len());
+        sums
     }
 
     /// The velocities and rotations that symbols cause.

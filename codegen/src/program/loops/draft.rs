@@ -1,0 +1,95 @@
+//! A routine while it is written: its arrays, and its stages so far.
+
+use abbe::function::Count;
+
+use super::Loops;
+use super::body::Body;
+use crate::chain::Rows;
+use crate::graph::Vector;
+use crate::program::routine::{Array, Place, Repeated, Role, Row, Stage};
+use crate::spec::Orientation;
+
+/// The dimensions of a pose.
+pub(super) const POSE: [Count; 2] = [Count::Exactly(4), Count::Exactly(3)];
+
+pub(super) struct Draft<'d, 'm> {
+    pub(super) loops: &'d Loops<'m>,
+    arrays: &'d mut Vec<Array>,
+    pub(super) stages: Vec<Stage>,
+}
+
+impl<'d, 'm> Draft<'d, 'm> {
+    /// No stages yet, of a routine that takes and fills these arrays.
+    pub(super) fn new(loops: &'d Loops<'m>, arrays: &'d mut Vec<Array>) -> Self {
+        Self { loops, arrays, stages: Vec::new() }
+    }
+
+    /// The argument or result of that name.
+    pub(super) fn array(&self, name: &str) -> usize {
+        self.arrays.iter().position(|array| array.name == name).expect("the signature has it")
+    }
+
+    /// The index of the margin, if there is one.
+    pub(super) fn margin(&self) -> Option<usize> {
+        self.arrays.iter().position(|array| array.role == Role::Margin)
+    }
+
+    /// An array of its own that begins as zeros.
+    pub(super) fn zeros(&mut self, name: &'static str, shape: &[Count]) -> usize {
+        self.arrays.push(Array { name, shape: shape.to_vec(), role: Role::Zeros });
+        self.arrays.len() - 1
+    }
+
+    pub(super) fn call(&mut self, routine: &'static str, arrays: &[usize]) {
+        self.stages.push(Stage::Call { routine, arrays: arrays.to_vec() });
+    }
+
+    /// An array becomes what rows of another one are.
+    pub(super) fn copy(&mut self, from: usize, row: Row, to: usize) {
+        self.stages.push(Stage::Copy { from: Place { array: from, row }, to });
+    }
+
+    pub(super) fn once(&mut self, body: Body) {
+        self.stages.push(body.stage(None));
+    }
+
+    pub(super) fn each(&mut self, count: Count, body: Body) {
+        self.stages.push(body.stage(Some(Repeated { count, backwards: false })));
+    }
+
+    pub(super) fn backwards(&mut self, body: Body) {
+        self.stages.push(body.stage(Some(Repeated { count: Count::Frames, backwards: true })));
+    }
+
+    /// What rows 4–6 take, and the margin, from the x axis of the tool in an array.
+    pub(super) fn rows(&mut self, axis: impl FnOnce(&mut Body) -> Vector) -> RowsArray {
+        if self.loops.orientation == Orientation::RotationVector {
+            return RowsArray::ROTATION_VECTOR;
+        }
+        let euler = self.zeros("euler", &[Count::Exactly(Rows::PARTS)]);
+        let mut body = Body::new();
+        let axis = axis(&mut body);
+        let rows = Rows::new(&mut body.graph, Orientation::EulerYzx, axis);
+        body.write(euler, Row::All, &rows.parts());
+        if let (Some(margin), Some(node)) = (self.margin(), rows.margin()) {
+            body.write(margin, Row::All, &[node]);
+        }
+        self.once(body);
+        RowsArray(Some(euler))
+    }
+}
+
+/// Where what rows 4–6 take is kept; rotation vectors take nothing.
+pub(super) struct RowsArray(Option<usize>);
+
+impl RowsArray {
+    /// That of rotation vectors.
+    pub(super) const ROTATION_VECTOR: Self = Self(None);
+
+    pub(super) fn read(&self, body: &mut Body) -> Rows {
+        match self.0 {
+            None => Rows::RotationVector,
+            Some(array) => Rows::from_parts(&body.read(array, Row::All, Rows::PARTS)),
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Jacobians and what is accumulated over the frames.
+
+use abbe::function::Count;
+
+use super::body::Body;
+use super::draft::{Draft, POSE, RowsArray};
+use super::sums::Twists;
+use crate::chain::{Accumulated, Columns, Local, swing};
+use crate::graph::Node;
+use crate::program::routine::{Row, Stage};
+use crate::spec::Orientation;
+
+impl Draft<'_, '_> {
+    /// `J_e`, all of its columns or what of them is neither zero nor repeated.
+    pub(super) fn error_jacobian(&mut self, distinct: bool) {
+        let terms = self.terms();
+        let frames = self.frames(terms);
+        let pose = self.array("pose");
+        self.copy(frames, Row::Last, pose);
+        let rows = self.rows(|body| body.frame(pose, Row::All).axes[0]);
+        let mut body = Body::new();
+        let (at, tool) = (body.frame(frames, Row::NEXT), body.frame(pose, Row::All));
+        let rows = rows.read(&mut body);
+        let g = &mut body.graph;
+        let lever = g.sub_vectors(tool.position, at.position);
+        let moments = at.axes.map(|axis| g.cross(axis, lever));
+        let columns = Columns::new(g, &at, moments, &rows);
+        if distinct {
+            let array = self.array("distinct");
+            let vectors = columns.distinct(&rows);
+            let stride = vectors.len() / 3;
+            for (offset, vector) in vectors.chunks(3).enumerate() {
+                body.write(array, Row::Each { stride, offset }, vector);
+            }
+        } else {
+            let array = self.array("columns");
+            for (offset, column) in columns.dense(g).iter().enumerate() {
+                body.write(array, Row::Each { stride: 6, offset }, column);
+            }
+        }
+        self.each(Count::Frames, body);
+    }
+
+    /// `∂X_T/∂x` of variables or parameters, rows as the spec's orientation says.
+    pub(super) fn symbol_jacobian(&mut self, by_parameters: bool) {
+        let terms = self.terms();
+        let frames = self.frames(terms);
+        let pose = self.array("pose");
+        self.copy(frames, Row::Last, pose);
+        let rows = self.rows(|body| body.frame(pose, Row::All).axes[0]);
+        let twists = if by_parameters { &self.loops.parameters } else { &self.loops.joints };
+        self.columns_of_twists(twists, terms, frames, &rows);
+    }
+
+    /// The pose with errors, and `J_q` with rotation-vector rows.
+    pub(super) fn compensator_step(&mut self) {
+        let terms = self.terms();
+        let frames = self.frames(terms);
+        self.columns_of_twists(&self.loops.joints, terms, frames, &RowsArray::ROTATION_VECTOR);
+        let arrays = ["q", "s", "u", "pose"].map(|name| self.array(name));
+        self.call("real_pose", &arrays);
+    }
+
+    /// The columns of what symbols do to the transforms: with the frame (R, p) before a transform
+    ///
+    /// ```text
+    /// ω = R ω_l        v = R v_l + ω × (p_T − p)
+    /// ```
+    fn columns_of_twists(&mut self, twists: &Twists, terms: usize, frames: usize, rows: &RowsArray) {
+        let columns = self.array("columns");
+        self.stages.push(Stage::Clear(columns));
+        let entries = self.zeros("twists", &[Count::Exactly(twists.count), Count::Exactly(6)]);
+        self.stages.push(Stage::Sums { sums: twists.sums, terms, entries });
+        let listed = |column| Row::Listed { table: twists.table, column };
+        let mut body = Body::new();
+        let (before, tool) = (body.frame(frames, listed(0)), body.frame(frames, Row::Last));
+        let [velocity, turn] = body.twist(entries, Row::EACH);
+        let sum = body.six(columns, listed(1));
+        let rows = rows.read(&mut body);
+        let g = &mut body.graph;
+        let turn = g.turn(&before.axes, turn);
+        let velocity = g.turn(&before.axes, velocity);
+        let velocity = swing(g, velocity, turn, tool.position, before.position);
+        let column = rows.column(g, velocity, turn);
+        let column: Vec<Node> = sum.iter().zip(column).map(|(a, b)| g.add(*a, b)).collect();
+        body.write(columns, listed(1), &column);
+        self.each(Count::Exactly(twists.count), body);
+    }
+
+    /// From the tip to the base: what the errors of all frames, or their variances, do to the tool point.
+    pub(super) fn accumulate<A: Accumulated>(&mut self, errors: usize, result: &'static str) {
+        let links = self.links();
+        let euler = self.loops.orientation == Orientation::EulerYzx;
+        let lever = self.zeros("lever", &[Count::Exactly(3)]);
+        let axis = euler.then(|| self.zeros("direction", &[Count::Exactly(3)]));
+        let state = self.zeros("sum", &[Count::Exactly(A::NUMBERS)]);
+        let mut body = Body::new();
+        let tool = body.frame(links, Row::Last);
+        body.write(lever, Row::All, &tool.position);
+        if let Some(axis) = axis {
+            body.write(axis, Row::All, &tool.axes[0]);
+        }
+        self.once(body);
+
+        let mut body = Body::new();
+        let link = body.frame(links, Row::NEXT);
+        let errors = body.six(errors, Row::EACH);
+        let numbers = body.read(state, Row::All, A::NUMBERS);
+        let point = body.vector(lever, Row::All);
+        let first_axis = axis.map(|axis| body.vector(axis, Row::All));
+        let g = &mut body.graph;
+        let mut sum = A::from_numbers(&numbers);
+        sum.add(g, errors, point);
+        let (turn, shift) = (Local::Rotation(link.axes), Local::Shift(link.position));
+        sum.turn(g, &turn);
+        let point = turn.direction(g, point);
+        let point = shift.point(g, point);
+        let first_axis = first_axis.map(|axis| turn.direction(g, axis));
+        body.write(state, Row::All, &sum.numbers());
+        body.write(lever, Row::All, &point);
+        if let (Some(array), Some(node)) = (axis, first_axis) {
+            body.write(array, Row::All, &node);
+        }
+        self.backwards(body);
+
+        let rows = match axis {
+            Some(axis) => self.rows(|body| body.vector(axis, Row::All)),
+            None => RowsArray::ROTATION_VECTOR,
+        };
+        let mut body = Body::new();
+        let numbers = body.read(state, Row::All, A::NUMBERS);
+        let rows = rows.read(&mut body);
+        let nodes = A::from_numbers(&numbers).rows(&mut body.graph, &rows);
+        body.write(self.array(result), Row::All, &nodes.concat());
+        self.once(body);
+    }
+
+    /// ΔX of each source by itself from the columns of `J_e`.
+    pub(super) fn by_source(&mut self) {
+        let pose = self.zeros("pose", &POSE);
+        let columns = self.zeros("columns", &[Count::Errors, Count::Exactly(6)]);
+        let effects = self.zeros("effects", &[Count::Effects]);
+        let [q, s, u] = ["q", "s", "u"].map(|name| self.array(name));
+        let arrays: Vec<usize> = [q, s, pose, columns].into_iter().chain(self.margin()).collect();
+        self.call("error_jacobian", &arrays);
+        self.call("effects", &[q, s, u, effects]);
+        let displacements = self.array("displacements");
+        self.stages.push(Stage::Clear(displacements));
+        let table = self.loops.tables.len() - 1;
+        let listed = |column| Row::Listed { table, column };
+        let mut body = Body::new();
+        let value = body.read(effects, Row::EACH, 1)[0];
+        let column = body.six(columns, listed(0));
+        let sum = body.six(displacements, listed(1));
+        let g = &mut body.graph;
+        let sum = [0, 1, 2, 3, 4, 5].map(|i| {
+            let part = g.mul(value, column[i]);
+            g.add(sum[i], part)
+        });
+        body.write(displacements, listed(1), &sum);
+        self.each(Count::Effects, body);
+    }
+
+    /// `ΔX = J_e ε` of the repeatable sources.
+    pub(super) fn predicted_displacement(&mut self) {
+        let errors = self.generalized_errors();
+        let [q, s, displacement] = ["q", "s", "displacement"].map(|name| self.array(name));
+        let arrays: Vec<usize> = [q, s, errors, displacement].into_iter().chain(self.margin()).collect();
+        self.call("displacement", &arrays);
+    }
+}

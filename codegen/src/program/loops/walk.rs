@@ -1,0 +1,131 @@
+//! The way along the frames, and the routines that several functions go it by.
+
+use abbe::function::Count;
+
+use super::Loops;
+use super::body::Body;
+use super::draft::{Draft, POSE};
+use crate::chain::displaced;
+use crate::program::routine::{Array, Block, Place, Role, Routine, Row, Stage};
+use crate::program::{Operations, Program};
+
+/// The poses of the base, of all frames and of the tool.
+const CHAIN: [Count; 3] = [Count::BaseToTool, POSE[0], POSE[1]];
+
+/// Terms, links and frames.
+pub(super) fn helpers(loops: &Loops<'_>) -> Vec<Routine> {
+    let array = |name, shape: &[Count], role| Array { name, shape: shape.to_vec(), role };
+    let terms = |role| array("terms", &[Count::Exactly(loops.terms.len())], role);
+    let routine = |name, documentation, arrays, stages| Routine {
+        function: None,
+        name,
+        documentation,
+        arrays,
+        stages,
+        operations: Operations::default(),
+    };
+
+    let [q, s] = [("q", Count::Variables), ("s", Count::Parameters)]
+        .map(|(name, count)| array(name, &[count], Role::Argument));
+    let program = Program::new(&loops.model.graph, &loops.terms);
+    let writes = vec![Place::all(2)];
+    let once = Stage::Block(Block { reads: vec![], program, writes, repeated: None });
+    let arrays = vec![q, s, terms(Role::Result)];
+    let terms_of_q =
+        routine("chain_terms", "What the entries of all transforms are sums of.", arrays, vec![once]);
+
+    let sums = Stage::Sums { sums: loops.motions, terms: 0, entries: 1 };
+    let arrays = vec![terms(Role::Argument), array("links", &CHAIN, Role::Result)];
+    let links =
+        routine("chain_links", "No motion, `A_1 … A_n` and the tool, each by itself.", arrays, vec![sums]);
+
+    let mut arrays = vec![terms(Role::Argument), array("frames", &CHAIN, Role::Result)];
+    let mut draft = Draft::new(loops, &mut arrays);
+    draft.walk();
+    let stages = draft.stages;
+    let frames = routine("chain_frames", "`F_0 … F_n` and the tool, all in `F_0`.", arrays, stages);
+    vec![terms_of_q, links, frames]
+}
+
+impl Draft<'_, '_> {
+    /// What the entries of all transforms are sums of.
+    pub(super) fn terms(&mut self) -> usize {
+        let (q, s) = (self.array("q"), self.array("s"));
+        let terms = self.zeros("terms", &[Count::Exactly(self.loops.terms.len())]);
+        self.call("chain_terms", &[q, s, terms]);
+        terms
+    }
+
+    /// No motion, `A_1 … A_n` and the tool.
+    pub(super) fn links(&mut self) -> usize {
+        let terms = self.terms();
+        let links = self.zeros("links", &CHAIN);
+        self.call("chain_links", &[terms, links]);
+        links
+    }
+
+    /// `F_0 … F_n` and the tool in `F_0`, from the terms.
+    pub(super) fn frames(&mut self, terms: usize) -> usize {
+        let frames = self.zeros("frames", &CHAIN);
+        self.call("chain_frames", &[terms, frames]);
+        frames
+    }
+
+    /// From the base to the tip, `F_i = F_{i-1} A_i`: each frame takes the place of the link to it.
+    fn walk(&mut self) {
+        let [terms, frames] = ["terms", "frames"].map(|name| self.array(name));
+        self.call("chain_links", &[terms, frames]);
+        let mut body = Body::new();
+        let (at, link) = (body.frame(frames, Row::EACH), body.frame(frames, Row::NEXT));
+        let next = body.graph.then(&at, &link);
+        body.write_frame(frames, Row::NEXT, &next);
+        self.each(Count::FramesAndTool, body);
+    }
+
+    /// `A_1 … A_n` and the tool, each by itself.
+    pub(super) fn transforms(&mut self) {
+        let links = self.links();
+        let transforms = self.array("transforms");
+        self.copy(links, Row::AllButFirst, transforms);
+    }
+
+    /// From the tip to the base, equation (2): `X ← A_i X`, beginning with the tool.
+    pub(super) fn pose(&mut self) {
+        let links = self.links();
+        let pose = self.array("pose");
+        self.copy(links, Row::Last, pose);
+        let mut body = Body::new();
+        let (link, behind) = (body.frame(links, Row::NEXT), body.frame(pose, Row::All));
+        let next = body.graph.then(&link, &behind);
+        body.write_frame(pose, Row::All, &next);
+        self.backwards(body);
+    }
+
+    /// From the base to the tip, equation (6): `X ← X A_i E_i`; the tool has no error.
+    pub(super) fn real_pose(&mut self) {
+        let errors = self.generalized_errors();
+        let links = self.links();
+        let pose = self.array("pose");
+        self.copy(links, Row::First, pose);
+        let mut body = Body::new();
+        let (at, link) = (body.frame(pose, Row::All), body.frame(links, Row::NEXT));
+        let errors = body.six(errors, Row::EACH);
+        let nominal = body.graph.then(&at, &link);
+        let real = displaced(&mut body.graph, nominal, &errors);
+        body.write_frame(pose, Row::All, &real);
+        self.each(Count::Frames, body);
+        let mut body = Body::new();
+        let (at, tool) = (body.frame(pose, Row::All), body.frame(links, Row::Last));
+        let next = body.graph.then(&at, &tool);
+        body.write_frame(pose, Row::All, &next);
+        self.once(body);
+    }
+
+    /// ε of the repeatable sources.
+    pub(super) fn generalized_errors(&mut self) -> usize {
+        let [q, s, u] = ["q", "s", "u"].map(|name| self.array(name));
+        let errors = self.zeros("errors", &[Count::Frames, Count::Exactly(6)]);
+        self.call("generalized_errors", &[q, s, u, errors]);
+        errors
+    }
+}
