@@ -3,15 +3,11 @@
 import math
 
 from kinematics import Configuration, exact_position
+from sphere import enclosing
+from uncertainty import DEVIATION, Uncertainty, norm
 
 # What the first-order bound of a random source is: its half-width, or three standard deviations.
 BOUND = {"uniform": 1.0, "normal": 3.0, "triangular": 1.0, "arcsine": 1.0}
-# Standard deviation of a source whose value is 1.
-DEVIATION = {"uniform": 1 / math.sqrt(3), "normal": 1.0, "triangular": 1 / math.sqrt(6), "arcsine": 1 / math.sqrt(2)}
-
-
-def norm(v):
-    return math.sqrt(sum(x * x for x in v))
 
 
 def bound(source):
@@ -25,64 +21,78 @@ class Sweep:
         self.spec = spec
         self.sources = [source for source in spec.sources if source.enabled]
         self.places = [Configuration(spec, names) for names in configurations]
-        self.moves = [[place.displacement(source) for source in self.sources] for place in self.places]
+        self.moves = [self.moves_at(place) for place in self.places]
+        self.home_names = home
         at_home = Configuration(spec, home)
-        self.home = [at_home.displacement(source) for source in self.sources]
+        self.home = self.moves_at(at_home)
 
-    def alone(self, k):
+    def moves_at(self, configuration):
+        return [configuration.displacement(source) for source in self.sources]
+
+    def uncertainty(self, row, first=0):
+        """The budget of the GUM of three rows from `first` on, where sources move the tool like this."""
+        return Uncertainty([(source, move[first : first + 3]) for source, move in zip(self.sources, row)])
+
+    def alone(self, k, first=0):
+        """One source over the workspace: of the position, or from row 3 on of the orientation."""
         source = self.sources[k]
-        scale = bound(source)
-        moves = [[scale * x for x in row[k]] for row in self.moves]
-        home = [scale * x for x in self.home[k][:3]]
-        points = [move[:3] for move in moves]
+        points = [[bound(source) * x for x in row[k][first : first + 3]] for row in self.moves]
+        home = [bound(source) * x for x in self.home[k][first : first + 3]]
         # The sign of a random error is not known, neither here nor at home.
         homes = [home] if source.repeatable else [home, [-x for x in home]]
         spread = points if source.repeatable else points + [[-x for x in p] for p in points]
+        halves = {axis: half_spread([p[i] for p in spread]) for i, axis in enumerate("xyz")}
         return {
             "plain_max": per_axis(points),
-            "half_peak_to_peak": {axis: half_spread([p[i] for p in spread]) for i, axis in enumerate("xyz")},
+            "half_peak_to_peak": {**halves, "norm": enclosing(spread)[1]},
             "relative_to_home": per_axis([[a - b for a, b in zip(p, h)] for p in points for h in homes]),
-            "orientation": [max(abs(move[3 + i]) for move in moves) for i in range(3)],
         }
 
-    def sums(self, row):
-        """Repeatable sources added, random ones as root sum of squares of bounds, at one configuration."""
-        repeatable, squares, variances = [0.0] * 3, [0.0] * 3, [0.0] * 3
+    def sums(self, row, first=0):
+        """Repeatable sources added, random ones as root sum of squares of bounds and of standard deviations, all absolutely."""
+        repeatable, squares, variances, worst = ([0.0] * 3 for _ in range(4))
         for source, move in zip(self.sources, row):
-            if source.repeatable:
-                repeatable = [a + b for a, b in zip(repeatable, move)]
-            else:
-                squares = [a + (bound(source) * b) ** 2 for a, b in zip(squares, move)]
-                variances = [a + (DEVIATION[source.distribution] * b) ** 2 for a, b in zip(variances, move)]
-        return repeatable, [math.sqrt(x) for x in squares], [math.sqrt(x) for x in variances]
+            for i, x in enumerate(move[first : first + 3]):
+                worst[i] += abs(bound(source) * x)
+                if source.repeatable:
+                    repeatable[i] += x
+                else:
+                    squares[i] += (bound(source) * x) ** 2
+                    variances[i] += (DEVIATION[source.distribution] * x) ** 2
+        return repeatable, [math.sqrt(x) for x in squares], [math.sqrt(x) for x in variances], worst
 
-    def combined(self):
-        rows = [self.sums(row) for row in self.moves]
-        both = [norm(a) + norm(b) for a, b, _ in rows]
+    def combined(self, first=0):
+        repeatable, random, standard, worst = zip(*(self.sums(row, first) for row in self.moves))
+        both = [norm(a) + norm(b) for a, b in zip(repeatable, random)]
         return {
-            "repeatable_radius": max(norm(a) for a, _, _ in rows),
-            "random_radius": max(norm(b) for _, b, _ in rows),
+            "repeatable_radius": max(map(norm, repeatable)),
+            "random_radius": max(map(norm, random)),
             "radius": max(both),
-            "repeatable": [max(abs(a[i]) for a, _, _ in rows) for i in range(3)],
-            "random": [max(b[i] for _, b, _ in rows) for i in range(3)],
+            "repeatable": largest_entries(repeatable),
+            "random": largest_entries(random),
+            "standard_deviation": largest_entries(standard),
+            "standard_radius": max(map(norm, standard)),
             "rms": {
-                "repeatable": root_mean_square([norm(a) for a, _, _ in rows]),
-                "random": root_mean_square([norm(b) for _, b, _ in rows]),
+                "repeatable": root_mean_square(map(norm, repeatable)),
+                "random": root_mean_square(map(norm, random)),
                 "both": root_mean_square(both),
             },
-            "standard_deviation": [max(c[i] for _, _, c in rows) for i in range(3)],
-            "standard_radius": max(norm(c) for _, _, c in rows),
-            "worst_case": [max(sum(abs(bound(s) * m[i]) for s, m in zip(self.sources, row)) for row in self.moves) for i in range(3)],
+            "worst_case": largest_entries(worst),
         }
 
+    def enclosing_sphere(self):
+        """Around the repeatable errors of all configurations: centre and radius."""
+        return enclosing([self.sums(row)[0] for row in self.moves])
 
     def largest_remainder(self):
-        """What first order leaves of the repeatable sources on the exact chain, at most."""
-        repeatable = [(source, 1.0) for source in self.sources if source.repeatable]
+        """What first order leaves on the exact chain at most: of the repeatable sources, or else of all at their bounds."""
+        known = [source for source in self.sources if source.repeatable] or self.sources
+        magnitudes = [(source, bound(source)) for source in known]
         largest = 0.0
         for place, row in zip(self.places, self.moves):
-            ideal, real = exact_position(place, []), exact_position(place, repeatable)
-            first_order = self.sums(row)[0]
+            ideal, real = exact_position(place, []), exact_position(place, magnitudes)
+            moves = [[bound(s) * x for x in move[:3]] for s, move in zip(self.sources, row) if s in known]
+            first_order = [sum(column) for column in zip(*moves)]
             largest = max(largest, norm([r - i - f for r, i, f in zip(real, ideal, first_order)]))
         return largest
 
@@ -96,5 +106,10 @@ def half_spread(numbers):
     return (max(numbers) - min(numbers)) / 2
 
 
+def largest_entries(rows):
+    return [max(abs(row[i]) for row in rows) for i in range(3)]
+
+
 def root_mean_square(numbers):
+    numbers = list(numbers)
     return math.sqrt(sum(x * x for x in numbers) / len(numbers))

@@ -34,20 +34,21 @@ class Rule:
 COARSE, FINE = Rule(0.14), Rule(0.05)
 
 
-def eigenvalues(c):
-    """Of a symmetric 3 x 3 matrix, ascending, by Jacobi's rotations."""
+def eigenvectors(c):
+    """Of a symmetric 3 x 3 matrix, by Jacobi's rotations: values ascending, and the vector of each."""
     a = [list(row) for row in c]
-    for _ in range(60):
+    vectors = [[float(i == j) for j in range(3)] for i in range(3)]
+    for _ in range(30):
         for p, q in ((0, 1), (0, 2), (1, 2)):
-            if abs(a[p][q]) <= 1e-300:
+            if a[p][q] == 0.0:
                 continue
             angle = 0.5 * math.atan2(2 * a[p][q], a[q][q] - a[p][p])
             c, s = math.cos(angle), math.sin(angle)
-            for k in range(3):
-                a[k][p], a[k][q] = c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]
-            for k in range(3):
-                a[p][k], a[q][k] = c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]
-    return sorted(max(a[k][k], 0.0) for k in range(3))
+            for row in (*a, *vectors):
+                row[p], row[q] = c * row[p] - s * row[q], s * row[p] + c * row[q]
+            a[p], a[q] = [[c * x - s * y for x, y in zip(a[p], a[q])], [s * x + c * y for x, y in zip(a[p], a[q])]]
+    pairs = sorted((max(a[k][k], 0.0), [row[k] for row in vectors]) for k in range(3))
+    return [value for value, _ in pairs], [vector for _, vector in pairs]
 
 
 def probability(radius, values, rule=FINE):
@@ -71,7 +72,7 @@ def probability(radius, values, rule=FINE):
 
 def quantile(p, covariance):
     """The radius of the ball that holds the share p."""
-    values = eigenvalues(covariance)
+    values, _ = eigenvectors(covariance)
     if values[2] == 0.0:
         return 0.0
     low, high = 0.0, 10 * math.sqrt(sum(values))

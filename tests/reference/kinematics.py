@@ -47,6 +47,7 @@ class Configuration:
         errors = [None] * len(spec.frames)
         located = [[] for _ in spec.frames]
         for source, magnitude in magnitudes:
+            magnitude = source.scale * magnitude
             for effect in source.effects:
                 number = self.effects[id(effect)]
                 i = effect.frame

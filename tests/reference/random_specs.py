@@ -1,34 +1,47 @@
 """Random specs that together use every form of the language, each with configurations to look at."""
 
+import itertools
 import math
 import random
+import re
 
 # Forms that the command does not have yet.
-MISSING = {"joint", "parameter", "dh source", "triangular", "arcsine", "new functions", "new units", "table", "located exactly"}
-
-FRAME_FORMS = ["product", "matrix", "dh", "mdh", "origin", "fixed", "fixed origin", "coupled"]
-SOURCE_FORMS = [
-    "repeatable", "uniform", "normal", "effects", "random effects", "at", "beam", "beam at", "compliance", "compliance matrix",
-    "disabled", "beam without EA",
-    "joint", "parameter", "dh source", "triangular", "arcsine",
+MISSING = {
+    "triangular", "arcsine", "new functions", "new units", "table", "linear", "cubic",
+}  # fmt: skip
+SOURCES = [
+    "repeatable", "uniform", "normal", "triangular", "arcsine", "effects", "random effects", "at", "disabled", "magnitude",
+    "beam", "beam at", "beam without EA", "compliance", "compliance matrix", "compliance at", "joint", "parameter", "dh source",
+    "joint effects",
 ]  # fmt: skip
+# What 30 specs use together.
+FORMS = {
+    *SOURCES, "product", "matrix", "dh", "mdh", "origin", "fixed", "fixed origin", "coupled to another",
+    "axis x", "axis z", "axis given", "revolute", "prismatic", "home", "no home", "rotation-vector", "euler-yzx",
+    "no tool", "tool product", "tool matrix", "beam x", "beam y", "beam z", "beam default", "weightless", "mass per length",
+    "mass", "force", "force and moment", "load at a point", "load at the tool", "path", "grid", "inputs set", "inputs crossed", "inputs at both ends", "inputs beside", "new functions", "new units",
+    "linear", "cubic", "errors of dh", "errors of mdh",
+} - MISSING  # fmt: skip
 
 
 class Writer:
-    """Writes one spec. What it writes is typed: angles, lengths, plain numbers; `used` are the forms it took."""
+    """Writes one spec. What it writes is typed: angles, lengths, plain numbers; `used` are the forms taken so far."""
 
-    def __init__(self, seed):
+    def __init__(self, seed, used):
         self.random = random.Random(seed)
-        self.used = set()
+        self.used = used
         self.seed = seed
         self.length = ["mm", "m"][seed % 2]
         self.scale = 1000.0 if self.length == "mm" else 1.0
         self.variables, self.lines = [], []
-        self.frames = []
+        self.frames, self.dh = [], []
         self.parameters = {}
 
     def pick(self, *choices):
-        choice = self.random.choice([c for c in choices if c not in MISSING])
+        """One of these forms; half of the time one that no spec before this one has."""
+        choices = [choice for choice in choices if choice not in MISSING]
+        unused = [choice for choice in choices if choice not in self.used]
+        choice = self.random.choice(unused if unused and self.random.random() < 0.5 else choices)
         self.used.add(choice)
         return choice
 
@@ -38,13 +51,18 @@ class Writer:
     def long(self, low=-0.6, high=0.6):
         """A length in metres, in a unit of the spec's choice."""
         metres = self.random.uniform(low, high)
-        return self.random.choice([f"{metres:.6g} m", f"{metres * 1000:.6g} mm", f"{metres * 1e6:.7g} um"])
+        units = ["m", "mm", "um"] + ([] if "new units" in MISSING else ["nm", "cm", "inch"])
+        unit = self.random.choice(units)
+        size = {"m": 1, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "inch": 0.0254}[unit]
+        return f"{metres / size:.9g} {unit}"
 
     # Expressions over the variables that may stand there.
 
     def angle(self, names, depth=1):
         turns = [name for name in names if name.startswith("q")]
         options = [f"{self.number(-180, 180)} deg", f"{self.number(-900, 900)} mrad", self.number(), "pi/4"]
+        if "new units" not in MISSING:
+            options += [f"{self.number(-9e5, 9e5)} urad", f"{self.number(-900, 900)} arcmin", f"{self.number(-9e4, 9e4)} arcsec"]
         options += turns * 3
         if depth:
             x = self.plain(names, depth - 1)
@@ -78,6 +96,7 @@ class Writer:
                 f"({x} - {y})^3/(1 + ({y})^2)",
                 f"sqrt(1 + ({x})^2)",
                 f"abs({x})",
+                *self.tabulated(x, length),
                 f"exp(-({length}/({self.long(0.4, 0.9)}))^2)" if "new functions" not in MISSING else x,
                 f"max({x}, {y})" if "new functions" not in MISSING else y,
                 f"min({x}, sin({angle}))" if "new functions" not in MISSING else y,
@@ -85,12 +104,26 @@ class Writer:
             ]
         )
 
+    def tabulated(self, x, length):
+        """Tables of a plain number (linear, here) and of a length (cubic, in a file), held beyond their ends."""
+        return [] if "table" in MISSING else [f"profile({x})", f"rail({length})/(1 mm)"]
+
+    def tables(self, folder):
+        rows = ["place,height"]
+        for k in range(7):
+            rows.append(f"{-700 + 200 * k + self.random.uniform(-60, 60):.6g},{self.number(-900, 900)}")
+        (folder / f"rail{self.seed}.csv").write_text("\n".join(rows) + "\n")
+        self.add("[tables.profile]", f"x = [-2, -0.5, 0.1, 1.2, 3]", f"y = [{', '.join(self.number() for _ in range(5))}]")
+        self.add(f'interpolation = "{self.pick("linear", "cubic")}"', 'outside = "hold"')
+        self.add("[tables.rail]", f'file = "rail{self.seed}.csv"', 'interpolation = "cubic"', 'outside = "hold"')
+        self.add('x = { column = "place", unit = "mm" }', 'y = { column = "height", unit = "um" }')
+
     # The file.
 
     def add(self, *lines):
         self.lines += lines
 
-    def spec(self):
+    def spec(self, folder):
         turn = self.random
         orientation = self.pick("rotation-vector", "euler-yzx")
         self.add("[manipulator]", f'name = "random{self.seed}"', f'length = "{self.length}"')
@@ -104,6 +137,8 @@ class Writer:
         self.add(f'EI = {{ value = "{self.number(1e4, 9e4)} N*m^2" }}', f'GJ = {{ value = "{self.number(1e4, 9e4)} N*m^2" }}')
         self.add("[inputs]", 'payload = { value = "2.5 kg", range = ["0 kg", "7500 g"] }')
         self.add('warmth = { value = "3 K", range = ["-10 K", "10 K"] }', "approach = { value = 1, range = [-1, 1] }")
+        if "table" not in MISSING:
+            self.tables(folder)
         count = turn.randint(3, 6)
         moving = turn.sample(range(count), turn.randint(2, count))
         for i in range(count):
@@ -113,6 +148,8 @@ class Writer:
             self.add("[tool]", f'transform = "Tx({self.long()}) Ry({self.angle([], 0)}) Tz(s1) Ty({self.long()})"')
         elif tool == "tool matrix":
             self.add("[tool]", f'matrix = [[0, -1, 0, "{self.long()}"], [1, 0, 0, "s2"], [0, 0, 1, 0.1], [0, 0, 0, 1]]')
+        chain = "\n".join(self.lines[self.lines.index("[[frame]]") :])
+        self.in_the_chain = [name for name in self.parameters if re.search(rf"\b{name}\b", chain)]
         for k in range(2):
             self.load(k)
         for k in range(turn.randint(5, 8)):
@@ -135,14 +172,15 @@ class Writer:
         kind = self.pick("revolute", "prismatic")
         variable = f"{'q' if kind == 'revolute' else 'd'}{i}"
         if kind == "revolute":
-            low, high = self.random.uniform(-2.5, -0.2), self.random.uniform(0.2, 2.5)
-            limits = f'"{math.degrees(low):.6g} deg", {high:.6g}'
-            low = math.radians(float(f"{math.degrees(low):.6g}"))
+            low, high = round(self.random.uniform(-140, -10), 3), round(self.random.uniform(0.2, 2.5), 4)
+            limits = f'"{low} deg", {high}'
+            low = math.radians(low)
         else:
-            low, high = self.random.uniform(-0.5, 0.1), self.random.uniform(0.3, 0.9)
-            limits = f'"{low:.6g} m", "{high * 1000:.6g} mm"'
-            low, high = low * self.scale, high * self.scale
-        low, high = float(f"{low:.6g}"), float(f"{high:.6g}")
+            low, high = round(self.random.uniform(-0.5, 0.05), 4), round(self.random.uniform(300, 900), 3)
+            limits = f'"{low} m", "{high} mm"'
+            low, high = low * self.scale, high * self.scale / 1000
+        # Not the limits to the last digit, which is rounded.
+        low, high = low + 1e-9 * abs(low), high - 1e-9 * abs(high)
         home = low + 0.3 * (high - low)
         # Without a home it is 0, which must lie inside.
         shown = f", home = {home:.6g}" if low > 0 or self.pick("home", "no home") == "home" else ""
@@ -156,10 +194,11 @@ class Writer:
         others = [name for name, _, _ in self.variables if name.startswith(variable[0])]
         if form == "coupled" and others:
             argument = f"{variable} - 0.5*{others[0]}"
-            self.used.add("really coupled")
+            self.used.add("coupled to another")
         else:
             argument = self.random.choice([variable, f"-{variable} + {self.angle([], 0) if turns else self.long()}"])
         if form in ("dh", "mdh"):
+            self.dh.append((form, self.frames[-1]))
             theta, d = (argument, f'"{self.long()}"') if turns else (self.angle([], 0), f'"{argument}"')
             theta = f'"{theta}"'
             alpha = self.random.choice(['"pi/2"', '"-pi/2"', "0", '"17 deg"'])
@@ -183,24 +222,44 @@ class Writer:
             self.add(f'transform = "Ty(s{i % 3}) {kind}{motion}({argument}) Rx({self.angle([], 0)}) Tz({self.long()})"')
 
     def load(self, k):
-        frame = self.frames[-1] if k == 0 else self.random.choice(self.frames)
-        mass = "payload" if k == 0 else "2*payload + 1.5 kg"
-        point = f'["{self.long()}", "{self.long()}", {self.number(-0.2, 0.2)}]'
-        self.add("", "[[load]]", f'name = "load {k}"', f'mass = "{mass}"', f'frame = "{frame}"', f"point = {point}")
+        """The first hangs on the last frame, so that it acts on every beam; the second anywhere, so that it may stand beside one."""
+        self.add("", "[[load]]", f'name = "load {k}"')
+        if k == 0:
+            at_tool = self.pick("load at a point", "load at the tool") == "load at the tool"
+            self.add(f'frame = "{self.frames[-1]}"', 'mass = "payload"')
+            self.add('point = "tool"' if at_tool else f'point = ["{self.long()}", "{self.long()}", {self.number(-0.2, 0.2)}]')
+            return
+        frame = self.random.choice(self.frames)
+        self.add(f'frame = "{frame}"', f"point = [{', '.join(f'{self.quoted(self.long(-0.4, 0.2))}' for _ in range(3))}]")
+        form = self.pick("mass", "force", "force and moment")
+        if form == "mass":
+            self.add('mass = "2*payload + 1.5 kg"')
+            return
+        self.add(f'force = ["{self.number(-30, 30)} N", "{self.number()} kN", "10 N * approach"]')
+        if form == "force and moment":
+            self.add(f'moment = [0, "{self.number(-9, 9)} N*m", "{self.number(-900, 900)} N*mm"]')
+        axes = self.pick("axes given", "axes default")
+        if axes == "axes given":
+            self.add(f'axes = "{self.random.choice(["base", "frame"])}"')
+
+    def quoted(self, text):
+        return f'"{text}"'
 
     # Sources.
 
     def source(self, k):
-        form = self.pick(*SOURCE_FORMS)
+        form = self.pick(*SOURCES)
         self.add("", "[[source]]", f'name = "source {k}"')
         if form in ("uniform", "normal", "triangular", "arcsine"):
             self.add('class = "random"', f'distribution = "{form}"')
         elif form == "random effects":
             self.add('class = "random"', f'distribution = "{self.pick("uniform", "normal", "triangular", "arcsine")}"')
-        elif form in ("joint", "parameter", "dh source") and self.random.random() < 0.5:
+        elif form in ("joint", "parameter", "dh source", "joint effects") and self.random.random() < 0.5:
             self.add('class = "random"', f'distribution = "{self.pick("uniform", "normal")}"')
         else:
             self.add('class = "repeatable"')
+        if form == "magnitude":
+            self.add(f"magnitude = {{ value = {self.number()}, standard_deviation = 0.2 }}")
         if form == "disabled":
             self.add("enabled = false")
         if "effects" in form:
@@ -210,19 +269,36 @@ class Writer:
                 if self.random.random() < 0.4:
                     self.place()
             return
-        if form == "joint":
+        if form == "dh source" and self.dh:
+            # Rather of a kind whose errors no spec has yet.
+            kind, name = min(self.dh, key=lambda frame: (f"errors of {frame[0]}" in self.used, self.random.random()))
+            self.used.add(f"errors of {kind}")
+            sizes = {key: f"{self.number()} {'mm' if key in 'da' else 'mrad'}" for key in ("theta", "d", "a", "alpha")}
+            some = self.random.sample(sorted(sizes), self.random.randint(1, 4))
+            errors = ", ".join(f'{key} = "{sizes[key]} * ({self.plain(self.names())})"' for key in some)
+            self.add(f'frame = "{name}"', f"dh = {{ {errors} }}")
+            return
+        if form == "joint effects":
+            for variable, _, _ in self.variables[:2]:
+                unit = "mrad" if variable[0] == "q" else "mm"
+                self.add("[[source.effect]]", f'joint = "{variable}"', f'error = "{self.number()} {unit}"')
+            self.add("[[source.effect]]", f'parameter = "{self.in_the_chain[0]}"', f'error = "{self.number()} mm"')
+            self.add("[[source.effect]]", f'frame = "{self.frames[0]}"')
+            self.errors()
+            return
+        if form in ("joint", "dh source"):
             variable, _, _ = self.random.choice(self.variables)
             size = f"{self.number()} mrad" if variable.startswith("q") else f"{self.number()} mm"
             self.add(f'joint = "{variable}"', f'error = "{size} * ({self.plain(self.names())})"')
             return
         if form == "parameter":
-            self.add(f'parameter = "s{self.random.randrange(3)}"', f'error = "{self.number()} mm"')
+            self.add(f'parameter = "{self.random.choice(self.in_the_chain)}"', f'error = "{self.number()} mm"')
             return
         frame = self.random.choice(self.frames)
         if form.startswith(("beam", "compliance")):
             # The first load hangs on the last frame: it acts on every beam.
             self.add(f'frame = "{frame}"')
-            if form == "beam at":
+            if form in ("beam at", "compliance at"):
                 self.place()
             self.elastic(form)
             return
@@ -249,11 +325,13 @@ class Writer:
                 parts.append('GJ = "GJ"')
             if form != "beam without EA":
                 parts.append('EA = "8e6 N"')
+            if self.pick("weightless", "mass per length") == "mass per length":
+                parts.append(f'mass_per_length = "{self.number(1, 30)} kg/m"')
             if axis != "beam default":
                 parts.append(f'axis = "{axis[-1]}"')
             self.add(f"beam = {{ {', '.join(parts)} }}")
-        elif form == "compliance":
-            self.add('compliance = { diagonal = ["1e-6 m/N", "2e-4 mm/N", 0, "3e-6 rad/(N*m)", "1e-9 1/(N*mm)", 0] }'.replace("1e-9 1/(N*mm)", "1e-9/(N*mm)"))
+        elif form != "compliance matrix":
+            self.add('compliance = { diagonal = ["1e-6 m/N", "2e-4 mm/N", 0, "3e-6 rad/(N*m)", "1e-9/(N*mm)", 0] }')
         else:
             self.add("compliance = { matrix = [")
             for i in range(6):
@@ -266,19 +344,53 @@ class Writer:
 
     # Where to look.
 
+    def everything(self, folder):
+        """The spec, some configurations, and a study's workspace with what that means."""
+        text = self.spec(folder)
+        places = self.configurations(25)
+        return text, places, *self.workspace([dict(place) for place in places], folder)
+
     def configurations(self, count):
         """Values of all variables, in coherent units."""
         return [{name: self.random.uniform(low, high) for name, low, high in self.variables} for _ in range(count)]
 
     def workspace(self, configurations, folder):
-        """What a study says of where to look, and the configurations that it means."""
-        if self.pick("path", "grid") == "path":
-            units = [f"{name} ({'rad' if name[0] == 'q' else self.length})" for name, _, _ in self.variables]
-            rows = [",".join(repr(value) for value in place.values()) for place in configurations]
-            (folder / f"path{self.seed}.csv").write_text("\n".join([",".join(units), *rows]) + "\n")
-            return f'[workspace.path]\nfile = "path{self.seed}.csv"\n', configurations
-        # Two variables; the others stay at home.
-        (one, low, high), (two, _, end) = self.variables[:2]
-        values = [low + (high - low) * k / 4 for k in range(5)]
-        text = f"[workspace.grid]\n{one} = {{ from = {low!r}, to = {high!r}, count = 5 }}\n{two} = [0.2, {end!r}, 0.1]\n"
-        return text, [{one: x, two: y} for x in values for y in (0.2, end, 0.1)]
+        """What a study says of where to look, and the configurations (with inputs) that it means."""
+        form, inputs = self.pick("path", "grid"), self.pick("inputs set", "inputs crossed", "inputs at both ends", "inputs beside")
+        names = [name for name, _, _ in self.variables]
+        if inputs == "inputs crossed":
+            configurations, crossed = configurations[:6], {"payload": [0.5, 4.0], "warmth": [-3.0, 0.0, 10.0], "approach": [1.0]}
+            text = f'[workspace.inputs]\npayload = ["500 g", "4 kg"]\nwarmth = ["-3 K", "0 K", "10 K"]\napproach = [1]\n'
+        elif inputs == "inputs at both ends":
+            configurations, crossed = configurations[:4], {"payload": [0.0, 7.5], "warmth": [-10.0, 10.0], "approach": [-1.0, 1.0]}
+            text = ""
+        else:
+            crossed = {"payload": [6.25], "warmth": [-2.0], "approach": [-0.5]}
+            text = '[study.set]\npayload = "6.25 kg"\nwarmth = "-2 K"\napproach = -0.5\n'
+        if form == "path":
+            if inputs == "inputs beside":
+                # Of two inputs the file has a column; the third is set.
+                text = "[study.set]\nwarmth = \"-2 K\"\n"
+                del crossed["payload"], crossed["approach"]
+                names += ["payload", "approach"]
+                for k, place in enumerate(configurations):
+                    place |= {"payload": 0.3 * k, "approach": self.random.uniform(-1, 1)}
+            units = {"q": "rad", "d": self.length}
+            columns = [f"{name} ({units[name[0]]})" if name[0] in units else {"payload": "payload (kg)"}.get(name, name) for name in names]
+            rows = [",".join(repr(place[name]) for name in names) for place in configurations]
+            (folder / f"path{self.seed}.csv").write_text("\n".join([",".join(columns), *rows]) + "\n")
+            text += f'[workspace.path]\nfile = "path{self.seed}.csv"\n'
+        else:
+            # Two variables; the others stay at home.
+            (one, low, high), (two, _, end) = self.variables[:2]
+            count = len(configurations) // 3 + 1
+            text += f"[workspace.grid]\n{one} = {{ from = {low!r}, to = {high!r}, count = {count} }}\n{two} = [0.2, {end!r}, 0.1]\n"
+            values = [low + (high - low) * k / (count - 1) for k in range(count)]
+            configurations = [{one: x, two: y} for x in values for y in (0.2, end, 0.1)]
+            if inputs == "inputs beside":
+                del crossed["payload"]
+                text = text.replace('payload = "6.25 kg"\n', "") + 'payload = ["0 kg", "7 kg"]\n'
+                configurations = [{**place, "payload": mass} for place in configurations for mass in (0.0, 7.0)]
+        fixed = {name: values[0] for name, values in crossed.items()} if "[study.set]" in text else {}
+        combinations = itertools.product(*crossed.values())
+        return text, [{**place, **dict(zip(crossed, values))} for values in combinations for place in configurations], fixed

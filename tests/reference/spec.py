@@ -3,9 +3,9 @@
 import tomllib
 from dataclasses import dataclass, field
 
-import rigid
 from expressions import Expressions
-from rigid import chained, elementary, inverse, product, rotation, translation
+from rigid import chained, elementary, rotation, translation
+from tables import table
 
 COMPONENTS = ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p"]
 DH = ["theta", "d", "a", "alpha"]
@@ -40,15 +40,19 @@ class Source:
     distribution: str | None
     effects: list
     enabled: bool = True
+    scale: float = 1.0
 
 
 @dataclass
 class Load:
+    """What acts at a point of a frame; without a point at the tool point."""
+
     frame: int
-    point: list
-    mass: object = None
-    force: list | None = None
-    moment: list | None = None
+    point: list | None
+    mass: object
+    force: list
+    moment: list
+    follows: bool  # force and moment are in the axes of the frame, or else in those of F_0
 
 
 class Spec:
@@ -59,6 +63,8 @@ class Spec:
         self.orientation = header.get("orientation", "rotation-vector")
         self.read = Expressions(self.length)
         constant = self.read.constant
+        for name, given in spec.get("tables", {}).items():
+            self.read.names[name] = table(given, folder, constant)
         self.gravity = [constant(x) for x in header.get("gravity", [0, 0, 0])]
         self.parameters = {name: constant(table["value"]) for name, table in spec.get("parameters", {}).items()}
         self.inputs = {name: constant(table["value"]) for name, table in spec.get("inputs", {}).items()}
@@ -145,6 +151,7 @@ class Spec:
             table.get("distribution"),
             [self.effect(effect) for effect in effects],
             table.get("enabled", True),
+            table.get("magnitude", {}).get("value", 1.0),
         )
 
     def effect(self, table):
@@ -176,7 +183,14 @@ class Spec:
 
     def load(self, table):
         read = self.read.expression
-        load = Load(self.index[table["frame"]], [read(x) for x in table.get("point", [0, 0, 0])])
-        if "mass" in table:
-            load.mass = read(table["mass"])
-        return load
+        point = table.get("point", [0, 0, 0])
+        at_tool = point == "tool"
+        frame = len(self.frames) - 1 if at_tool else self.index[table["frame"]]
+        return Load(
+            frame,
+            None if at_tool else [read(x) for x in point],
+            read(table.get("mass", 0)),
+            [read(x) for x in table.get("force", [0, 0, 0])],
+            [read(x) for x in table.get("moment", [0, 0, 0])],
+            table.get("axes", "frame") == "frame",
+        )

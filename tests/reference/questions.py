@@ -1,0 +1,190 @@
+"""What the command is asked, and what this folder answers."""
+
+import math
+
+import monte_carlo
+from identifiable import ranks
+from kinematics import Configuration
+from uncertainty import DEVIATION, K, norm
+
+DRAWS = 20_000
+# What the command does not do yet.
+MISSING = {"exact chain", "uncertainty", "README"}
+
+
+def jacobian(comparison, place, file, spec, configuration, changes):
+    """`abbe jacobian` at a configuration with other values of parameters and inputs."""
+    values = ",".join(repr(configuration[variable["name"]]) for variable in spec.variables)
+    sets = [f"--set={name}={value!r}{' kg' if name == 'payload' else ''}" for name, value in changes.items()]
+    report = comparison.abbe("jacobian", file, f"--q={values}", *sets)
+    configuration = Configuration(spec, spec.names(configuration, **changes))
+    columns = configuration.error_jacobian()
+    size = max(abs(x) for column in columns for x in column)
+    comparison.numbers(f"{place}.pose", configuration.pose(), report["pose"][:3], size)
+    rows = [list(row) for row in zip(*columns)]
+    comparison.numbers(f"{place}.error_jacobian", rows, report["error_jacobian"], size)
+    repeatable = [source for source in spec.sources if source.enabled and source.repeatable]
+    errors = configuration.equivalent_errors(repeatable)
+    comparison.numbers(f"{place}.generalized_errors", errors, report["generalized_errors"], max(map(abs, errors)))
+
+
+def check(comparison, place, file, spec, configurations):
+    """`abbe check`: what the file says, and what can be identified."""
+    report = comparison.abbe("check", file)
+    for ours, theirs in zip(spec.variables, report["variables"], strict=True):
+        comparison.numbers(f"{place}.limits", ours["limits"], theirs["limits"], 1.0)
+        comparison.numbers(f"{place}.home", ours["home"], theirs["home"], 1.0)
+    for name, value in {**spec.parameters, **spec.inputs}.items():
+        theirs = next(x for x in report["parameters"] + report["inputs"] if x["name"] == name)
+        comparison.numbers(f"{place}.{name}", value, theirs["nominal"])
+        if name in spec.ranges:
+            comparison.numbers(f"{place}.{name}.range", spec.ranges[name], theirs["range"], 1.0)
+    names = [spec.names(configuration) for configuration in configurations]
+    for base in (False, True):
+        for measured, ours in zip(("pose", "point"), ranks(spec, names, base)):
+            [theirs] = [x for x in report["identifiable"] if (x["measurement"], x["base"]) == (measured, base)]
+            comparison.numbers(f"{place}.identifiable {measured} {base}", ours, theirs["rank"])
+
+
+def budget(comparison, place, sweep, report):
+    """`abbe analyze`: every source alone and all together."""
+    comparison.numbers(f"{place}.configurations", len(sweep.places), report["configurations"])
+    combined = sweep.combined()
+    alone(comparison, place, sweep, 0, report["sources"], combined["radius"])
+    comparison.numbers(f"{place}.combined", combined, report["combined"], combined["radius"])
+    sphere = report["combined"]["enclosing_sphere"]
+    _, radius = sweep.enclosing_sphere()
+    within = min(max(radius, sphere["radius"]), sphere["radius"] + sphere["excess"])
+    comparison.numbers(f"{place}.sphere", radius, within, combined["radius"])
+    if "exact chain" not in MISSING:
+        exact = report["first_order"]["largest_difference"]
+        comparison.numbers(f"{place}.first_order", sweep.largest_remainder(), exact, combined["radius"])
+    if "uncertainty" in MISSING:
+        return
+    turned = sweep.combined(3)
+    alone(comparison, f"{place}.orientation", sweep, 3, report["orientation"]["sources"], turned["radius"])
+    del turned["rms"], turned["worst_case"]
+    comparison.numbers(f"{place}.orientation", turned, report["orientation"], turned["radius"])
+
+
+def alone(comparison, place, sweep, first, theirs, radius):
+    theirs = {source["name"]: source for source in theirs}
+    if set(theirs) != {source.name for source in sweep.sources}:
+        comparison.failures.append(f"{place}: sources {sorted(theirs)}")
+        return
+    for k, source in enumerate(sweep.sources):
+        ours = sweep.alone(k, first)
+        if "uncertainty" in MISSING:
+            del ours["half_peak_to_peak"]["norm"]
+        # What is zero but for rounding is so beside all the others.
+        size = max(ours["plain_max"]["norm"], 1e-6 * radius)
+        comparison.numbers(f"{place}.{source.name}", ours, theirs[source.name], size)
+
+
+def covered(comparison, place, sweep, report):
+    """What figures cover: the budget of the GUM and the verdict, of the position and of the orientation."""
+    if "uncertainty" in MISSING:
+        return
+    asked = report["verdict"]["probability_asked"]
+    for name, first, there in (("position", 0, report), ("orientation", 3, report["orientation"])):
+        budgets = [sweep.uncertainty(moves, first) for moves in sweep.moves]
+        largest = max(math.sqrt(budget.total) for budget in budgets)
+        if largest > 0:
+            gum(comparison, f"{place}.{name}.uncertainty", sweep, first, there["uncertainty"], largest)
+        verdict(comparison, f"{place}.{name}.verdict", sweep, first, budgets, report["verdict"][name], asked)
+
+
+def gum(comparison, place, sweep, first, theirs, largest):
+    """Where the combined standard uncertainty of the norm is largest."""
+    configuration = Configuration(sweep.spec, {**sweep.home_names, **theirs["at"]})
+    ours = sweep.uncertainty(sweep.moves_at(configuration), first)
+    combined, expanded = ours.combined(), ours.expanded()
+    comparison.numbers(f"{place}, where it is largest", largest, theirs["standard_uncertainty"][3])
+    comparison.numbers(f"{place}.combined", combined, theirs["standard_uncertainty"], combined[3])
+    comparison.numbers(f"{place}.expanded", expanded, theirs["expanded_uncertainty"], expanded[3])
+    factors = [K, K, K, expanded[3] / combined[3]]
+    comparison.numbers(f"{place}.coverage_factor", factors, theirs["coverage_factor"])
+    comparison.numbers(f"{place}.bias", [*ours.bias, norm(ours.bias)], theirs["bias"], combined[3])
+    by_name = {source["source"]: source for source in theirs["sources"]}
+    for (source, move), standard, share in zip(ours.random, ours.standard, ours.shares()):
+        there, entry = f"{place}.{source.name}", by_name.pop(source.name, None)
+        if entry is None:
+            comparison.failures.append(f"{there} is missing")
+            continue
+        size = max(norm(standard), 1e-6 * combined[3])
+        comparison.numbers(f"{there}.u", [*map(abs, standard), norm(standard)], entry["standard_uncertainty"], size)
+        comparison.numbers(f"{there}.share", share, entry["share"], 1.0)
+        comparison.numbers(f"{there}.divisor", 1 / DEVIATION[source.distribution], entry["divisor"])
+        value = value_of(comparison, there, source, configuration, entry["value"])
+        sensitivity = [abs(x / value) for x in move]
+        size = max(norm(sensitivity), 1e-6 * combined[3])
+        comparison.numbers(f"{there}.sensitivity", [*sensitivity, norm(sensitivity)], entry["sensitivity"], size)
+    if by_name:
+        comparison.failures.append(f"{place}: {sorted(by_name)} have no part in it")
+    share, error = ours.share_within(expanded[3], [0.0] * 3, DRAWS // 10, seed=3)
+    error = math.hypot(error, theirs["coverage"]["error"])
+    comparison.drawn(f"{place}.coverage", share, theirs["coverage"]["probability"], error, 1.0)
+
+
+def value_of(comparison, place, source, configuration, theirs):
+    """The value of a source is that of its only error, and otherwise 1: the magnitude of all of them."""
+    if theirs is None:
+        return 1.0
+    [effect] = source.effects
+    number = configuration.effects[id(effect)]
+    numbers = number.values() if effect.dh else number[0] if isinstance(number, tuple) else [number]
+    [only] = [x for x in numbers if x]
+    comparison.numbers(f"{place}.value", abs(only), abs(theirs))
+    return only
+
+
+def verdict(comparison, place, sweep, first, budgets, theirs, asked):
+    """Met for certain, met with a probability, or not met, where the radius is largest."""
+    configuration = Configuration(sweep.spec, {**sweep.home_names, **theirs["at"]})
+    row = sweep.moves_at(configuration)
+    repeatable, random, _, _ = sweep.sums(row, first)
+    radius = sweep.combined(first)["radius"]
+    comparison.numbers(f"{place}.at", norm(repeatable) + norm(random), radius)
+    tolerance, budget = theirs["tolerance"], sweep.uncertainty(row, first)
+    ends = [budget.largest() for budget in budgets]
+    certain = None not in ends and max(ends) <= tolerance
+    if None not in ends:
+        comparison.numbers(f"{place}.largest", max(ends), theirs["largest"])
+    probability, error = budget.probability(tolerance, DRAWS // 10, seed=4)
+    if certain:
+        probability = error = 0.0
+    error = math.hypot(error, theirs["error"])
+    comparison.drawn(f"{place}.probability", 1.0 if certain else probability, theirs["probability"], error, 1.0)
+    expected = "met" if certain else "met-with-probability" if theirs["probability"] >= asked else "not-met"
+    if theirs["verdict"] != expected:
+        comparison.failures.append(f"{place}: {theirs['verdict']}, expected {expected}")
+
+
+def drawn(comparison, place, sweep, report):
+    """`abbe analyze --monte-carlo`: two independent samples, three standard errors of their difference apart at most."""
+    if "exact chain" in MISSING and any(inexact(effect) for source in sweep.sources for effect in source.effects):
+        return
+    for where in ("worst", "home"):
+        theirs = report["monte_carlo"][where]
+        configuration = Configuration(sweep.spec, {**sweep.home_names, **theirs["at"]})
+        drawn_there(comparison, f"{place}.monte_carlo.{where}", configuration, sweep.sources, theirs)
+
+
+def inexact(effect):
+    return effect.at or effect.dh or effect.joint or effect.parameter
+
+
+def drawn_there(comparison, place, configuration, sources, theirs):
+    errors = monte_carlo.draws(configuration, sources, DRAWS // 2, seed=5)
+    ours = monte_carlo.summary(errors, [quantile["probability"] for quantile in theirs["quantiles"]])
+    size = norm(ours["mean"])
+    for i in range(3):
+        error = math.hypot(ours["mean_error"][i], math.sqrt(theirs["covariance"][i][i] / DRAWS))
+        comparison.drawn(f"{place}.mean[{i}]", ours["mean"][i], theirs["mean"][i], error, size)
+        for j in range(3):
+            error = math.hypot(ours["covariance_error"][i][j], theirs["covariance_standard_error"][i][j])
+            pair = ours["covariance"][i][j], theirs["covariance"][i][j]
+            comparison.drawn(f"{place}.covariance[{i}][{j}]", *pair, error, 1e-9 * size**2)
+    for (value, error), quantile in zip(ours["quantiles"], theirs["quantiles"]):
+        error = math.hypot(error, quantile["standard_error"])
+        comparison.drawn(f"{place}.quantile {quantile['probability']}", value, quantile["value"], error, size)
