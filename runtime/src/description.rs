@@ -148,6 +148,16 @@ pub enum Class {
     Random(Distribution),
 }
 
+impl Class {
+    /// Whether no error is larger than its bound: of a repeatable source there is one only.
+    pub const fn is_bounded(self) -> bool {
+        match self {
+            Self::Repeatable => true,
+            Self::Random(distribution) => distribution.is_bounded(),
+        }
+    }
+}
+
 /// How a random error is distributed, and so what its magnitude means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distribution {
@@ -155,14 +165,56 @@ pub enum Distribution {
     Uniform,
     /// The magnitude is the standard deviation.
     Normal,
+    /// The magnitude is the half-width; the middle is the most likely.
+    Triangular,
+    /// The magnitude is the amplitude of a sine whose phase is not known: an eccentricity, say. The ends are the most
+    /// likely.
+    Arcsine,
 }
 
 impl Distribution {
-    /// The bound of an error in multiples of its magnitude: 1 for a uniform one, 3 (3σ) for a normal one.
-    pub const fn bound(self) -> f64 {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Uniform, Self::Normal, Self::Triangular, Self::Arcsine];
+
+    /// Its name, as in a spec.
+    pub const fn name(self) -> &'static str {
         match self {
-            Self::Uniform => 1.0,
-            Self::Normal => 3.0,
+            Self::Uniform => "uniform",
+            Self::Normal => "normal",
+            Self::Triangular => "triangular",
+            Self::Arcsine => "arcsine",
+        }
+    }
+
+    /// Whether no error is larger than its [`bound`](Self::bound).
+    pub const fn is_bounded(self) -> bool {
+        !matches!(self, Self::Normal)
+    }
+
+    /// The bound of an error in multiples of its magnitude: 3 (3σ, which 0.27 % of the errors exceed) of a normal one,
+    /// 1 of all others.
+    pub const fn bound(self) -> f64 {
+        if self.is_bounded() { 1.0 } else { 3.0 }
+    }
+
+    /// The square of its [`divisor`](Self::divisor).
+    pub const fn divisor_squared(self) -> f64 {
+        match self {
+            Self::Uniform => 3.0,
+            Self::Normal => 1.0,
+            Self::Triangular => 6.0,
+            Self::Arcsine => 2.0,
+        }
+    }
+
+    /// What the magnitude is divided by for the standard uncertainty (GUM, 4.3.7 and 4.3.9): √3 of a uniform error,
+    /// 1 of a normal, √6 of a triangular, √2 of an arcsine one.
+    pub const fn divisor(self) -> f64 {
+        match self {
+            Self::Uniform => 1.732_050_807_568_877_2,
+            Self::Normal => 1.0,
+            Self::Triangular => 2.449_489_742_783_178,
+            Self::Arcsine => core::f64::consts::SQRT_2,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
 use abbe::analysis::Configuration;
-use abbe::{Class, Distribution, LengthUnit, VariableKind};
+use abbe::{Class, LengthUnit, VariableKind};
 use abbe_codegen::spec::{self, Spec};
 use serde::{Serialize, Serializer};
 
@@ -93,8 +93,7 @@ fn variable_is(variable: &spec::Variable, value: f64, spec: &Spec) -> String {
 pub fn class(class: Class) -> (&'static str, Option<&'static str>) {
     match class {
         Class::Repeatable => ("repeatable", None),
-        Class::Random(Distribution::Uniform) => ("random", Some("uniform")),
-        Class::Random(Distribution::Normal) => ("random", Some("normal")),
+        Class::Random(distribution) => ("random", Some(distribution.name())),
     }
 }
 
@@ -107,6 +106,11 @@ pub fn digits(value: f64, digits: usize) -> String {
 /// A share in whole percent.
 pub fn percent(value: f64, of: f64) -> String {
     format!("{:.0} %", 100.0 * value / of)
+}
+
+/// A probability in percent, rounded down: `99.19 %`.
+pub fn at_least(probability: f64) -> String {
+    format!("{} %", trimmed((1e4 * probability).floor() / 100.0, 2))
 }
 
 /// A number with at most this many decimals.

@@ -168,12 +168,15 @@ fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -
             document.mistake(
                 Diagnostic::new(item.span(), "a random error needs its distribution")
                     .label("distributed how?")
-                    .help("add distribution = \"uniform\" (values are half-widths) or \"normal\" (values are σ)"),
+                    .help(
+                        "add distribution = \"uniform\" or \"triangular\" (values are half-widths), \"normal\" (values are σ) or \
+                         \"arcsine\" (values are amplitudes)",
+                    ),
             );
             None
         }
         (true, Some(distribution)) => {
-            let choices = [("uniform", Distribution::Uniform), ("normal", Distribution::Normal)];
+            let choices = Distribution::ALL.map(|distribution| (distribution.name(), distribution));
             document.choice(&distribution, &choices).map(Class::Random)
         }
     }

@@ -158,5 +158,7 @@ fn class(class: Class) -> &'static str {
         Class::Repeatable => "repeatable",
         Class::Random(Distribution::Uniform) => "random, uniform: half-width",
         Class::Random(Distribution::Normal) => "random, normal: 3σ",
+        Class::Random(Distribution::Triangular) => "random, triangular: half-width",
+        Class::Random(Distribution::Arcsine) => "random, arcsine: amplitude",
     }
 }

@@ -6,6 +6,8 @@
 //! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool |
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and shows every [`Row`] in order; nothing is stored |
 //! | `budget` | [`error_budget`]: what every source does alone ([`SourceErrors`]), all together ([`Combined`]), what is left after compensation ([`RemainingErrors`]), what a tolerance allows ([`Admissible`]) |
+//! | `normal` | [`NormalVector`]: how likely is a norm of a normal error, and which is not exceeded with a probability |
+//! | `uncertainty` | [`Statement`]: the budget of the GUM at one configuration; [`compliance()`]: how likely a tolerance is met |
 //! | `random` | [`monte_carlo`] draws errors on the exact chain |
 //!
 //! [`identifiable()`] counts which generalized errors measurements can tell apart.
@@ -34,10 +36,13 @@
 
 mod budget;
 mod identifiable;
+mod measurand;
+mod normal;
 mod random;
 mod reach;
 pub mod sampling;
 mod sweep;
+mod uncertainty;
 mod workspace;
 
 #[cfg(test)]
@@ -50,9 +55,14 @@ pub use budget::{
     SourceErrors, Sphere, Watch, covariance, error_budget, variance,
 };
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
+pub use measurand::Measurand;
+pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use reach::{ReachError, Target, compensated, inverse};
 pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, sweep};
+pub use uncertainty::{
+    COVERAGE, Compliance, Contribution, DRAWS, ErrorsAt, Statement, compliance, errors_at,
+};
 pub use workspace::{
     Axis, BaseBox, Configuration, JointGrid, JointSamples, Listed, Presentation, PresentedVolume, ReachedBox,
     Subset, ToolOrientation, Unreachable, UnreachableSummary, WithInputs, Workspace, base_box, joint_grid,

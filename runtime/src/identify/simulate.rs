@@ -1,10 +1,10 @@
 //! Measurements of a machine whose errors are known: for tests, for teaching, for planning.
 
 use rand::RngExt;
-use rand_distr::{Normal, StandardNormal};
+use rand_distr::Normal;
 
 use super::{Failure, Measurement, Model, Observation, Unknown};
-use crate::analysis::sampling::stream;
+use crate::analysis::sampling::{draw, stream};
 use crate::chain::displacement;
 use crate::{Class, Distribution};
 
@@ -42,13 +42,7 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
     let mut room = model.room();
     let one = |(i, asked): (usize, &Observation)| {
         let mut numbers = stream(chance.seed ^ APART, i);
-        let x: Vec<f64> = random
-            .iter()
-            .map(|(_, distribution)| match distribution {
-                Distribution::Uniform => numbers.random_range(-1.0..=1.0),
-                Distribution::Normal => numbers.sample(StandardNormal),
-            })
-            .collect();
+        let x: Vec<f64> = random.iter().map(|(_, distribution)| draw(*distribution, &mut numbers)).collect();
         let pose = model.pose(&mut room, asked, &x)?;
         let gross = numbers.random::<f64>() < chance.outliers;
         let mut wrong = || if gross { numbers.random_range(-chance.gross..=chance.gross) } else { 0.0 };

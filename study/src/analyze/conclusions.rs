@@ -47,8 +47,12 @@ fn tolerance(report: &Report) -> Option<String> {
 
 fn allowed(report: &Report) -> Option<String> {
     let admissible = report.admissible.as_ref()?;
+    let how = match admissible.equal_probability {
+        1.0 => "for certain".to_owned(),
+        probability => format!("with a probability of at least {}", number::at_least(probability)),
+    };
     Some(format!(
-        "It is met with all sources × {}, or for certain with each at an equal share of {}.",
+        "With all sources × {} the radius is within it; with each at an equal share of {} it is met {how}.",
         number::digits(admissible.together?, 3),
         report.show(admissible.share?)
     ))
@@ -76,10 +80,12 @@ fn ellipsoid(report: &Report) -> Option<String> {
     ellipsoid.configuration?;
     let [a, b, c] = ellipsoid.semi_axes.map(|value| number::trimmed(value, report.decimals()));
     let unit = report.spec.length.symbol();
-    Some(format!(
-        "Random errors, if normal, lie with 95 % probability in an ellipsoid with the semi-axes {a}, {b}, {c} {unit} \
-         where it is longest."
-    ))
+    let lie = "Random errors, if normal, lie with 95 % probability";
+    Some(match ellipsoid.rank() {
+        1 => format!("{lie} within ± {a} {unit} on a line, where that is longest."),
+        2 => format!("{lie} in an ellipse with the semi-axes {a}, {b} {unit}, where it is longest."),
+        _ => format!("{lie} in an ellipsoid with the semi-axes {a}, {b}, {c} {unit}, where it is longest."),
+    })
 }
 
 fn published_residual(report: &Report) -> Option<String> {

@@ -166,6 +166,8 @@ fn class(class: Class) -> &'static str {
         Class::Repeatable => "repeatable",
         Class::Random(Distribution::Uniform) => "random, uniform",
         Class::Random(Distribution::Normal) => "random, normal",
+        Class::Random(Distribution::Triangular) => "random, triangular",
+        Class::Random(Distribution::Arcsine) => "random, arcsine",
     }
 }
 

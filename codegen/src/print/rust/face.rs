@@ -5,7 +5,7 @@ use crate::chain::EffectNode;
 use crate::expr::LengthUnit;
 use crate::print::layout::{Writer, array, call};
 use crate::print::text::escaped;
-use crate::spec::{Class, Distribution, Orientation, Spec, VariableKind};
+use crate::spec::{Class, Orientation, Spec, VariableKind};
 
 /// Types that a generated module has or uses already.
 const TAKEN: [&str; 18] = [
@@ -106,11 +106,10 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     list("inputs", inputs.collect());
     let sources = spec.enabled_sources().map(|source| {
         let class = match source.class {
-            Class::Repeatable => "Class::Repeatable",
-            Class::Random(Distribution::Uniform) => "Class::Random(Distribution::Uniform)",
-            Class::Random(Distribution::Normal) => "Class::Random(Distribution::Normal)",
+            Class::Repeatable => "Class::Repeatable".to_owned(),
+            Class::Random(distribution) => format!("Class::Random(Distribution::{distribution:?})"),
         };
-        entry("Source::new", &[quoted(&source.name), class.to_owned(), quoted(&source.reference)])
+        entry("Source::new", &[quoted(&source.name), class, quoted(&source.reference)])
     });
     list("sources", sources.collect());
     let effects = effects.iter().map(|effect| {

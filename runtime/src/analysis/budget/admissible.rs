@@ -1,22 +1,26 @@
 //! The budget backwards: how large the sources may be for a tolerance.
 
 use super::Budget;
-use crate::Class;
 
-/// How large the sources may be, so that the radius `max ‖Σ repeatable‖ + ‖RSS random‖` stays within a tolerance T.
-/// Scales are multiples of what the sources are now; none where nothing limits them, because they do nothing.
+/// A normal error is within its bound, 3σ, with this probability.
+const WITHIN_BOUND: f64 = 0.997_300_203_936_739_8;
+
+/// How large the sources may be for a tolerance T. Scales are multiples of what the sources are now; none where nothing
+/// limits them, because they do nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Admissible {
     /// Each source alone, as if there were no other: `T / max ‖ΔX_k‖`.
     pub alone: Vec<Option<f64>>,
-    /// All by the same factor: `T / radius`, because the radius grows with it.
+    /// All by the same factor, so that the paper's radius `max ‖Σ repeatable‖ + ‖RSS random‖` is T: `T / radius`.
     pub together: Option<f64>,
-    /// What every source may contribute if all contribute alike: `a = T / (n + √m)` with n repeatable and m random
-    /// sources that do something. Length unit.
+    /// What every source may contribute if all contribute alike: `a = T / n` with n sources that do something.
     pub share: Option<f64>,
-    /// Each source at its equal share: `a / max ‖ΔX_k‖`. T is met for certain, wherever each is worst:
-    /// `‖Σ r_k‖ ≤ n a` and `‖RSS‖ ≤ √(m a²)`.
+    /// Each source at its equal share: `a / max ‖ΔX_k‖`.
     pub equal: Vec<Option<f64>>,
+    /// How likely T is met with equal shares, at least. 1 if all random sources are bounded: wherever each is worst, and
+    /// whatever their signs, `Σ ‖ΔX_k‖ ≤ n a`. Otherwise 0.9973^m, the probability that the m normal ones are all within
+    /// their bounds.
+    pub equal_probability: f64,
 }
 
 impl Admissible {
@@ -25,15 +29,15 @@ impl Admissible {
         let largest = || budget.sources.iter().map(|errors| errors.plain_max.norm);
         let scale = |limit: f64, norm: f64| (norm > 0.0).then(|| limit / norm).filter(|s| s.is_finite());
         let active = budget.sources.iter().filter(|errors| errors.plain_max.norm > 0.0);
-        let repeatable = active.clone().filter(|errors| errors.class == Class::Repeatable).count();
-        let random = active.count() - repeatable;
-        let parts = repeatable as f64 + (random as f64).sqrt();
-        let share = (parts > 0.0).then(|| tolerance / parts);
+        let unbounded = active.clone().filter(|errors| !errors.class.is_bounded()).count();
+        let count = active.count();
+        let share = (count > 0).then(|| tolerance / count as f64);
         Self {
             alone: largest().map(|norm| scale(tolerance, norm)).collect(),
             together: scale(tolerance, budget.combined.radius.value),
             share,
             equal: largest().map(|norm| scale(share?, norm)).collect(),
+            equal_probability: WITHIN_BOUND.powi(unbounded as i32),
         }
     }
 }

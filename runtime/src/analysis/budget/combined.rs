@@ -29,7 +29,7 @@ impl Extreme {
 /// | way | repeatable sources r_k | random sources with bounds b_k |
 /// |---|---|---|
 /// | the paper's | Σ r_k, with signs | root sum of squares of the b_k |
-/// | GUM | | standard deviation: root sum of squares of b_k/√3 (uniform), b_k/3 (normal) |
+/// | GUM | | standard deviation: root sum of squares of b_k/√3 (uniform), b_k/√6 (triangular), b_k/√2 (arcsine), b_k/3 (normal) |
 /// | worst case | Σ \|r_k\| | Σ \|b_k\| |
 ///
 /// Lengths in the length unit, all 0 for an empty workspace.
@@ -53,9 +53,13 @@ pub struct Combined {
     pub standard_radius: Extreme,
     /// The largest sum of absolute values of all sources along x, y, z of `F_0`.
     pub worst_case: [f64; 3],
-    /// max Σ ‖·‖ over all sources: no draw and no signs make more.
+    /// max Σ ‖·‖ over all sources, whatever their signs. No draw makes more if the random sources are bounded; of a normal
+    /// one the bound is 3σ, which 0.27 % of its draws exceed.
     pub worst_case_radius: Extreme,
-    /// The 95 % ellipsoid with the longest semi-axis.
+    /// max over the configurations of ‖Σ repeatable‖ + Σ ‖b_k‖: the repeatable sources as they are, the random ones at
+    /// their bounds, all in that direction. No draw makes more if these are bounded.
+    pub bounded_radius: Extreme,
+    /// The 95 % ellipsoid where the standard deviation in any direction is largest.
     pub ellipsoid: Ellipsoid,
     /// The smallest sphere around the position errors Σ repeatable of all configurations.
     pub enclosing: Sphere,
@@ -73,6 +77,7 @@ impl Combined {
             (&mut self.radius, &other.radius),
             (&mut self.standard_radius, &other.standard_radius),
             (&mut self.worst_case_radius, &other.worst_case_radius),
+            (&mut self.bounded_radius, &other.bounded_radius),
         ] {
             if let Some(index) = other.configuration {
                 here.add(index, other.value);
@@ -86,7 +91,7 @@ impl Combined {
         ] {
             *here = core::array::from_fn(|i| here[i].max(other[i]));
         }
-        if other.ellipsoid.semi_axes[0] > self.ellipsoid.semi_axes[0] {
+        if other.ellipsoid.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
             self.ellipsoid = other.ellipsoid;
         }
     }
@@ -139,6 +144,7 @@ pub(super) struct Lane<R: Register> {
     radius: Peak<R>,
     trace: Peak<R>,
     worst_case_radius: Peak<R>,
+    bounded_radius: Peak<R>,
     repeatable: [Lanes<R>; 3],
     random: [Lanes<R>; 3],
     variance: [Lanes<R>; 3],
@@ -160,6 +166,7 @@ impl<R: Register> Lane<R> {
             radius: Peak::none(),
             trace: Peak::none(),
             worst_case_radius: Peak::none(),
+            bounded_radius: Peak::none(),
             repeatable: [zero; 3],
             random: [zero; 3],
             variance: [zero; 3],
@@ -179,6 +186,7 @@ impl<R: Register> Lane<R> {
         let norms = [sums.repeatable_norm, sums.random_norm, sums.radius];
         self.radius.add(sums.radius, place);
         self.worst_case_radius.add(sums.norms, place);
+        self.bounded_radius.add(sums.repeatable_norm + sums.random_norms, place);
         for (sum, norm) in self.squares.iter_mut().zip(norms) {
             *sum = (norm * norm).mul_add(weight, *sum);
         }
@@ -201,8 +209,8 @@ impl<R: Register> Lane<R> {
     /// Whether `λ I − Σ` with the largest eigenvalue λ so far is not positive definite somewhere (Sylvester).
     #[inline(always)]
     fn may_be_longer(&self, covariance: &[Lanes<R>; 6]) -> bool {
-        let [longest, ..] = self.ellipsoid.semi_axes;
-        let limit = Lanes::<R>::constant(longest * longest / super::CHI_SQUARED_95 * (1.0 + ALIKE));
+        let [longest, ..] = self.ellipsoid.principal.deviations;
+        let limit = Lanes::<R>::constant(longest * longest * (1.0 + ALIKE));
         let [xx, yy, zz, xy, xz, yz] = *covariance;
         let [a, b, c] = [limit - xx, limit - yy, limit - zz];
         let minor = a * b - xy * xy;
@@ -227,7 +235,7 @@ impl<R: Register> Lane<R> {
                 [xz[lane], yz[lane], zz[lane]],
             ];
             let other = Ellipsoid::new(covariance, index(*place as usize));
-            if other.semi_axes[0] > self.ellipsoid.semi_axes[0] {
+            if other.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
                 self.ellipsoid = other;
             }
         }
@@ -273,6 +281,7 @@ impl<R: Register> Lane<R> {
             standard_radius: extreme(self.trace, f64::sqrt),
             worst_case: self.worst_case.map(peak::largest),
             worst_case_radius: extreme(self.worst_case_radius, |radius| radius),
+            bounded_radius: extreme(self.bounded_radius, |radius| radius),
             ellipsoid: self.ellipsoid,
             ..Combined::default()
         };

@@ -1,20 +1,16 @@
 //! The covariance of the tool point's error and its 95 % ellipsoid.
 
-use nalgebra::{Matrix3, SymmetricEigen};
-
+use crate::analysis::normal::Principal;
 use crate::{Class, Distribution, Source};
 
-/// The 95 % quantile of χ² with three degrees of freedom: a normal error is within
-/// `ΔXᵀ Σ⁻¹ ΔX ≤ χ²` with this probability.
-pub const CHI_SQUARED_95: f64 = 7.814_727_903_251_179;
+/// The 95 % quantiles of χ² with one, two and three degrees of freedom, the rank of the covariance Σ: a normal error is
+/// within `ΔXᵀ Σ⁻¹ ΔX ≤ χ²` with this probability. Their roots are 1.960, 2.448 and 2.796.
+pub const CHI_SQUARED_95: [f64; 3] = [3.841_458_820_694_124, 5.991_464_547_107_979, 7.814_727_903_251_179];
 
 /// The variance of a random error, in squares of its bound: `a²/3` of a uniform one with half-width a (GUM,
-/// 4.3.7), `(b/3)²` of a normal one with 3σ = b.
+/// 4.3.7), `a²/6` of a triangular one, `a²/2` of an arcsine one with amplitude a, `(b/3)²` of a normal one with 3σ = b.
 pub const fn variance(distribution: Distribution) -> f64 {
-    match distribution {
-        Distribution::Uniform => 1.0 / 3.0,
-        Distribution::Normal => 1.0 / 9.0,
-    }
+    1.0 / (distribution.divisor_squared() * distribution.bound() * distribution.bound())
 }
 
 /// Rows 1–3 of `J_e Σ J_eᵀ`: `Σ_k c_k b_k b_kᵀ` with the bound b of every random source and its
@@ -38,10 +34,10 @@ pub fn covariance(sources: &[Source], deviations: &[[f64; 6]]) -> [[f64; 3]; 3] 
 /// The region that holds a normal error with 95 % probability.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ellipsoid {
-    /// Half its lengths `√(χ² λ_i)`, the largest first, in the length unit.
+    /// Half its lengths `√(χ² λ_i)`, the largest first, in the length unit; χ² is that of the rank.
     pub semi_axes: [f64; 3],
-    /// The directions of these, unit vectors in `F_0`.
-    pub axes: [[f64; 3]; 3],
+    /// The covariance: its standard deviations √λ_i, and their directions in `F_0`.
+    pub principal: Principal,
     /// Index of the configuration; none if there is no random error.
     pub configuration: Option<usize>,
 }
@@ -49,13 +45,14 @@ pub struct Ellipsoid {
 impl Ellipsoid {
     /// Of a covariance at a configuration.
     pub fn new(covariance: [[f64; 3]; 3], configuration: usize) -> Self {
-        let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(Matrix3::from(covariance));
-        let mut order = [0, 1, 2];
-        order.sort_by(|&i, &j| eigenvalues[j].total_cmp(&eigenvalues[i]));
-        Self {
-            semi_axes: order.map(|i| (CHI_SQUARED_95 * eigenvalues[i].max(0.0)).sqrt()),
-            axes: order.map(|i| eigenvectors.column(i).into_owned().into()),
-            configuration: Some(configuration),
-        }
+        let principal = Principal::new(covariance);
+        let factor = principal.rank().checked_sub(1).map_or(0.0, |i| CHI_SQUARED_95[i].sqrt());
+        let semi_axes = principal.deviations.map(|deviation| factor * deviation);
+        Self { semi_axes, principal, configuration: Some(configuration) }
+    }
+
+    /// In how many directions there are errors: 3, 2 if it is flat, 1 if it is a line, 0 if there is none.
+    pub fn rank(&self) -> usize {
+        self.principal.rank()
     }
 }

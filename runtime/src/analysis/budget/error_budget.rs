@@ -87,13 +87,13 @@ pub fn error_budget(
     let _ = sweep(manipulator, &scattered, &mut |row| {
         points.push(position(&row.repeatable));
         let other = Ellipsoid::new(covariance(&description.sources, row.sources), row.index);
-        if other.semi_axes[0] > ellipsoid.semi_axes[0] {
+        if other.principal.deviations[0] > ellipsoid.principal.deviations[0] {
             ellipsoid = other;
         }
     });
     // A little less, for the sweep to find where it is.
-    ellipsoid =
-        Ellipsoid { semi_axes: ellipsoid.semi_axes.map(|axis| axis * (1.0 - 1e-6)), ..Ellipsoid::default() };
+    let mut ellipsoid = Ellipsoid { principal: ellipsoid.principal, ..Ellipsoid::default() };
+    ellipsoid.principal.deviations = ellipsoid.principal.deviations.map(|axis| axis * (1.0 - 1e-6));
     let mut sphere = Enclosing::new(points.into_iter());
 
     let start = Start {

@@ -20,9 +20,10 @@ pub(super) struct Sums<R: Register> {
     pub(super) random_norm: Lanes<R>,
     /// ‖Σ r‖ + √Σ b².
     pub(super) radius: Lanes<R>,
-    /// Sums of the absolute values of all sources, row by row, and of their norms.
+    /// Sums of the absolute values of all sources, row by row, and of their norms; of the norms of the random ones.
     pub(super) absolute: [Lanes<R>; 3],
     pub(super) norms: Lanes<R>,
+    pub(super) random_norms: Lanes<R>,
     /// `Σ c b bᵀ` of the random sources: xx, yy, zz, xy, xz, yz.
     pub(super) covariance: [Lanes<R>; 6],
 }
@@ -39,7 +40,7 @@ impl<R: Register> Sums<R> {
     ) -> Self {
         let zero = Lanes::constant(0.0);
         let (mut repeatable, mut squares, mut absolute) = ([zero; 3], [zero; 3], [zero; 3]);
-        let (mut norms, mut covariance) = (zero, [zero; 6]);
+        let (mut norms, mut random_norms, mut covariance) = (zero, zero, [zero; 6]);
         for ((class, rows), norm_of) in classes.iter().zip(rows.chunks_exact(6)).zip(norm_of) {
             let here = [rows[0], rows[1], rows[2]];
             let [x, y, z] = here;
@@ -48,6 +49,7 @@ impl<R: Register> Sums<R> {
             match class {
                 Class::Repeatable => repeatable = core::array::from_fn(|i| repeatable[i] + here[i]),
                 Class::Random(distribution) => {
+                    random_norms = random_norms + *norm_of;
                     squares = core::array::from_fn(|i| here[i].mul_add(here[i], squares[i]));
                     let variance = Lanes::constant(variance(*distribution));
                     let [vx, vy, vz] = here.map(|row| row * variance);
@@ -72,6 +74,7 @@ impl<R: Register> Sums<R> {
             radius: repeatable_norm + random_norm,
             absolute,
             norms,
+            random_norms,
             covariance,
         }
     }

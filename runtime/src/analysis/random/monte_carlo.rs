@@ -1,20 +1,15 @@
 //! Errors drawn at one configuration, on the exact chain with true rotations.
 
-use rand::RngExt;
-use rand_distr::{Distribution as _, StandardNormal};
-
 use super::Quantile;
 use crate::analysis::budget::position;
-use crate::analysis::sampling::{norm, stream};
+use crate::analysis::sampling::{draw, norm, stream};
 use crate::analysis::sweep::in_order;
 use crate::analysis::workspace::One;
 use crate::analysis::{Configuration, Ellipsoid, Sweepable, Unevaluated, covariance, sweep};
-use crate::{Class, Description, Distribution, Error, Pose, deviation, real_pose};
+use crate::{Class, Description, Error, Pose, deviation, real_pose};
 
 /// How many draws come from one stream of random numbers, and are made at once.
 const DRAWS: usize = 4096;
-/// Variances below this share of the largest are none: the error lies in a plane or a line.
-const FLAT: f64 = 1e-12;
 
 /// What is drawn at one configuration: all sources together, repeatable ones as they are, of random ones one
 /// magnitude for all effects. Position errors in `F_0`, length unit.
@@ -35,7 +30,7 @@ pub struct MonteCarlo {
     /// The same covariance to first order, `J_e Σ J_eᵀ`.
     pub first_order: [[f64; 3]; 3],
     /// The share of the draws within the first-order 95 % ellipsoid about the error without random sources; none
-    /// where that is flat. It is 0.95 for normal sources, for uniform ones more.
+    /// where that is flat. It is 0.95 for normal sources, for others not.
     pub inside_ellipsoid: Option<f64>,
 }
 
@@ -65,7 +60,7 @@ pub fn monte_carlo(
 
     let without_random = chain.error(&mut vec![[0.0; 6]; description.frames.len()], |_| 0.0);
     let ellipsoid = Ellipsoid::new(first_order, 0);
-    let flat = ellipsoid.semi_axes[2].powi(2) <= FLAT * ellipsoid.semi_axes[0].powi(2);
+    let flat = ellipsoid.rank() < 3;
     let mut sums = Sums::default();
     let mut norms = Vec::with_capacity(draws);
     in_order(
@@ -79,8 +74,7 @@ pub fn monte_carlo(
                 for (source, magnitude) in description.sources.iter().zip(&mut magnitudes) {
                     *magnitude = match source.class {
                         Class::Repeatable => 1.0,
-                        Class::Random(Distribution::Uniform) => 2.0 * random.random::<f64>() - 1.0,
-                        Class::Random(Distribution::Normal) => StandardNormal.sample(&mut random),
+                        Class::Random(distribution) => draw(distribution, &mut random),
                     };
                 }
                 let error = chain.error(&mut errors, |source| magnitudes[source]);
@@ -134,9 +128,9 @@ impl Chain<'_> {
 }
 
 /// `Σ_i (a_i · d / l_i)² ≤ 1` with the semi-axes l and their directions a.
-fn inside(Ellipsoid { semi_axes, axes, .. }: &Ellipsoid, d: [f64; 3]) -> bool {
-    let along = |axis: &[f64; 3]| axis.iter().zip(d).map(|(a, d)| a * d).sum::<f64>();
-    axes.iter().zip(semi_axes).map(|(axis, length)| (along(axis) / length).powi(2)).sum::<f64>() <= 1.0
+fn inside(Ellipsoid { semi_axes, principal, .. }: &Ellipsoid, d: [f64; 3]) -> bool {
+    let along = principal.components(d);
+    along.iter().zip(semi_axes).map(|(along, length)| (along / length).powi(2)).sum::<f64>() <= 1.0
 }
 
 /// Sums over draws d: of them, of their products, of the squares of these.

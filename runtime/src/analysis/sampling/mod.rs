@@ -1,9 +1,11 @@
 //! Deterministic points to evaluate a manipulator at: the same on every run and every machine.
 
+mod draw;
 mod streams;
 
 use core::f64::consts::PI;
 
+pub(crate) use draw::draw;
 pub(crate) use streams::stream;
 
 use crate::{Description, Error, Manipulator, Variable, VariableKind};

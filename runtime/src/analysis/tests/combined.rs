@@ -54,6 +54,8 @@ fn covariance_is_that_of_the_error_jacobian() {
                 Class::Repeatable => 0.0,
                 Class::Random(Distribution::Uniform) => 1.0 / 3_f64.sqrt(),
                 Class::Random(Distribution::Normal) => 1.0,
+                Class::Random(Distribution::Triangular) => 1.0 / 6_f64.sqrt(),
+                Class::Random(Distribution::Arcsine) => 0.5_f64.sqrt(),
             };
             let mut column = DVector::<f64>::zeros(columns.len());
             for (effect, value) in description.effects.iter().zip(&effects).filter(|(e, _)| e.source == k) {
@@ -72,7 +74,7 @@ fn covariance_is_that_of_the_error_jacobian() {
         assert!((combined.standard_deviation[i] - deviation[i]).abs() < 1e-12);
     }
     assert!((combined.standard_radius.value - trace.sqrt()).abs() < 1e-12);
-    assert!((combined.ellipsoid.semi_axes[0] - (CHI_SQUARED_95 * longest).sqrt()).abs() < 1e-12);
+    assert!((combined.ellipsoid.semi_axes[0] - (CHI_SQUARED_95[2] * longest).sqrt()).abs() < 1e-12);
 }
 
 #[test]

@@ -60,7 +60,7 @@ pub(super) fn of(report: &Report) -> Together {
         worst_case_radius: combined.worst_case_radius.value,
         ellipsoid: Ellipsoid {
             semi_axes: ellipsoid.semi_axes,
-            axes: ellipsoid.axes.map(|axis| axis.map(|value| value + 0.0)),
+            axes: ellipsoid.principal.axes.map(|axis| axis.map(|value| value + 0.0)),
             worst: report.variables(report.configuration(ellipsoid.configuration)),
         },
         enclosing_sphere: Sphere {

@@ -1,0 +1,165 @@
+//! The norm of a normally distributed vector in space.
+
+use core::f64::consts::{SQRT_2, TAU};
+
+use super::principal::Principal;
+use super::quadrature::integral;
+
+/// How far a probability of [`NormalVector::within`] may be off, as long as the mean is no more than 10⁴ times the
+/// largest standard deviation.
+pub const PROBABILITY_ERROR: f64 = 1e-9;
+
+/// Beyond so many standard deviations is a share of 2e-17.
+const TAIL: f64 = 8.5;
+/// Where the rules of an integral must agree: the outer integral sees the noise of the inner one.
+const OUTER: f64 = 1e-10;
+const INNER: f64 = 1e-11;
+
+/// A vector `X = m + √λ_1 Z_1 a_1 + √λ_2 Z_2 a_2 + √λ_3 Z_3 a_3` with independent standard normal Z, along the principal axes
+/// of its covariance. Some or all of the λ may be 0.
+///
+/// The square of its norm is `Σ (m_i + √λ_i Z_i)²`. Its distribution has no closed form; it is integrated over the
+/// shorter axes, on which the others depend smoothly:
+///
+/// ```text
+/// P_1(r) = Φ((r − m_1)/σ_1) − Φ((−r − m_1)/σ_1)
+/// P_2(r) = ∫ φ_2(t) P_1(√(r² − t²)) dt                   (t = r cos θ where it comes near r: no root at the end)
+/// P_3(r) = ∫ φ_3(t) P_2(√(r² − t²)) dt                   (P_2 is a function of the square)
+/// ```
+///
+/// ```
+/// use abbe::analysis::NormalVector;
+/// let quantile = |variances: [f64; 3]| {
+///     let [x, y, z] = variances;
+///     NormalVector::new([0.0; 3], [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]).quantile(0.95)
+/// };
+/// assert!((quantile([1.0, 0.0, 0.0]) - 1.959_964).abs() < 1e-6);
+/// assert!((quantile([1.0, 1.0, 0.0]) - 2.447_747).abs() < 1e-6);
+/// assert!((quantile([1.0, 1.0, 1.0]) - 2.795_483).abs() < 1e-6);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalVector {
+    /// Along the principal axes, the longest first; no component is negative, which changes no norm.
+    mean: [f64; 3],
+    pub(super) deviations: [f64; 3],
+}
+
+impl NormalVector {
+    /// With a mean, and a covariance that is symmetric and positive semidefinite.
+    pub fn new(mean: [f64; 3], covariance: [[f64; 3]; 3]) -> Self {
+        let principal = Principal::new(covariance);
+        Self { mean: principal.components(mean).map(f64::abs), deviations: principal.deviations }
+    }
+
+    /// The probability `P(‖X‖ ≤ radius)`, right to [`PROBABILITY_ERROR`].
+    pub fn within(&self, radius: f64) -> f64 {
+        self.three(radius).clamp(0.0, 1.0)
+    }
+
+    /// The norm that is not exceeded with a probability between 0 and 1: `within(quantile(p))` is p to 2e-9, unless all
+    /// of the covariance is 0.
+    pub fn quantile(&self, probability: f64) -> f64 {
+        let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (mean, deviation) = (length(self.mean), length(self.deviations));
+        if deviation == 0.0 {
+            return mean;
+        }
+        // The root of an increasing function: chords (Illinois), until the bracket is closed.
+        let [mut low, mut high] = [0.0, mean + TAIL * deviation];
+        let [mut below, mut above] = [-probability, 1.0 - probability];
+        let mut side = 0;
+        while high - low > 1e-14 * high {
+            let chord = (low * above - high * below) / (above - below);
+            let middle = if low < chord && chord < high { chord } else { (low + high) / 2.0 };
+            let value = self.within(middle) - probability;
+            if value.abs() < PROBABILITY_ERROR / 1e3 || middle <= low || middle >= high {
+                return middle;
+            }
+            if value < 0.0 {
+                (low, below) = (middle, value);
+                above = if side == -1 { above / 2.0 } else { above };
+                side = -1;
+            } else {
+                (high, above) = (middle, value);
+                below = if side == 1 { below / 2.0 } else { below };
+                side = 1;
+            }
+        }
+        (low + high) / 2.0
+    }
+
+    /// The part of an axis on which the vector may be, and within a radius.
+    fn range(&self, axis: usize, radius: f64) -> [f64; 2] {
+        let (mean, reach) = (self.mean[axis], TAIL * self.deviations[axis]);
+        [(mean - reach).max(-radius), (mean + reach).min(radius)]
+    }
+
+    /// φ_i at a distance from its mean.
+    fn density(&self, axis: usize, from_mean: f64) -> f64 {
+        let deviation = self.deviations[axis];
+        let z = from_mean / deviation;
+        (-z * z / 2.0).exp() / (deviation * TAU.sqrt())
+    }
+
+    /// Along the first axis.
+    fn one(&self, radius: f64) -> f64 {
+        let (mean, deviation) = (self.mean[0], self.deviations[0]);
+        if deviation == 0.0 {
+            return f64::from(u8::from(mean.abs() <= radius));
+        }
+        let unit = deviation * SQRT_2;
+        (libm::erf((radius - mean) / unit) + libm::erf((radius + mean) / unit)) / 2.0
+    }
+
+    /// In the plane of the first two.
+    fn two(&self, radius: f64) -> f64 {
+        if self.deviations[1] == 0.0 {
+            return self.remaining(1, radius).map_or(0.0, |rest| self.one(rest));
+        }
+        let [from, to] = self.range(1, radius);
+        if from >= to {
+            return 0.0;
+        }
+        if to < 0.9 * radius && from > -0.9 * radius {
+            let along = |t: f64| self.density(1, t - self.mean[1]) * self.one(leg(radius, t));
+            return integral(&along, from, to, self.error(INNER));
+        }
+        let along = |angle: f64| {
+            // t − m without a difference of large numbers: r cos θ − m = (r − m) − 2 r sin²(θ/2).
+            let from_mean = (radius - self.mean[1]) - 2.0 * radius * (angle / 2.0).sin().powi(2);
+            let rest = radius * angle.sin();
+            self.density(1, from_mean) * self.one(rest) * rest
+        };
+        let angle = |t: f64| (t / radius).clamp(-1.0, 1.0).acos();
+        integral(&along, angle(to), angle(from), self.error(INNER))
+    }
+
+    /// In space.
+    fn three(&self, radius: f64) -> f64 {
+        if self.deviations[2] == 0.0 {
+            return self.remaining(2, radius).map_or(0.0, |rest| self.two(rest));
+        }
+        let [from, to] = self.range(2, radius);
+        if from >= to {
+            return 0.0;
+        }
+        let along = |t: f64| self.density(2, t - self.mean[2]) * self.two(leg(radius, t));
+        integral(&along, from, to, self.error(OUTER))
+    }
+
+    /// What is left of a radius beside an axis along which nothing varies.
+    fn remaining(&self, axis: usize, radius: f64) -> Option<f64> {
+        (self.mean[axis] <= radius).then(|| leg(radius, self.mean[axis]))
+    }
+
+    /// Where the rules of an integral must agree; not closer than rounding lets them.
+    fn error(&self, least: f64) -> f64 {
+        let mean = self.mean.iter().fold(0.0_f64, |largest, m| largest.max(*m));
+        least.max(1e-15 * mean / self.deviations[0])
+    }
+}
+
+/// `√(r² − t²)`.
+fn leg(radius: f64, t: f64) -> f64 {
+    ((radius - t) * (radius + t)).max(0.0).sqrt()
+}

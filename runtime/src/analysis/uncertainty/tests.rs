@@ -1,0 +1,159 @@
+//! What is stated, held against draws.
+
+use rand::RngExt;
+
+use super::*;
+use crate::analysis::Measurand;
+use crate::analysis::sampling::{draw, norm, stream};
+use crate::{Class, Description, Distribution, LengthUnit, List, Orientation, Source, Text};
+
+/// A machine without frames whose sources do this.
+fn machine(sources: Vec<Source>) -> Description {
+    Description {
+        name: Text::Constant("budget"),
+        title: Text::Constant("budget"),
+        length: LengthUnit::Millimetre,
+        orientation: Orientation::RotationVector,
+        frames: List::Constant(&[]),
+        variables: List::Constant(&[]),
+        parameters: List::Constant(&[]),
+        inputs: List::Constant(&[]),
+        sources: sources.into_iter().collect(),
+        effects: List::Constant(&[]),
+    }
+}
+
+fn source(class: Class) -> Source {
+    Source::new("source", class, "")
+}
+
+/// A budget of these distributions with its errors in so many directions.
+fn errors(description: &Description, rank: usize, seed: u64) -> ErrorsAt<'_> {
+    let mut random = stream(seed, 0);
+    let mut any = || 2.0 * random.random::<f64>() - 1.0;
+    let base = [0; 3].map(|_| [0; 3].map(|_| any()));
+    let one = |class: Class, any: &mut dyn FnMut() -> f64| {
+        let bound = match class {
+            Class::Repeatable => 1.0,
+            Class::Random(distribution) => distribution.bound(),
+        };
+        let mut row = [0.0; 6];
+        for direction in &base[..rank] {
+            let t = any() * bound;
+            for measurand in Measurand::ALL {
+                (0..3).for_each(|i| row[measurand.first() + i] += t * direction[i]);
+            }
+        }
+        row
+    };
+    let sources = description.sources.iter().map(|source| one(source.class, &mut any)).collect();
+    ErrorsAt { description, sources, effects: Vec::new() }
+}
+
+/// The share of draws, from other numbers than those of the library, whose norm is within a radius.
+fn drawn(errors: &ErrorsAt, bias: f64, radius: f64, count: usize, seed: u64) -> (f64, f64) {
+    let mut random = stream(!seed, 77);
+    let (mut within, mut largest) = (0, 0.0_f64);
+    for _ in 0..count {
+        let mut sum = [0.0; 3];
+        for (source, row) in errors.description.sources.iter().zip(&errors.sources) {
+            let t = match source.class {
+                Class::Repeatable => bias,
+                Class::Random(distribution) => draw(distribution, &mut random) / distribution.bound(),
+            };
+            (0..3).for_each(|i| sum[i] += t * row[i]);
+        }
+        let error = norm(sum);
+        largest = largest.max(error);
+        within += usize::from(error <= radius);
+    }
+    (within as f64 / count as f64, largest)
+}
+
+/// Twenty budgets of two to nine normal sources, ranks 1, 2 and 3: U holds 95 ± 0.5 % of a million draws, about the bias and
+/// along each axis.
+#[test]
+fn the_stated_uncertainty_holds_what_it_says() {
+    for seed in 0..20 {
+        let rank = 1 + seed as usize % 3;
+        let sources = (0..2 + seed as usize % 8).map(|_| source(Class::Random(Distribution::Normal)));
+        let description = machine(sources.chain([source(Class::Repeatable)]).collect());
+        let errors = errors(&description, rank, seed);
+        let statement = Statement::new(&errors, Measurand::Position, seed);
+        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], 1_000_000, seed);
+        assert!((share - COVERAGE).abs() < 0.005, "rank {rank}: {share}");
+        assert!((statement.coverage.probability - COVERAGE).abs() < 1e-8);
+        assert!(statement.coverage.draws.is_none());
+        let shares = statement.contributions.iter().map(|one| one.share).sum::<f64>();
+        assert!((shares - 1.0).abs() < 1e-12);
+        // Along an axis: the other rows of the draws are nothing.
+        let mut flat = errors.clone();
+        flat.sources.iter_mut().for_each(|row| row[1..3].fill(0.0));
+        let (share, _) = drawn(&flat, 0.0, statement.expanded()[0], 1_000_000, seed);
+        assert!((share - COVERAGE).abs() < 0.005, "along x: {share}");
+    }
+}
+
+/// Of other distributions U covers what it says of itself.
+#[test]
+fn the_coverage_of_other_distributions_is_stated() {
+    for seed in 0..12 {
+        let any = |i: usize| source(Class::Random(Distribution::ALL[(i + seed as usize) % 4]));
+        let description = machine((0..1 + seed as usize % 5).map(any).collect());
+        let errors = errors(&description, 1 + seed as usize % 3, seed);
+        let statement = Statement::new(&errors, Measurand::Orientation, seed);
+        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], 1_000_000, seed);
+        let Compliance { probability, error, .. } = statement.coverage;
+        let spread = error.hypot((share * (1.0 - share) / 1e6).sqrt());
+        assert!((share - probability).abs() < 4.0 * spread + 1e-5, "{share} {probability}");
+    }
+}
+
+/// The probability of a tolerance, with a bias, by integral and by draws.
+#[test]
+fn a_probability_is_that_of_draws() {
+    for (seed, kinds) in (0..).zip([
+        vec![Distribution::Normal; 4],
+        vec![Distribution::Uniform, Distribution::Normal, Distribution::Arcsine],
+        vec![Distribution::Triangular; 2],
+    ]) {
+        let sources = kinds.iter().map(|kind| source(Class::Random(*kind)));
+        let description = machine(sources.chain([source(Class::Repeatable)]).collect());
+        let errors = errors(&description, 3, 40 + seed);
+        let typical = norm(errors.bias(Measurand::Position)) + 0.3;
+        for limit in [0.5 * typical, typical, 1.5 * typical] {
+            let Compliance { probability, error, draws } =
+                compliance(&errors, Measurand::Position, limit, seed);
+            assert_eq!(draws.is_none(), seed == 0);
+            let (share, _) = drawn(&errors, 1.0, limit, 1_000_000, seed);
+            let spread = error + (share * (1.0 - share) / 1e6).sqrt() + 1e-6;
+            assert!((share - probability).abs() < 4.0 * spread, "{share} {probability}");
+        }
+    }
+}
+
+/// Equal shares of bounded sources: neither ten million draws nor any signs of the bounds exceed the tolerance.
+#[test]
+fn certain_is_never_exceeded() {
+    let kinds =
+        [Distribution::Uniform, Distribution::Triangular, Distribution::Arcsine, Distribution::Uniform];
+    let sources = kinds.iter().map(|kind| source(Class::Random(*kind)));
+    let description = machine(sources.chain([source(Class::Repeatable)]).collect());
+    let mut errors = errors(&description, 1, 5);
+    let tolerance = 0.5;
+    // Each at its share T/n, all in line: nothing is left over.
+    for row in &mut errors.sources {
+        let size = norm(Measurand::Position.rows(row));
+        row.iter_mut().for_each(|value| *value *= tolerance / 5.0 / size);
+    }
+    let corner = |signs: u32| {
+        let row =
+            |i: usize| if signs >> i & 1 == 1 { errors.sources[i] } else { errors.sources[i].map(|v| -v) };
+        norm([0, 1, 2].map(|axis| (0..5).map(|i| row(i)[axis]).sum::<f64>()))
+    };
+    let extreme = (0..32).map(corner).fold(0.0, f64::max);
+    assert!((extreme - tolerance).abs() < 1e-12);
+    let (_, largest) = drawn(&errors, 1.0, tolerance, 10_000_000, 5);
+    assert!(largest <= tolerance * (1.0 + 1e-12), "{largest}");
+    assert!(largest > 0.7 * tolerance);
+}
