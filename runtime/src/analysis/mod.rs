@@ -51,8 +51,8 @@ pub(crate) mod by_hand;
 mod tests;
 
 pub use budget::{
-    Admissible, Budget, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, RemainingErrors, Residual,
-    SourceErrors, Sphere, Watch, covariance, error_budget, variance,
+    Admissible, Budget, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, OrientationErrors,
+    RemainingErrors, Residual, SourceErrors, Sphere, Watch, covariance, error_budget, variance,
 };
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
 pub use measurand::Measurand;

@@ -2,7 +2,6 @@
 
 use core::f64::consts::FRAC_PI_2;
 
-use super::budget::position;
 use super::by_hand::{Pps, Puma};
 use super::sampling::grid;
 use super::*;
@@ -51,7 +50,7 @@ fn budget_is_the_papers() {
     let budget = error_budget(&OneByOne(Pps), &workspace, None, &mut |row: &Row| {
         assert_eq!(row.index, rows);
         rows += 1;
-        largest = f64::max(largest, sampling::norm(position(&row.repeatable)));
+        largest = f64::max(largest, sampling::norm(Measurand::Position.rows(&row.repeatable)));
     })
     .unwrap();
     assert_eq!(rows, 999);

@@ -1,6 +1,6 @@
 //! The budget backwards: how large the sources may be for a tolerance.
 
-use super::Budget;
+use super::{Budget, OrientationErrors, SourceErrors};
 
 /// A normal error is within its bound, 3σ, with this probability.
 const WITHIN_BOUND: f64 = 0.997_300_203_936_739_8;
@@ -24,17 +24,29 @@ pub struct Admissible {
 }
 
 impl Admissible {
-    /// For the sources of a budget and a tolerance in the length unit.
+    /// For the position errors of a budget and a tolerance in the length unit.
     pub fn new(budget: &Budget, tolerance: f64) -> Self {
-        let largest = || budget.sources.iter().map(|errors| errors.plain_max.norm);
+        Self::of(&budget.sources, budget.combined.radius.value, tolerance)
+    }
+
+    /// For its orientation errors and a tolerance in rad.
+    pub fn of_orientation(
+        OrientationErrors { sources, combined, .. }: &OrientationErrors,
+        tolerance: f64,
+    ) -> Self {
+        Self::of(sources, combined.radius.value, tolerance)
+    }
+
+    fn of(sources: &[SourceErrors], radius: f64, tolerance: f64) -> Self {
+        let largest = || sources.iter().map(|errors| errors.plain_max.norm);
         let scale = |limit: f64, norm: f64| (norm > 0.0).then(|| limit / norm).filter(|s| s.is_finite());
-        let active = budget.sources.iter().filter(|errors| errors.plain_max.norm > 0.0);
+        let active = sources.iter().filter(|errors| errors.plain_max.norm > 0.0);
         let unbounded = active.clone().filter(|errors| !errors.class.is_bounded()).count();
         let count = active.count();
         let share = (count > 0).then(|| tolerance / count as f64);
         Self {
             alone: largest().map(|norm| scale(tolerance, norm)).collect(),
-            together: scale(tolerance, budget.combined.radius.value),
+            together: scale(tolerance, radius),
             share,
             equal: largest().map(|norm| scale(share?, norm)).collect(),
             equal_probability: WITHIN_BOUND.powi(unbounded as i32),

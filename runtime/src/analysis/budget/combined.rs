@@ -1,6 +1,7 @@
 //! What all sources do together over the workspace.
 
 use super::Ellipsoid;
+use super::cloud::{self, Cloud};
 use super::enclosing_sphere::{Enclosing, Shell, Sphere};
 use super::peak::{self, Peak};
 use super::sums::Sums;
@@ -32,7 +33,7 @@ impl Extreme {
 /// | GUM | | standard deviation: root sum of squares of b_k/√3 (uniform), b_k/√6 (triangular), b_k/√2 (arcsine), b_k/3 (normal) |
 /// | worst case | Σ \|r_k\| | Σ \|b_k\| |
 ///
-/// Lengths in the length unit, all 0 for an empty workspace.
+/// Of positions in the length unit, of orientations in rad; all 0 for an empty workspace.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Combined {
     /// max ‖Σ repeatable‖: the radius of the error sphere about zero.
@@ -102,16 +103,14 @@ pub(super) struct Gathered {
     combined: Combined,
     /// The sums of squares of the three norms.
     squares: [f64; 3],
-    /// The errors that may be on the sphere around all, in order, and how far the others are from its beginning.
-    outside: Vec<[f64; 3]>,
-    inside: f64,
+    cloud: Cloud,
 }
 
 impl Gathered {
     /// Of no configurations, beginning with the ellipsoid of some.
     pub(super) fn new(ellipsoid: Ellipsoid) -> Self {
         let combined = Combined { ellipsoid, ..Combined::default() };
-        Self { combined, squares: [0.0; 3], outside: Vec::new(), inside: 0.0 }
+        Self { combined, squares: [0.0; 3], cloud: Cloud::default() }
     }
 
     /// Takes in what follows. The sphere is grown as it comes.
@@ -120,8 +119,7 @@ impl Gathered {
         for (sum, other) in self.squares.iter_mut().zip(other.squares) {
             *sum += other;
         }
-        sphere.forget(other.inside);
-        other.outside.iter().for_each(|point| sphere.add(*point));
+        other.cloud.enclose(sphere);
     }
 
     /// The result for so many configurations.
@@ -137,7 +135,7 @@ impl Gathered {
 
 /// Gathers what all sources do together in lanes.
 pub(super) struct Lane<R: Register> {
-    shell: Shell,
+    cloud: cloud::Lane<R>,
     ellipsoid: Ellipsoid,
     repeatable_square: Peak<R>,
     random_square: Peak<R>,
@@ -150,8 +148,6 @@ pub(super) struct Lane<R: Register> {
     variance: [Lanes<R>; 3],
     worst_case: [Lanes<R>; 3],
     squares: [Lanes<R>; 3],
-    inside: Lanes<R>,
-    outside: Vec<[f64; 3]>,
 }
 
 impl<R: Register> Lane<R> {
@@ -159,7 +155,7 @@ impl<R: Register> Lane<R> {
     pub(super) fn new(ellipsoid: Ellipsoid, shell: Shell) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
-            shell,
+            cloud: cloud::Lane::new(shell),
             ellipsoid,
             repeatable_square: Peak::none(),
             random_square: Peak::none(),
@@ -172,8 +168,6 @@ impl<R: Register> Lane<R> {
             variance: [zero; 3],
             worst_case: [zero; 3],
             squares: [zero; 3],
-            inside: zero,
-            outside: Vec::new(),
         }
     }
 
@@ -203,7 +197,7 @@ impl<R: Register> Lane<R> {
         if self.may_be_longer(covariance) {
             self.longer(sums, &index);
         }
-        self.enclose(sums);
+        self.cloud.add(sums.repeatable, weight);
     }
 
     /// Whether `λ I − Σ` with the largest eigenvalue λ so far is not positive definite somewhere (Sylvester).
@@ -241,28 +235,6 @@ impl<R: Register> Lane<R> {
         }
     }
 
-    #[inline(always)]
-    fn enclose(&mut self, sums: &Sums<R>) {
-        let centre = self.shell.centre.map(Lanes::constant);
-        let from = core::array::from_fn(|i| sums.repeatable[i] - centre[i]);
-        let square = peak::square(from);
-        let outside = square.more_than(Lanes::constant(self.shell.inner * self.shell.inner));
-        if !outside.any() {
-            self.inside = square.max(self.inside);
-            return;
-        }
-        let [x, y, z] = sums.repeatable.each_ref().map(Lanes::to_slice);
-        let mut inside = 0.0_f64;
-        for (lane, square) in square.to_slice().iter().enumerate() {
-            if *square <= self.shell.inner * self.shell.inner {
-                inside = inside.max(*square);
-            } else if sums.weight.to_slice()[lane] > 0.0 {
-                self.outside.push([x[lane], y[lane], z[lane]]);
-            }
-        }
-        self.inside = Lanes::constant(inside).max(self.inside);
-    }
-
     /// What was gathered, with the indices of the places.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Gathered {
         let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
@@ -286,6 +258,6 @@ impl<R: Register> Lane<R> {
             ..Combined::default()
         };
         let squares = self.squares.map(peak::sum);
-        Gathered { combined, squares, outside: self.outside, inside: peak::largest(self.inside).sqrt() }
+        Gathered { combined, squares, cloud: self.cloud.finish() }
     }
 }

@@ -1,5 +1,6 @@
 //! The covariance of the tool point's error and its 95 % ellipsoid.
 
+use crate::analysis::Measurand;
 use crate::analysis::normal::Principal;
 use crate::{Class, Distribution, Source};
 
@@ -13,15 +14,15 @@ pub const fn variance(distribution: Distribution) -> f64 {
     1.0 / (distribution.divisor_squared() * distribution.bound() * distribution.bound())
 }
 
-/// Rows 1–3 of `J_e Σ J_eᵀ`: `Σ_k c_k b_k b_kᵀ` with the bound b of every random source and its
-/// [`variance`] c. All effects of a source share one magnitude, and so its b is one vector. Squares of lengths.
+/// The block of a measurand of `J_e Σ J_eᵀ`: `Σ_k c_k b_k b_kᵀ` with the bound b of every random source and its
+/// [`variance`] c. All effects of a source share one magnitude, and so its b is one vector. Squares of its unit.
 ///
 /// `deviations` holds what [`Row::sources`](crate::analysis::Row::sources) does: ΔX of each source, of random ones the bound.
-pub fn covariance(sources: &[Source], deviations: &[[f64; 6]]) -> [[f64; 3]; 3] {
+pub fn covariance(sources: &[Source], deviations: &[[f64; 6]], measurand: Measurand) -> [[f64; 3]; 3] {
     let mut sum = [[0.0; 3]; 3];
     for (source, b) in sources.iter().zip(deviations) {
         let Class::Random(distribution) = source.class else { continue };
-        let c = variance(distribution);
+        let (b, c) = (measurand.rows(b), variance(distribution));
         for i in 0..3 {
             for j in 0..3 {
                 sum[i][j] += c * b[i] * b[j];

@@ -2,16 +2,12 @@
 
 use core::ops::Range;
 
-use super::combined::{self, Gathered};
-use super::enclosing_sphere::{Enclosing, Shell};
-use super::gains::{self, Gains};
+use super::gathering::{self, Beginning, Gathering, Scattered};
 use super::remaining_errors;
-use super::source_errors::{self, Tally, position};
-use super::sums::Sums;
-use super::{Combined, Ellipsoid, RemainingErrors, Residual, SourceErrors, covariance};
+use super::{Combined, RemainingErrors, Residual, SourceErrors};
 use crate::analysis::sweep::{BLOCK, Block, Row, Sweepable, Unevaluated, in_order, ready, sweep};
 use crate::analysis::workspace::One;
-use crate::analysis::{Subset, Unreachable, UnreachableSummary, Workspace};
+use crate::analysis::{Measurand, Subset, Unreachable, UnreachableSummary, Workspace};
 use crate::lanes::{InstructionSet, Kernel, Lanes, Register};
 use crate::{Class, Scalar};
 
@@ -31,12 +27,25 @@ pub struct Budget {
     /// By how much the radius shrinks if a source is made smaller by one percent, in the length unit. Less than
     /// nothing where it counteracts the others.
     pub gains: Vec<f64>,
+    /// The same figures of rows 4–6.
+    pub orientation: OrientationErrors,
     /// What is left after compensation, if it was asked for.
     pub compensation: Option<RemainingErrors>,
     /// How many configurations were reached and evaluated.
     pub configurations: usize,
     /// Those that could not be reached.
     pub unreachable: UnreachableSummary,
+}
+
+/// What the sources do to the orientation of the tool over a workspace: rows 4–6, rad.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrientationErrors {
+    /// Each source alone, in the order of the description.
+    pub sources: Vec<SourceErrors>,
+    /// All together.
+    pub combined: Combined,
+    /// By how much the radius shrinks if a source is made smaller by one percent.
+    pub gains: Vec<f64>,
 }
 
 /// Who looks on while a budget is made. `()` does not.
@@ -82,29 +91,15 @@ pub fn error_budget(
         .map_err(|Unevaluated { error, .. }| Unevaluated { configuration: None, error })?;
 
     // If one of these cannot be evaluated, the sweep over all of them will say which.
-    let (mut points, mut ellipsoid) = (Vec::new(), Ellipsoid::default());
-    let scattered = Subset { workspace, count: SCATTERED };
-    let _ = sweep(manipulator, &scattered, &mut |row| {
-        points.push(position(&row.repeatable));
-        let other = Ellipsoid::new(covariance(&description.sources, row.sources), row.index);
-        if other.principal.deviations[0] > ellipsoid.principal.deviations[0] {
-            ellipsoid = other;
-        }
+    let known = &description.sources;
+    let mut scattered = Measurand::ALL.map(|measurand| Scattered::new(measurand, known));
+    let _ = sweep(manipulator, &Subset { workspace, count: SCATTERED }, &mut |row| {
+        scattered.iter_mut().for_each(|scattered| scattered.add(known, row));
     });
-    // A little less, for the sweep to find where it is.
-    let mut ellipsoid = Ellipsoid { principal: ellipsoid.principal, ..Ellipsoid::default() };
-    ellipsoid.principal.deviations = ellipsoid.principal.deviations.map(|axis| axis * (1.0 - 1e-6));
-    let mut sphere = Enclosing::new(points.into_iter());
-
-    let start = Start {
-        manipulator,
-        workspace,
-        classes: description.sources.iter().map(|source| source.class).collect(),
-        home: &home,
-        residuals,
-        ellipsoid,
-        shell: sphere.shell(),
-    };
+    let classes = known.iter().map(|source| source.class).collect::<Vec<_>>();
+    let [(position, mut around), (orientation, mut about)] =
+        scattered.map(|scattered| scattered.finish(&classes, &home));
+    let start = Start { manipulator, workspace, classes, residuals, position, orientation };
     let count = workspace.len();
     let blocks = (count / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK);
     let range = |chunk: usize| chunk * blocks * BLOCK..count.min((chunk + 1) * blocks * BLOCK);
@@ -120,19 +115,20 @@ pub fn error_budget(
         |(end, mut part)| {
             part.unreachable.drain(..).for_each(|unreachable| unreachables.add(unreachable));
             part.blocks.iter().for_each(|block| block.visit(&mut here, &mut |row| watch.row(row)));
-            total.merge(&part, &mut sphere);
+            total.position.merge(&part.position, &mut around);
+            total.orientation.merge(&part.orientation, &mut about);
+            total.merge(&part);
             watch.done(end);
         },
     )?;
     let configurations = total.count;
-    let sources = total.tallies.into_iter().zip(&start.classes).zip(&home).enumerate();
-    let sources =
-        sources.map(|(i, ((tally, class), home))| tally.finish(i, *class, *home, configurations)).collect();
-    let combined = total.gathered.finish(configurations, sphere);
+    let (sources, combined, gains) = total.position.finish(&start.position, around, configurations);
+    let (turned, turns, turn_gains) = total.orientation.finish(&start.orientation, about, configurations);
     Ok(Budget {
         sources,
-        gains: total.gains.gains(combined.radius.value),
         combined,
+        gains,
+        orientation: OrientationErrors { sources: turned, combined: turns, gains: turn_gains },
         compensation: total.compensation,
         configurations,
         unreachable: unreachables,
@@ -144,17 +140,15 @@ struct Start<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
     classes: Vec<Class>,
-    home: &'a [[f64; 6]],
     residuals: Option<&'a [Option<Residual>]>,
-    ellipsoid: Ellipsoid,
-    shell: Shell,
+    position: Beginning,
+    orientation: Beginning,
 }
 
 /// What some configurations came to.
 struct Part<'a> {
-    tallies: Vec<Tally>,
-    gathered: Gathered,
-    gains: Gains,
+    position: Gathering,
+    orientation: Gathering,
     compensation: Option<RemainingErrors>,
     count: usize,
     unreachable: Vec<Unreachable>,
@@ -166,9 +160,8 @@ impl<'a> Part<'a> {
     /// Of no configurations.
     fn new(start: &Start<'a>) -> Self {
         Self {
-            tallies: vec![Tally::new(); start.classes.len()],
-            gathered: Gathered::new(Ellipsoid::default()),
-            gains: Gains::new(start.classes.len()),
+            position: Gathering::new(start.classes.len()),
+            orientation: Gathering::new(start.classes.len()),
             compensation: start.residuals.map(|_| RemainingErrors::none()),
             count: 0,
             unreachable: Vec::new(),
@@ -176,13 +169,8 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Takes in what follows.
-    fn merge(&mut self, other: &Self, sphere: &mut Enclosing) {
-        for (tally, other) in self.tallies.iter_mut().zip(&other.tallies) {
-            tally.merge(other);
-        }
-        self.gathered.merge(&other.gathered, sphere);
-        self.gains.merge(&other.gains);
+    /// Takes in what follows, but for the two gatherings.
+    fn merge(&mut self, other: &Self) {
         if let (Some(here), Some(other)) = (&mut self.compensation, &other.compensation) {
             here.merge(other);
         }
@@ -202,15 +190,11 @@ impl<'a> Kernel for Chunk<'_, 'a> {
 
     #[inline(always)]
     fn run<R: Register>(self) -> Self::Output {
-        let Start { manipulator, workspace, ref classes, home, residuals, ellipsoid, shell } = *self.start;
+        let Start { manipulator, workspace, ref classes, residuals, .. } = *self.start;
         let mut part = Part::new(self.start);
-        let of_sources = classes.iter().zip(home);
-        let mut singles: Vec<_> =
-            of_sources.map(|(class, home)| source_errors::Lane::<R>::new(*class, *home)).collect();
-        let mut all = combined::Lane::<R>::new(ellipsoid, shell);
-        let mut shrunk = gains::Lane::<R>::new(classes.len());
+        let mut position = gathering::Lane::<R>::new(&self.start.position);
+        let mut orientation = gathering::Lane::<R>::new(&self.start.orientation);
         let mut compensated = remaining_errors::Lane::<R>::new();
-        let mut norm_of = vec![Lanes::constant(0.0); classes.len()];
         let mut indices = Vec::with_capacity(self.range.len());
         let mut block = Block::new(manipulator, workspace, BLOCK.min(self.range.len()));
         for first in self.range.clone().step_by(BLOCK) {
@@ -225,18 +209,20 @@ impl<'a> Kernel for Chunk<'_, 'a> {
                 left if left < R::WIDTH => Lanes::from_fn(|lane| f64::from(u8::from(lane < left))),
                 _ => Lanes::constant(1.0),
             };
-            for (k, single) in singles.iter_mut().enumerate() {
+            for k in 0..classes.len() {
                 for tile in 0..tiles {
-                    single.add(&displacements.tile::<R>(tile)[6 * k..][..6], place(tile), weight(tile));
+                    let rows = displacements.tile::<R>(tile);
+                    position.add_source(k, rows, place(tile), weight(tile));
+                    orientation.add_source(k, rows, place(tile), weight(tile));
                 }
             }
+            let index = |place: usize| indices[place];
             for tile in 0..tiles {
                 let rows = displacements.tile::<R>(tile);
-                let sums = Sums::new(classes, rows, &mut norm_of, place(tile), weight(tile));
-                all.add(&sums, |place| indices[place]);
-                shrunk.add(classes, rows, &norm_of, &sums);
+                let sums = position.add_sums(classes, rows, place(tile), weight(tile), index);
+                orientation.add_sums(classes, rows, place(tile), weight(tile), index);
                 if let Some(residuals) = residuals {
-                    compensated.add(residuals, &norm_of, &sums);
+                    compensated.add(residuals, &position.norm_of, &sums);
                 }
             }
             part.unreachable.append(&mut block.unreachable);
@@ -247,9 +233,8 @@ impl<'a> Kernel for Chunk<'_, 'a> {
         }
         let index = |place: usize| indices[place];
         part.count = indices.len();
-        part.tallies = singles.into_iter().map(|single| single.finish(index)).collect();
-        part.gathered = all.finish(index);
-        part.gains = shrunk.finish();
+        part.position = position.finish(index);
+        part.orientation = orientation.finish(index);
         part.compensation = residuals.map(|_| compensated.finish(index));
         Ok(part)
     }

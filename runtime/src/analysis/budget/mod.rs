@@ -4,11 +4,13 @@
 //! tile, and what that comes to, which is merged chunk after chunk.
 
 mod admissible;
+mod cloud;
 mod combined;
 mod ellipsoid;
 mod enclosing_sphere;
 mod error_budget;
 mod gains;
+mod gathering;
 mod peak;
 mod remaining_errors;
 mod source_errors;
@@ -18,7 +20,6 @@ pub use admissible::Admissible;
 pub use combined::{Combined, Extreme};
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use enclosing_sphere::Sphere;
-pub use error_budget::{Budget, Watch, error_budget};
+pub use error_budget::{Budget, OrientationErrors, Watch, error_budget};
 pub use remaining_errors::{RemainingErrors, Residual};
-pub(super) use source_errors::position;
 pub use source_errors::{Figures, SourceErrors};

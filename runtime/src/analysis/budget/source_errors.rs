@@ -1,10 +1,12 @@
 //! What one source does alone over the workspace, in three metrics.
 
+use super::enclosing_sphere::Enclosing;
 use super::peak::{self, Peak};
 use crate::lanes::{Lanes, Register};
 use crate::{Class, Scalar};
 
-/// A figure per axis of `F_0`, and of the norm of the position error. In the length unit.
+/// A figure per axis, and of the norm. Of positions along the axes of `F_0` in the length unit, of orientations rows 4–6 in
+/// rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// Along x.
@@ -25,13 +27,13 @@ impl From<[f64; 4]> for Figures {
 
 /// What one source does alone over the workspace.
 ///
-/// ΔX(q) is the position error of a repeatable source. Of a random one b(q) is the bound: what is drawn lies
+/// ΔX(q) is the position error (or rows 4–6) of a repeatable source. Of a random one b(q) is the bound: what is drawn lies
 /// anywhere between −b(q) and +b(q), all effects of the source together.
 ///
 /// | metric | repeatable | random |
 /// |---|---|---|
 /// | plain maximum | max \|ΔX\|; max ‖ΔX‖ | max \|b\|; max ‖b‖ |
-/// | half peak-to-peak | (max ΔX − min ΔX) / 2; (max ‖ΔX‖ − min ‖ΔX‖) / 2 | as plain: the interval is symmetric |
+/// | half peak-to-peak | (max ΔX − min ΔX) / 2; radius of the smallest sphere around all ΔX | as plain: the interval is symmetric |
 /// | relative to home | max \|ΔX(q) − ΔX(home)\|; max ‖ΔX(q) − ΔX(home)‖ | worst difference of two draws: max \|b(q)\| + \|b(home)\|; max ‖b(q) ± b(home)‖ |
 ///
 /// All are zero for an empty workspace.
@@ -49,8 +51,6 @@ pub struct SourceErrors {
     pub relative_to_home: Figures,
     /// The root mean square of the norm of the error over the configurations.
     pub rms: f64,
-    /// The largest of each of rows 4–6, rad.
-    pub orientation: [f64; 3],
     /// Index of the configuration with the largest norm; none for an empty workspace.
     pub worst: Option<usize>,
 }
@@ -58,24 +58,22 @@ pub struct SourceErrors {
 /// What one source does over some configurations: [`SourceErrors`] without the last steps.
 #[derive(Clone, Debug)]
 pub(super) struct Tally {
-    least: [f64; 4],
+    least: [f64; 3],
     largest: [f64; 4],
     worst: Option<usize>,
     squares: f64,
     relative: f64,
-    orientation: [f64; 3],
 }
 
 impl Tally {
     /// Of no configurations.
     pub(super) fn new() -> Self {
         Self {
-            least: [f64::INFINITY; 4],
+            least: [f64::INFINITY; 3],
             largest: [f64::NEG_INFINITY; 4],
             worst: None,
             squares: 0.0,
             relative: 0.0,
-            orientation: [0.0; 3],
         }
     }
 
@@ -84,20 +82,27 @@ impl Tally {
         if other.largest[3] > self.largest[3] {
             self.worst = other.worst;
         }
-        for i in 0..4 {
-            self.least[i] = self.least[i].min(other.least[i]);
-            self.largest[i] = self.largest[i].max(other.largest[i]);
+        for (least, other) in self.least.iter_mut().zip(other.least) {
+            *least = least.min(other);
+        }
+        for (largest, other) in self.largest.iter_mut().zip(other.largest) {
+            *largest = largest.max(other);
         }
         self.squares += other.squares;
         self.relative = self.relative.max(other.relative);
-        for (largest, other) in self.orientation.iter_mut().zip(other.orientation) {
-            *largest = largest.max(other);
-        }
     }
 
-    /// The errors of a source with this error (bound, if random) at home, over so many configurations.
-    pub(super) fn finish(self, source: usize, class: Class, home: [f64; 6], count: usize) -> SourceErrors {
-        let Self { least, largest, worst, squares, relative, orientation } = self;
+    /// The errors of a source with this error (bound, if random) at home and this sphere around all, over so many
+    /// configurations.
+    pub(super) fn finish(
+        self,
+        source: usize,
+        class: Class,
+        home: [f64; 3],
+        sphere: Enclosing,
+        count: usize,
+    ) -> SourceErrors {
+        let Self { least, largest, worst, squares, relative } = self;
         let none = Figures::default();
         let (plain_max, half_peak_to_peak, relative_to_home) = if worst.is_none() {
             (none, none, none)
@@ -105,26 +110,20 @@ impl Tally {
             // Never −0.
             let plain = |i: usize| largest[i].max(-least[i]).abs();
             let plain_max = Figures::from([plain(0), plain(1), plain(2), largest[3]]);
-            let half = core::array::from_fn(|i| (largest[i] - least[i]) / 2.0);
+            let half = |i: usize| (largest[i] - least[i]) / 2.0;
             // The difference of two draws `t b(q) − t' b(home)` is worst where t and t' are ±1.
             let [x, y, z] = core::array::from_fn(|i| match class {
                 Class::Repeatable => (largest[i] - home[i]).max(home[i] - least[i]).abs(),
                 Class::Random(_) => plain(i) + home[i].abs(),
             });
-            let half = if class == Class::Repeatable { half.into() } else { plain_max };
+            let half = match class {
+                Class::Repeatable => [half(0), half(1), half(2), sphere.finish().radius].into(),
+                Class::Random(_) => plain_max,
+            };
             (plain_max, half, [x, y, z, relative].into())
         };
         let rms = (squares / count.max(1) as f64).sqrt();
-        SourceErrors {
-            source,
-            class,
-            plain_max,
-            half_peak_to_peak,
-            relative_to_home,
-            rms,
-            orientation,
-            worst,
-        }
+        SourceErrors { source, class, plain_max, half_peak_to_peak, relative_to_home, rms, worst }
     }
 }
 
@@ -134,41 +133,34 @@ pub(super) struct Lane<R: Register> {
     home: [Lanes<R>; 3],
     least: [Lanes<R>; 3],
     largest: [Lanes<R>; 3],
-    least_square: Lanes<R>,
     square: Peak<R>,
     squares: Lanes<R>,
     relative: Lanes<R>,
-    orientation: [Lanes<R>; 3],
 }
 
 impl<R: Register> Lane<R> {
     /// Of a source with this error (bound, if random) at home.
-    pub(super) fn new(class: Class, home: [f64; 6]) -> Self {
+    pub(super) fn new(class: Class, home: [f64; 3]) -> Self {
         let (zero, infinite) = (Lanes::constant(0.0), Lanes::constant(f64::INFINITY));
         Self {
             random: class != Class::Repeatable,
-            home: position(&home).map(Lanes::constant),
+            home: home.map(Lanes::constant),
             least: [infinite; 3],
             largest: [-infinite; 3],
-            least_square: infinite,
             square: Peak::none(),
             squares: zero,
             relative: zero,
-            orientation: [zero; 3],
         }
     }
 
-    /// Takes in one row after the other of some tiles, with the places and the weights of their configurations.
+    /// Takes in the rows of some tiles, with the places and the weights of their configurations.
     #[inline(always)]
-    pub(super) fn add(&mut self, deviation: &[Lanes<R>], place: Lanes<R>, weight: Lanes<R>) {
-        let &[x, y, z, four, five, six] = deviation else { return };
-        let here = [x, y, z];
+    pub(super) fn add(&mut self, here: [Lanes<R>; 3], place: Lanes<R>, weight: Lanes<R>) {
         for (row, (least, largest)) in here.iter().zip(self.least.iter_mut().zip(&mut self.largest)) {
             *least = row.min(*least);
             *largest = row.max(*largest);
         }
         let square = peak::square(here);
-        self.least_square = square.min(self.least_square);
         self.square.add(square, place);
         self.squares = square.mul_add(weight, self.squares);
         let differences = core::array::from_fn(|i| here[i] - self.home[i]);
@@ -177,30 +169,19 @@ impl<R: Register> Lane<R> {
             let sums = core::array::from_fn(|i| here[i] + self.home[i]);
             self.relative = peak::square(sums).max(self.relative);
         }
-        for (largest, row) in self.orientation.iter_mut().zip([four, five, six]) {
-            *largest = row.abs().max(*largest);
-        }
     }
 
     /// What was gathered, with the index of the place that is worst.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Tally {
-        let least = peak::least;
-        let [x, y, z] = self.least.map(least);
         let [a, b, c] = self.largest.map(peak::largest);
         let worst = self.square.finish();
         let root = |square: f64| square.max(0.0).sqrt();
         Tally {
-            least: [x, y, z, least(self.least_square).sqrt()],
+            least: self.least.map(peak::least),
             largest: [a, b, c, worst.map_or(f64::NEG_INFINITY, |(square, _)| root(square))],
             worst: worst.map(|(_, place)| index(place)),
             squares: peak::sum(self.squares),
             relative: root(peak::largest(self.relative)),
-            orientation: self.orientation.map(peak::largest),
         }
     }
-}
-
-/// Rows 1–3.
-pub(in crate::analysis) fn position(deviation: &[f64; 6]) -> [f64; 3] {
-    [deviation[0], deviation[1], deviation[2]]
 }

@@ -4,7 +4,7 @@ use super::{peak, variance};
 use crate::lanes::{Lanes, Register};
 use crate::{Class, Scalar};
 
-/// What all sources do together in the configurations of one tile. All of positions, in the length unit.
+/// What all sources do together in the configurations of one tile, in three rows.
 pub(super) struct Sums<R: Register> {
     /// Where the configurations stand in their chunk.
     pub(super) place: Lanes<R>,
@@ -29,7 +29,8 @@ pub(super) struct Sums<R: Register> {
 }
 
 impl<R: Register> Sums<R> {
-    /// Of the rows of a tile. `norm_of` takes the norm of each source.
+    /// Of the rows of a tile, the first of the three of the first source first, six of each source. `norm_of` takes the
+    /// norm of each source.
     #[inline(always)]
     pub(super) fn new(
         classes: &[Class],
@@ -41,7 +42,7 @@ impl<R: Register> Sums<R> {
         let zero = Lanes::constant(0.0);
         let (mut repeatable, mut squares, mut absolute) = ([zero; 3], [zero; 3], [zero; 3]);
         let (mut norms, mut random_norms, mut covariance) = (zero, zero, [zero; 6]);
-        for ((class, rows), norm_of) in classes.iter().zip(rows.chunks_exact(6)).zip(norm_of) {
+        for ((class, rows), norm_of) in classes.iter().zip(rows.chunks(6)).zip(norm_of) {
             let here = [rows[0], rows[1], rows[2]];
             let [x, y, z] = here;
             *norm_of = peak::square(here).sqrt();

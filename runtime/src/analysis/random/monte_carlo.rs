@@ -1,11 +1,10 @@
 //! Errors drawn at one configuration, on the exact chain with true rotations.
 
 use super::Quantile;
-use crate::analysis::budget::position;
 use crate::analysis::sampling::{draw, norm, stream};
 use crate::analysis::sweep::in_order;
 use crate::analysis::workspace::One;
-use crate::analysis::{Configuration, Ellipsoid, Sweepable, Unevaluated, covariance, sweep};
+use crate::analysis::{Configuration, Ellipsoid, Measurand, Sweepable, Unevaluated, covariance, sweep};
 use crate::{Class, Description, Error, Pose, deviation, real_pose};
 
 /// How many draws come from one stream of random numbers, and are made at once.
@@ -48,7 +47,7 @@ pub fn monte_carlo(
     let mut first_order = [[0.0; 3]; 3];
     let mut ideal = Pose::IDENTITY;
     sweep(manipulator, &One(configuration), &mut |row| {
-        first_order = covariance(&description.sources, row.sources);
+        first_order = covariance(&description.sources, row.sources, Measurand::Position);
         ideal = row.pose;
     })
     .map_err(|Unevaluated { error, .. }| error)?;
@@ -123,7 +122,7 @@ impl Chain<'_> {
             errors[effect.frame][effect.component.index()] += value * factor;
         }
         let real = real_pose(&self.transforms, errors);
-        position(&deviation(self.description.orientation, &self.ideal, &real))
+        Measurand::Position.rows(&deviation(self.description.orientation, &self.ideal, &real))
     }
 }
 

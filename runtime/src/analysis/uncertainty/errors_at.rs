@@ -16,18 +16,17 @@ pub struct ErrorsAt<'a> {
     pub effects: Vec<f64>,
 }
 
-/// Evaluates the sources at a configuration with inputs `u`. Errors as for [`sweep`].
+/// Evaluates the sources at a configuration. Errors as for [`sweep`].
 pub fn errors_at<'a>(
     manipulator: &'a dyn Sweepable,
     configuration: &Configuration,
-    u: &[f64],
 ) -> Result<ErrorsAt<'a>, Error> {
     let description = manipulator.description();
     let mut sources = Vec::new();
-    sweep(manipulator, &One(configuration), u, &mut |row| sources.extend_from_slice(row.sources))
+    sweep(manipulator, &One(configuration), &mut |row| sources.extend_from_slice(row.sources))
         .map_err(|Unevaluated { error, .. }| error)?;
     let mut effects = vec![0.0; description.effects.len()];
-    manipulator.effects(&configuration.q, &configuration.s, u, &mut effects)?;
+    manipulator.effects(&configuration.q, &configuration.s, &configuration.u, &mut effects)?;
     Ok(ErrorsAt { description, sources, effects })
 }
 

@@ -177,7 +177,10 @@ fn source<'a>(report: &'a Report, errors: &SourceErrors) -> Source<'a> {
         worst: report.variables(worst),
         distribution,
         worst_parameters: report.parameters(worst),
-        orientation: errors.orientation,
+        orientation: {
+            let Figures { x, y, z, .. } = report.budget.orientation.sources[errors.source].plain_max;
+            [x, y, z]
+        },
     }
 }
 
