@@ -123,6 +123,9 @@ pub(crate) struct Analyze {
     /// Run the spec of a shipped manipulator, not its generated code: the same, slower
     #[arg(long)]
     pub(crate) interpret: bool,
+    /// End with status 1 if a tolerance of the study is not met
+    #[arg(long)]
+    pub(crate) check: bool,
     /// Write into this folder: report.html, its figures as SVG, and configurations.csv, sources.csv,
     /// unreachable.csv
     #[arg(long, value_name = "DIR")]

@@ -9,7 +9,7 @@ mod tables;
 mod text;
 
 use abbe::analysis::Row;
-use abbe_study::analyze::{Analyze, Report};
+use abbe_study::analyze::{Analyze, Report, Verdict};
 use abbe_study::{Machine, Study};
 
 use crate::arguments;
@@ -43,7 +43,12 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
         }
     };
     let text = if arguments.json { output::json(&report)? } else { text::text(&report) };
-    Ok(Outcome::passed(text))
+    match (arguments.check, report.verdict()) {
+        (true, None) => Err(Failure::of("--check", "the study has no tolerance")
+            .help("give one: tolerance = \"0.5 mm\" in its [study]")),
+        (true, Some(Verdict::NotMet)) => Ok(Outcome::checked(text, false)),
+        _ => Ok(Outcome::passed(text)),
+    }
 }
 
 fn job(arguments: &arguments::Analyze, console: &mut Console) -> Result<Analyze, Failure> {

@@ -1,5 +1,6 @@
 //! The results for people.
 
+use abbe::analysis::Measurand;
 use abbe_study::analyze::{self, Report};
 use abbe_study::number::{self, unbroken};
 
@@ -8,28 +9,48 @@ use crate::table::{listed, wrapped};
 
 pub(super) fn text(report: &Report) -> String {
     let unit = report.spec.length.symbol();
-    let mut parts = vec![heading(report)];
+    let mut parts = Vec::new();
+    if let Some(verdict) = report.verdict_line() {
+        parts.push(format!("{verdict}\n{}", paragraphs(&report.verdict_sentences())));
+    }
+    parts.push(heading(report));
     if report.budget.sources.is_empty() {
         parts.push("This spec has no error source that is switched on: there is nothing to add up.\n".into());
     } else {
         parts.push(format!("Each source alone ({unit})\n{}", tables::sources(report)));
         parts.push(format!("All together ({unit})\n{}", tables::combined(report)));
         parts.push(format!("Ledger: norms of the errors ({unit})\n{}", listed(&analyze::ledger(report))));
-        if let Some(allowed) = analyze::allowed(report) {
-            let table = listed(&allowed);
-            parts.push(format!("What the tolerance allows, and what to tighten first ({unit})\n{table}"));
+        if let Some(turns) = analyze::turns(report) {
+            parts.push(format!("Ledger of the orientation: rows 4 to 6 (mrad)\n{}", listed(&turns)));
+        }
+        for measurand in Measurand::ALL {
+            let (_, unit) = analyze::unit::of(report, measurand);
+            if let Some(allowed) = analyze::allowed(report, measurand) {
+                let table = listed(&allowed);
+                parts.push(format!("What the tolerance allows, and what to tighten first ({unit})\n{table}"));
+            }
+        }
+        for stated in &report.stated {
+            let (_, unit) = analyze::unit::of(report, stated.statement.measurand);
+            let sources = listed(&analyze::contributions(report, stated));
+            let totals = listed(&analyze::totals(report, stated));
+            let said = paragraphs(&analyze::sentences(report, stated));
+            parts.push(format!("Uncertainty budget ({unit})\n{sources}\n{totals}\n{said}"));
         }
         if let Some(drawn) = &report.monte_carlo {
             parts.push(format!("Monte Carlo on the exact chain ({unit})\n{}", drawn::table(report, drawn)));
         }
-        let paragraphs = report.conclusions().into_iter().map(|said| format!("{}\n", wrapped(&said, 0)));
-        parts.push(paragraphs.collect());
+        parts.push(paragraphs(&report.conclusions()));
     }
     if !report.study.not_reproducible.is_empty() {
         let notes = report.study.not_reproducible.iter().map(|note| format!("- {}\n", wrapped(note, 2)));
         parts.push(format!("Not reproducible from {}\n{}", report.publisher(), notes.collect::<String>()));
     }
     parts.join("\n")
+}
+
+fn paragraphs(sentences: &[String]) -> String {
+    sentences.iter().map(|said| format!("{}\n", wrapped(said, 0))).collect()
 }
 
 fn heading(report: &Report) -> String {

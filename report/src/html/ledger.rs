@@ -115,6 +115,16 @@ pub(super) fn combined(report: &Report) -> String {
             );
         }
     }
+    for (name, axes, norm) in [
+        ("random: standard deviation", combined.standard_deviation, combined.standard_radius.value),
+        ("worst case: absolute values, added", combined.worst_case, combined.worst_case_radius.value),
+    ] {
+        let [x, y, z] = axes;
+        let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", error(figure, report))).concat();
+        let of = report.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
+        let of = of.unwrap_or_default();
+        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}<td></td></tr>\n");
+    }
     format!(
         "<table class=\"ledger\"><thead><tr><th class=\"words\">all together</th><th>x ({unit})</th>\
          <th>y ({unit})</th><th>z ({unit})</th><th>norm ({unit})</th>{share}<th class=\"words\">verdict</th>\

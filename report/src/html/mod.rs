@@ -1,7 +1,8 @@
 //! The report: one HTML file with everything in it, its script and its data, and no link to anywhere.
 //!
-//! `page` is that of an analysis, `measurement` that of a measurement; `ledger` its tables of errors, `facts` what they rest on; `plots` the figures, one module for each kind.
+//! `page` is that of an analysis, `measurement` that of a measurement; `ledger` its tables of errors, `covered` its verdict and uncertainty, `facts` what they rest on; `plots` the figures, one module for each kind.
 
+mod covered;
 mod facts;
 mod ledger;
 mod measurement;

@@ -2,9 +2,10 @@
 
 use plotly::Plot;
 
+use abbe::analysis::Measurand;
 use abbe_study::analyze::{self, Report};
 
-use super::{escaped, facts, ledger, plots};
+use super::{covered, escaped, facts, ledger, plots};
 use crate::figure::Named;
 use abbe_study::number::{percent, trimmed};
 
@@ -14,11 +15,15 @@ const STYLE: &str = include_str!("style.css");
 pub(crate) fn page(figures: &[Named], drawings: &[String], left_out: &[String], report: &Report) -> String {
     let parts = [
         heading(report),
+        covered::verdict(report),
         summary(report),
         section("Every source alone", &format!("{METRICS}\n{}", ledger::sources(report))),
         section("All together", &(ledger::combined(report) + &conclusions(report))),
         section("Ledger", &format!("{LEDGER}\n{}", ledger::listed(&analyze::ledger(report)))),
+        covered::turns(report),
         allowed(report),
+        covered::uncertainty(report),
+        covered::monte_carlo(report),
         drawn(figures, drawings, left_out, report),
         section("Conventions", &facts::conventions(report)),
         section("Values", &facts::values(report)),
@@ -124,8 +129,13 @@ fn allowed(report: &Report) -> String {
     let about = "<p><i>Alone at most</i>: how much larger a source may be if it is the only one. <i>Equal shares</i>: how \
         much larger it may be if each takes the same share of the tolerance. <i>Gain</i>: by how much the radius shrinks \
         per percent that the source becomes smaller; the first is the one to tighten first.</p>\n";
-    let table = analyze::allowed(report).map(|allowed| format!("{about}{}", ledger::listed(&allowed)));
-    table.map_or_else(String::new, |table| section("What the tolerance allows", &table))
+    let tables = Measurand::ALL.into_iter().filter_map(|measurand| {
+        let (_, unit) = analyze::unit::of(report, measurand);
+        let table = ledger::listed(&analyze::allowed(report, measurand)?);
+        Some(format!("<p>Gain in {unit}.</p>\n{table}"))
+    });
+    let tables = tables.collect::<String>();
+    if tables.is_empty() { tables } else { section("What the tolerance allows", &format!("{about}{tables}")) }
 }
 
 fn drawn(figures: &[Named], drawings: &[String], left_out: &[String], report: &Report) -> String {

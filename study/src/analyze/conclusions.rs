@@ -1,16 +1,19 @@
 //! The results in sentences: tolerance, spheres, compensation, first order.
 
-use abbe::analysis::RemainingErrors;
+use abbe::analysis::{Measurand, RemainingErrors};
 
 use super::report::Report;
+use super::unit;
 use crate::number::{self, percent, short};
 
 impl Report {
     /// The results in sentences: tolerance, spheres, compensation, first order.
     pub fn conclusions(&self) -> Vec<String> {
         let sentences = [
-            tolerance(self),
-            allowed(self),
+            tolerance(self, Measurand::Position),
+            allowed(self, Measurand::Position),
+            tolerance(self, Measurand::Orientation),
+            allowed(self, Measurand::Orientation),
             Some(spheres(self)),
             ellipsoid(self),
             published_residual(self),
@@ -39,14 +42,19 @@ impl Report {
     }
 }
 
-fn tolerance(report: &Report) -> Option<String> {
-    let tolerance = report.study.tolerance?;
-    let share = percent(report.budget.combined.radius.value, tolerance);
-    Some(format!("Tolerance: {}; the radius is {share} of it.", report.show(tolerance)))
+fn tolerance(report: &Report, measurand: Measurand) -> Option<String> {
+    let tolerance = report.tolerance(measurand)?;
+    let share = percent(report.budget.errors(measurand).1.radius.value, tolerance);
+    let what = match measurand {
+        Measurand::Position => "",
+        Measurand::Orientation => " of the orientation",
+    };
+    let tolerance = unit::shown(report, measurand, tolerance);
+    Some(format!("Tolerance{what}: {tolerance}; the radius is {share} of it."))
 }
 
-fn allowed(report: &Report) -> Option<String> {
-    let admissible = report.admissible.as_ref()?;
+fn allowed(report: &Report, measurand: Measurand) -> Option<String> {
+    let admissible = report.admissible(measurand)?;
     let how = match admissible.equal_probability {
         1.0 => "for certain".to_owned(),
         probability => format!("with a probability of at least {}", number::at_least(probability)),
@@ -54,7 +62,7 @@ fn allowed(report: &Report) -> Option<String> {
     Some(format!(
         "With all sources × {} the radius is within it; with each at an equal share of {} it is met {how}.",
         number::digits(admissible.together?, 3),
-        report.show(admissible.share?)
+        unit::shown(report, measurand, admissible.share?)
     ))
 }
 

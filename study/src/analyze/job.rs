@@ -1,13 +1,18 @@
 //! The question, and how it is answered.
 
 use abbe::Description;
-use abbe::analysis::{Admissible, Budget, Row, Unevaluated, Watch, Workspace, error_budget, monte_carlo};
+use abbe::analysis::{
+    Admissible, Budget, Measurand, Row, Statement, Unevaluated, Watch, Workspace, compliance, error_budget,
+    errors_at, monte_carlo,
+};
 use abbe_codegen::diagnostic::Diagnostics;
 
 use super::figures::Gathering;
 use super::first_order::FirstOrder;
 use super::report::{Drawn, Places, Report};
+use super::uncertainty::Stated;
 use super::unreachable;
+use super::verdict::Judged;
 use crate::changes::Changes;
 use crate::machine::Machine;
 use crate::notes::Notes;
@@ -95,6 +100,29 @@ impl Analyze {
             monte_carlo(manipulator, &configuration, draws, self.seed.unwrap_or(0))
                 .map_err(|error| refused(Unevaluated { configuration: index, error }))
         };
+        let seed = self.seed.unwrap_or(0);
+        let at = |index: Option<usize>| {
+            let configuration = index.and_then(|index| workspace.configuration(index).ok());
+            let configuration = configuration.unwrap_or_else(|| workspace.home().clone());
+            errors_at(manipulator, &configuration)
+                .map_err(|error| refused(Unevaluated { configuration: index, error }))
+        };
+        let tolerances = [study.tolerance, study.orientation_tolerance];
+        let mut judged = Vec::new();
+        for (measurand, tolerance) in Measurand::ALL.into_iter().zip(tolerances) {
+            let Some(tolerance) = tolerance else { continue };
+            judged.push(Judged::new(&budget, measurand, (tolerance, study.probability), |index| {
+                Ok::<_, Diagnostics>(compliance(&at(index)?, measurand, tolerance, seed))
+            })?);
+        }
+        let mut stated = Vec::new();
+        for measurand in Measurand::ALL {
+            let largest = budget.errors(measurand).1.standard_radius;
+            if largest.value > 0.0 {
+                let statement = Statement::new(&at(largest.configuration)?, measurand, seed);
+                stated.push(Stated { statement, configuration: largest.configuration });
+            }
+        }
         let drawn = match self.monte_carlo {
             Some(draws) => Some(Drawn {
                 seed: self.seed.unwrap_or(0),
@@ -117,6 +145,11 @@ impl Analyze {
             moving_inputs: self.moving_inputs(),
             places: Places::new(&budget, workspace),
             admissible: study.tolerance.map(|tolerance| Admissible::new(&budget, tolerance)),
+            admissible_orientation: study
+                .orientation_tolerance
+                .map(|tolerance| Admissible::of_measurand(&budget, Measurand::Orientation, tolerance)),
+            judged,
+            stated,
             budget,
             first_order,
             monte_carlo: drawn,

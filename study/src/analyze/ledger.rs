@@ -1,8 +1,9 @@
 //! The ledger: the sources in rows, their sums in the last ones.
 
-use abbe::analysis::{Extreme, SourceErrors};
+use abbe::analysis::{Extreme, Figures, Measurand, SourceErrors};
 
 use super::report::Report;
+use super::unit;
 use crate::listing::Listing;
 use crate::number::{self, fixed, percent, unbroken};
 
@@ -74,9 +75,54 @@ pub fn ledger(report: &Report) -> Listing {
     Listing { header, rows, numbers }
 }
 
-/// What the tolerance allows each source, and what is gained by making it smaller.
-pub fn allowed(report: &Report) -> Option<Listing> {
-    let admissible = report.admissible.as_ref()?;
+/// The ledger of the orientation in mrad: rows 4–6 and their norm. None if nothing turns the tool.
+pub fn turns(report: &Report) -> Option<Listing> {
+    let (errors, combined, _) = report.budget.errors(Measurand::Orientation);
+    if combined.worst_case_radius.value == 0.0 {
+        return None;
+    }
+    let ranks = report.budget.ranks_for(Measurand::Orientation);
+    let mut order = ranks.into_iter().zip(errors).collect::<Vec<_>>();
+    order.sort_by_key(|(rank, _)| *rank);
+    let show = |value| unit::fixed(report, Measurand::Orientation, value);
+    let [first, second, third] = unit::rows(report, Measurand::Orientation);
+    let mut header = vec!["source", first, second, third, "norm", "RMS", "worst at (the rest as at home)"];
+    let tolerance = report.study.orientation_tolerance;
+    if tolerance.is_some() {
+        header.insert(5, "of tolerance");
+    }
+    let row = |name: &str, rows: [Option<f64>; 3], norm: Extreme, rms: Option<f64>| {
+        let at = report.configuration(norm.configuration).filter(|_| norm.value > 0.0);
+        let mut cells = vec![name.to_owned()];
+        cells.extend(rows.map(|row| row.map(show).unwrap_or_default()));
+        cells.extend([show(norm.value), rms.map(show).unwrap_or_default()]);
+        cells.push(at.map(|worst| unbroken(&report.label(worst))).unwrap_or_default());
+        if let Some(tolerance) = tolerance {
+            cells.insert(5, percent(norm.value, tolerance));
+        }
+        cells
+    };
+    let alone = order.into_iter().map(|(_, alone)| {
+        let Figures { x, y, z, norm } = alone.plain_max;
+        let norm = Extreme { value: norm, configuration: alone.worst };
+        row(&report.source(alone.source).name, [x, y, z].map(Some), norm, Some(alone.rms))
+    });
+    let [repeatable, random, both] = combined.rms.map(Some);
+    let together = [
+        row("repeatable, with signs", combined.repeatable.map(Some), combined.repeatable_radius, repeatable),
+        row("random, root sum of squares", combined.random.map(Some), combined.random_radius, random),
+        row("all together", [None; 3], combined.radius, both),
+    ];
+    let rows = alone.chain(together).collect();
+    let numbers = 1..header.len() - 1;
+    Some(Listing { header, rows, numbers })
+}
+
+/// What a tolerance of the study allows each source, and what is gained by making it smaller.
+pub fn allowed(report: &Report, measurand: Measurand) -> Option<Listing> {
+    let admissible = report.admissible(measurand)?;
+    let (_, _, gains) = report.budget.errors(measurand);
+    let (factor, _) = unit::of(report, measurand);
     let times = |scale: Option<f64>| {
         scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
     };
@@ -85,10 +131,10 @@ pub fn allowed(report: &Report) -> Option<Listing> {
             report.source(source).name.clone(),
             times(admissible.alone[source]),
             times(admissible.equal[source]),
-            fixed(report.budget.gains[source], report.decimals() + 1),
+            fixed(factor * gains[source], report.decimals_of(measurand) + 1),
         ]
     };
-    let rows = report.budget.tighten_first().into_iter().map(row).collect();
+    let rows = report.budget.tighten_first_for(measurand).into_iter().map(row).collect();
     Some(Listing {
         header: vec!["source", "alone at most", "equal shares", "gain per percent"],
         rows,

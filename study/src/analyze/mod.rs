@@ -2,6 +2,7 @@
 //!
 //! `job` is the question, `report` the answer. The sweep runs once; `figures` gathers on the way what the figures show.
 //! `first_order` compares with the exact chain, `agreement` with published figures; `ledger` ranks the sources,
+//! `verdict` holds them against the tolerance, `uncertainty` states them as the GUM does,
 //! `unreachable` says what could not be had and why, `conclusions` puts the results into sentences; `json` is the report as
 //! machines read it.
 
@@ -13,11 +14,16 @@ mod job;
 mod json;
 mod ledger;
 mod report;
+mod uncertainty;
+pub mod unit;
 mod unreachable;
+mod verdict;
 
 pub use agreement::{Agreement, figures_of};
 pub use first_order::FirstOrder;
 pub use job::Analyze;
-pub use ledger::{Entry, allowed, ledger};
+pub use ledger::{Entry, allowed, ledger, turns};
 pub use report::{Drawn, Report};
+pub use uncertainty::{Stated, contributions, sentences, totals};
 pub use unreachable::{Reason, first_few, reason, reasons, summary};
+pub use verdict::{Judged, Verdict};

@@ -3,11 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use abbe::analysis::{Admissible, Budget, Configuration, MonteCarlo, SourceErrors, Workspace};
+use abbe::analysis::{Admissible, Budget, Configuration, Measurand, MonteCarlo, SourceErrors, Workspace};
 use abbe_codegen::spec::{Source, Spec};
 
 use super::figures::Figures;
 use super::first_order::FirstOrder;
+use super::uncertainty::Stated;
+use super::unit;
+use super::verdict::Judged;
 use crate::notes::Notes;
 use crate::number::{self, Named, error_decimals};
 use crate::study_file::Study;
@@ -36,6 +39,12 @@ pub struct Report {
     pub first_order: FirstOrder,
     /// What the tolerance of the study allows.
     pub admissible: Option<Admissible>,
+    /// What its tolerance of the orientation allows.
+    pub admissible_orientation: Option<Admissible>,
+    /// The verdict on each tolerance of the study.
+    pub judged: Vec<Judged>,
+    /// The uncertainty budgets, of position first; none of what no random source changes.
+    pub stated: Vec<Stated>,
     /// What was drawn, if it was asked for.
     pub monte_carlo: Option<Drawn>,
     /// What the figures of the study show, if it was asked for.
@@ -70,7 +79,10 @@ impl Places {
         let combined = &budget.combined;
         let radii =
             [combined.repeatable_radius, combined.random_radius, combined.radius, combined.worst_case_radius];
-        let named = budget.sources.iter().map(|alone| alone.worst);
+        let turned = &budget.orientation.combined;
+        let turns = [turned.repeatable_radius, turned.random_radius, turned.radius, turned.standard_radius];
+        let radii = radii.into_iter().chain(turns).chain([combined.standard_radius]);
+        let named = budget.sources.iter().chain(&budget.orientation.sources).map(|alone| alone.worst);
         let named = named.chain(radii.map(|radius| radius.configuration));
         let named = named.chain([combined.ellipsoid.configuration]).flatten();
         Self(named.filter_map(|index| Some((index, workspace.configuration(index).ok()?))).collect())
@@ -86,6 +98,22 @@ impl Report {
     /// A source of the budget, by its index there.
     pub fn source(&self, index: usize) -> &Source {
         self.sources()[index]
+    }
+
+    /// The tolerance of a measurand.
+    pub fn tolerance(&self, measurand: Measurand) -> Option<f64> {
+        match measurand {
+            Measurand::Position => self.study.tolerance,
+            Measurand::Orientation => self.study.orientation_tolerance,
+        }
+    }
+
+    /// What it allows.
+    pub fn admissible(&self, measurand: Measurand) -> Option<&Admissible> {
+        match measurand {
+            Measurand::Position => self.admissible.as_ref(),
+            Measurand::Orientation => self.admissible_orientation.as_ref(),
+        }
     }
 
     /// The name of a source of the budget.
@@ -142,9 +170,19 @@ impl Report {
 
     /// How many decimals errors have: three digits of the smallest source that matters.
     pub fn decimals(&self) -> usize {
-        let least = error_decimals(self.spec.length);
-        let negligible = 1e-6 * self.budget.combined.radius.value;
-        let norms = self.budget.sources.iter().map(|errors| errors.plain_max.norm);
+        self.decimals_of(Measurand::Position)
+    }
+
+    /// The same of a measurand in the unit in which it is printed; of mrad at least four.
+    pub(super) fn decimals_of(&self, measurand: Measurand) -> usize {
+        let (sources, combined, _) = self.budget.errors(measurand);
+        let (factor, _) = unit::of(self, measurand);
+        let least = match measurand {
+            Measurand::Position => error_decimals(self.spec.length),
+            Measurand::Orientation => 4,
+        };
+        let negligible = 1e-6 * factor * combined.radius.value;
+        let norms = sources.iter().map(|errors| factor * errors.plain_max.norm);
         let smallest = norms.filter(|norm| *norm > negligible).fold(f64::INFINITY, f64::min);
         let needed = 2.0 - smallest.log10().floor();
         (needed.max(0.0) as usize).clamp(least, least + 4)

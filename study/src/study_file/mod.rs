@@ -4,6 +4,7 @@
 //! [study]
 //! title = "Spin and reach"
 //! tolerance = "0.5 mm"                     # the rest of [study] is optional
+//! # … or { position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }, of which 0.95 is the default
 //! set = { tip_load = "1 kN" }              # parameters and inputs
 //! disable = ["assembly"]                   # sources; `enable` likewise
 //!
@@ -38,7 +39,8 @@
 //! ```
 //!
 //! `study` is what a study says, `read` reads a file from top to bottom, `published` the figures that somebody printed,
-//! `figure` those to draw, `compensation` what compensation leaves. Everything is checked against the spec, and mistakes are
+//! `figure` those to draw, `compensation` what compensation leaves,
+//! `tolerance` how large errors may be. Everything is checked against the spec, and mistakes are
 //! shown as those of a spec.
 
 mod compensation;
@@ -47,6 +49,7 @@ mod keys;
 mod published;
 mod read;
 mod study;
+mod tolerance;
 
 pub use compensation::Compensated;
 pub use figure::{Content, Figure, Over};

@@ -14,9 +14,10 @@ use super::figure::read_figures;
 use super::keys;
 use super::published::{read_compensated, read_published};
 use super::study::Study;
+use super::tolerance;
 use crate::changes::{Changes, find_symbol};
 use crate::machine::Machine;
-use crate::workspace::{Region, constant, positive_length, read_region};
+use crate::workspace::{Region, constant, read_region};
 
 impl Study {
     /// The study of that file, or else the one shipped with the manipulator, or else joint samples.
@@ -56,9 +57,13 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
     head.name = "[study]".to_owned();
     head.check_keys(&[&keys::STUDY], document);
     let title = head.required("title", document).and_then(|item| document.string(&item));
+    let tolerance = head.get("tolerance").and_then(|item| tolerance::read(&item, document, spec));
+    let tolerance = tolerance.unwrap_or_default();
     Some(Study {
         publisher: head.optional_text("publisher", document),
-        tolerance: head.get("tolerance").and_then(|item| positive_length(&item, document, spec)),
+        tolerance: tolerance.position,
+        orientation_tolerance: tolerance.orientation,
+        probability: tolerance.probability,
         changes: read_changes(&head, document, spec, &moved),
         not_reproducible: head.get("not_reproducible").map_or_else(Vec::new, |item| texts(&item, document)),
         title: title?,

@@ -5,6 +5,7 @@ use abbe_codegen::spec::Spec;
 use super::compensation::Compensated;
 use super::figure::Figure;
 use super::published::{Published, PublishedResidual};
+use super::tolerance::Tolerance;
 use crate::changes::Changes;
 use crate::workspace::Region;
 
@@ -17,6 +18,10 @@ pub struct Study {
     pub publisher: String,
     /// How large the error of the tool point may be.
     pub tolerance: Option<f64>,
+    /// How large the norm of rows 4–6 may be, rad.
+    pub orientation_tolerance: Option<f64>,
+    /// With which probability a tolerance must be met.
+    pub probability: f64,
     /// What differs from the spec.
     pub changes: Changes,
     /// The configurations to look at.
@@ -66,6 +71,8 @@ impl Study {
             },
             publisher: String::new(),
             tolerance: None,
+            orientation_tolerance: None,
+            probability: Tolerance::default().probability,
             changes: Changes::default(),
             figures: Figure::defaults(&region),
             region,

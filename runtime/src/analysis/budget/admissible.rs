@@ -1,6 +1,7 @@
 //! The budget backwards: how large the sources may be for a tolerance.
 
-use super::{Budget, OrientationErrors, SourceErrors};
+use super::Budget;
+use crate::analysis::Measurand;
 
 /// A normal error is within its bound, 3σ, with this probability.
 const WITHIN_BOUND: f64 = 0.997_300_203_936_739_8;
@@ -26,18 +27,13 @@ pub struct Admissible {
 impl Admissible {
     /// For the position errors of a budget and a tolerance in the length unit.
     pub fn new(budget: &Budget, tolerance: f64) -> Self {
-        Self::of(&budget.sources, budget.combined.radius.value, tolerance)
+        Self::of_measurand(budget, Measurand::Position, tolerance)
     }
 
-    /// For its orientation errors and a tolerance in rad.
-    pub fn of_orientation(
-        OrientationErrors { sources, combined, .. }: &OrientationErrors,
-        tolerance: f64,
-    ) -> Self {
-        Self::of(sources, combined.radius.value, tolerance)
-    }
-
-    fn of(sources: &[SourceErrors], radius: f64, tolerance: f64) -> Self {
+    /// For the errors of a measurand and a tolerance in its unit.
+    pub fn of_measurand(budget: &Budget, measurand: Measurand, tolerance: f64) -> Self {
+        let (sources, combined, _) = budget.errors(measurand);
+        let radius = combined.radius.value;
         let largest = || sources.iter().map(|errors| errors.plain_max.norm);
         let scale = |limit: f64, norm: f64| (norm > 0.0).then(|| limit / norm).filter(|s| s.is_finite());
         let active = sources.iter().filter(|errors| errors.plain_max.norm > 0.0);
@@ -55,17 +51,29 @@ impl Admissible {
 }
 
 impl Budget {
-    /// The sources in the order in which they should be tightened: the largest gain per percent first.
+    /// The sources in the order in which they should be tightened for position: the largest gain per percent first.
     pub fn tighten_first(&self) -> Vec<usize> {
-        let mut order = (0..self.gains.len()).collect::<Vec<_>>();
-        order.sort_by(|&i, &j| self.gains[j].total_cmp(&self.gains[i]));
+        self.tighten_first_for(Measurand::Position)
+    }
+
+    /// The same for a measurand.
+    pub fn tighten_first_for(&self, measurand: Measurand) -> Vec<usize> {
+        let (_, _, gains) = self.errors(measurand);
+        let mut order = (0..gains.len()).collect::<Vec<_>>();
+        order.sort_by(|&i, &j| gains[j].total_cmp(&gains[i]));
         order
     }
 
-    /// The rank of each source by its largest error, 1 for the largest; equal ones in their order.
+    /// The rank of each source by its largest position error, 1 for the largest; equal ones in their order.
     pub fn ranks(&self) -> Vec<usize> {
-        let norm = |i: usize| self.sources[i].plain_max.norm;
-        let mut order = (0..self.sources.len()).collect::<Vec<_>>();
+        self.ranks_for(Measurand::Position)
+    }
+
+    /// The same for a measurand.
+    pub fn ranks_for(&self, measurand: Measurand) -> Vec<usize> {
+        let (sources, ..) = self.errors(measurand);
+        let norm = |i: usize| sources[i].plain_max.norm;
+        let mut order = (0..sources.len()).collect::<Vec<_>>();
         order.sort_by(|&i, &j| norm(j).total_cmp(&norm(i)));
         let mut ranks = vec![0; order.len()];
         for (rank, source) in order.into_iter().enumerate() {

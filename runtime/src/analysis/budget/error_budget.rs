@@ -37,6 +37,19 @@ pub struct Budget {
     pub unreachable: UnreachableSummary,
 }
 
+impl Budget {
+    /// The figures of a measurand: each source alone, all together, and the gains.
+    pub fn errors(&self, measurand: Measurand) -> (&[SourceErrors], &Combined, &[f64]) {
+        match measurand {
+            Measurand::Position => (&self.sources, &self.combined, &self.gains),
+            Measurand::Orientation => {
+                let OrientationErrors { sources, combined, gains } = &self.orientation;
+                (sources, combined, gains)
+            }
+        }
+    }
+}
+
 /// What the sources do to the orientation of the tool over a workspace: rows 4–6, rad.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrientationErrors {

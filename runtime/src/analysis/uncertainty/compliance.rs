@@ -8,7 +8,7 @@ use crate::analysis::sampling::{draw, norm, stream};
 use crate::analysis::sweep::in_order;
 
 /// How many draws are made where there is no other way.
-pub const DRAWS: usize = 1_000_000;
+pub const DRAWS: usize = 200_000;
 /// How many draws come from one stream of random numbers.
 const BLOCK: usize = 8192;
 

@@ -1,6 +1,6 @@
 //! The budget backwards, for machines.
 
-use abbe::analysis::Admissible;
+use abbe::analysis::{Admissible, Measurand};
 use serde::Serialize;
 
 use super::super::report::Report;
@@ -11,6 +11,8 @@ pub(super) struct Allowed<'a> {
     together: Option<f64>,
     /// What each may contribute if all contribute alike.
     equal_share: Option<f64>,
+    /// How likely the tolerance is met with equal shares, at least.
+    equal_share_probability: f64,
     /// The one to tighten first comes first.
     sources: Vec<Source<'a>>,
 }
@@ -23,16 +25,18 @@ struct Source<'a> {
     gain_per_percent: f64,
 }
 
-pub(super) fn of<'a>(report: &'a Report, admissible: &Admissible) -> Allowed<'a> {
+pub(super) fn of<'a>(report: &'a Report, admissible: &Admissible, measurand: Measurand) -> Allowed<'a> {
+    let (_, _, gains) = report.budget.errors(measurand);
     let source = |i: usize| Source {
         name: &report.source(i).name,
         alone: admissible.alone[i],
         equal: admissible.equal[i],
-        gain_per_percent: report.budget.gains[i] + 0.0,
+        gain_per_percent: gains[i] + 0.0,
     };
     Allowed {
         together: admissible.together,
         equal_share: admissible.share,
-        sources: report.budget.tighten_first().into_iter().map(source).collect(),
+        equal_share_probability: admissible.equal_probability,
+        sources: report.budget.tighten_first_for(measurand).into_iter().map(source).collect(),
     }
 }

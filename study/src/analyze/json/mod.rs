@@ -1,16 +1,21 @@
 //! The results for machines.
 
 mod allowed;
+mod covered;
 mod drawn;
 mod ledger;
+mod orientation;
 mod together;
 
-use abbe::analysis::{Figures, SourceErrors};
+use abbe::analysis::{Figures, Measurand, SourceErrors};
 use serde::{Serialize, Serializer};
 
 use super::agreement::Agreement;
 use super::report::Report;
+use super::uncertainty::Stated;
 use super::unreachable;
+use allowed::Allowed;
+
 use crate::number::{self, Named};
 use crate::study_file::{CombinedFigure, Metric, Subject};
 
@@ -26,6 +31,11 @@ struct Shape<'a> {
     length: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verdict: Option<covered::Judgement>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    uncertainty: Option<covered::Uncertainty<'a>>,
+    orientation: orientation::Orientation<'a>,
     published: Vec<Comparison>,
     #[serde(skip_serializing_if = "Option::is_none")]
     after_compensation: Option<AfterCompensation>,
@@ -141,6 +151,13 @@ fn shape(report: &Report) -> Shape<'_> {
         workspace: &report.workspace,
         length: spec.length.symbol(),
         tolerance: study.tolerance,
+        verdict: covered::verdict(report),
+        uncertainty: report
+            .stated
+            .iter()
+            .find(|stated| stated.statement.measurand == Measurand::Position)
+            .map(|stated| covered::uncertainty(report, stated)),
+        orientation: orientation::of(report),
         published: comparisons(report),
         after_compensation: study.compensated.as_ref().map(|published| AfterCompensation {
             residual: published.residual,
@@ -159,7 +176,10 @@ fn shape(report: &Report) -> Shape<'_> {
         unreachable_reasons: unreachable::reasons(&budget.unreachable, spec),
         not_reproducible: &study.not_reproducible,
         ledger: ledger::of(report),
-        budget: report.admissible.as_ref().map(|admissible| allowed::of(report, admissible)),
+        budget: report
+            .admissible
+            .as_ref()
+            .map(|admissible| allowed::of(report, admissible, Measurand::Position)),
         compensation: report.budget.compensation.as_ref().map(together::compensated),
         monte_carlo: report.monte_carlo.as_ref().map(|found| drawn::of(report, found)),
     }

@@ -1,0 +1,141 @@
+//! The uncertainty budget as the GUM states it, in tables and sentences.
+
+use abbe::analysis::{COVERAGE, Contribution, Measurand, Statement};
+use abbe::{Component, Distribution};
+
+use super::report::Report;
+use super::unit;
+use crate::listing::Listing;
+use crate::number;
+
+/// A budget, and where it holds: where the combined standard uncertainty of the norm is largest.
+#[derive(Clone, Debug)]
+pub struct Stated {
+    /// The budget.
+    pub statement: Statement,
+    /// Index of the configuration.
+    pub configuration: Option<usize>,
+}
+
+/// Every random source, the largest share first.
+pub fn contributions(report: &Report, stated: &Stated) -> Listing {
+    let measurand = stated.statement.measurand;
+    let row = |one: &Contribution| {
+        vec![
+            report.source(one.source).name.clone(),
+            value(report, one),
+            one.distribution.name().to_owned(),
+            divisor(one.distribution).to_owned(),
+            sensitivity(report, measurand, one),
+            unit::fixed(report, measurand, one.standard[3]),
+            format!("{:.1} %", 100.0 * one.share),
+        ]
+    };
+    Listing {
+        header: vec!["source", "value", "distribution", "divisor", "sensitivity", "u", "share of u²"],
+        rows: stated.statement.contributions.iter().map(row).collect(),
+        numbers: 3..7,
+    }
+}
+
+/// Bias, u, k and U along the rows and of the norm.
+pub fn totals(report: &Report, stated: &Stated) -> Listing {
+    let Statement { measurand, bias, standard, coverage_factors, .. } = &stated.statement;
+    let expanded = stated.statement.expanded();
+    let names = unit::rows(report, *measurand).into_iter().chain(["norm"]);
+    let row = |(i, name): (usize, &str)| {
+        let show = |value: f64| unit::fixed(report, *measurand, value);
+        let sum = bias[i].abs() + expanded[i];
+        vec![
+            name.to_owned(),
+            show(standard[i]),
+            format!("{:.3}", coverage_factors[i]),
+            show(expanded[i]),
+            show(bias[i]),
+            show(sum),
+        ]
+    };
+    Listing {
+        header: vec!["", "u", "k", "U = k u", "bias", "|bias| + U"],
+        rows: names.enumerate().map(row).collect(),
+        numbers: 1..6,
+    }
+}
+
+/// What the budget covers.
+pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
+    let Statement { measurand, coverage, coverage_factors, .. } = &stated.statement;
+    let (_, combined, _) = report.budget.errors(*measurand);
+    let show = |value| unit::shown(report, *measurand, value);
+    let at = report.configuration(stated.configuration).map(|worst| report.label(worst)).unwrap_or_default();
+    let holds = match coverage.draws {
+        None => "U covers 95 % of the errors: all random sources are normal.".to_owned(),
+        Some(draws) => format!(
+            "U would cover 95 % of a normal error; drawn as the sources are distributed, {} % of {} errors have a norm within it.",
+            number::trimmed(100.0 * coverage.probability, 1),
+            number::short(draws as f64),
+        ),
+    };
+    // Whatever the shape of a covariance, the quantile of its norm is no more than that of a line.
+    let largest = LINE_95 * combined.standard_radius.value;
+    let mut sentences = vec![
+        format!(
+            "Uncertainty after the GUM (JCGM 100), where it is largest ({at}): u = value × sensitivity / divisor, added as root sum of \
+             squares. k of a row is that of {} %; k of the norm, {:.3}, is the quantile of the norm of a normal vector with this \
+             covariance. The spec gives no degrees of freedom: they are taken as infinite.",
+            number::short(100.0 * COVERAGE),
+            coverage_factors[3],
+        ),
+        holds,
+        format!(
+            "Nowhere in the workspace is the U of the norm more than {} (1.960 × {}).",
+            show(largest),
+            show(combined.standard_radius.value)
+        ),
+    ];
+    if combined.repeatable_radius.value > 0.0 {
+        sentences.push(format!(
+            "The budget covers the random sources. The repeatable ones are known errors: the GUM takes for granted that they are \
+             corrected (3.2.4). As long as they are not they are a bias, of up to {} in the workspace, and stand beside U (6.3.1, note).",
+            show(combined.repeatable_radius.value)
+        ));
+    }
+    sentences
+}
+
+const LINE_95: f64 = 1.959_963_984_540_054;
+
+fn value(report: &Report, one: &Contribution) -> String {
+    match one.value {
+        None => "1".to_owned(),
+        Some((Component::X | Component::Y | Component::Z, value)) => {
+            format!("{} {}", number::digits(value, 3), report.spec.length.symbol())
+        }
+        Some((_, value)) => format!("{} mrad", number::digits(1e3 * value, 3)),
+    }
+}
+
+fn sensitivity(report: &Report, measurand: Measurand, one: &Contribution) -> String {
+    let length = report.spec.length.symbol();
+    let (factor, result) = unit::of(report, measurand);
+    let (per, unit) = match one.value {
+        None => (1.0, None),
+        Some((Component::X | Component::Y | Component::Z, _)) => (1.0, Some(length)),
+        Some(_) => (1e-3, Some("mrad")),
+    };
+    let number = number::digits(one.sensitivity[3] * factor * per, 4);
+    match unit {
+        Some(unit) if unit == result => number,
+        Some(unit) => format!("{number} {result}/{unit}"),
+        None => format!("{number} {result}"),
+    }
+}
+
+fn divisor(distribution: Distribution) -> &'static str {
+    match distribution {
+        Distribution::Uniform => "√3",
+        Distribution::Normal => "1",
+        Distribution::Triangular => "√6",
+        Distribution::Arcsine => "√2",
+    }
+}

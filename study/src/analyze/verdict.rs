@@ -1,0 +1,145 @@
+//! Whether the tolerance is met.
+
+use abbe::analysis::{Budget, Compliance, Measurand};
+use serde::Serialize;
+
+use super::report::Report;
+use super::unit;
+use crate::number;
+
+/// Whether a tolerance is met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// For certain: all random sources are bounded, and no draw of any of them exceeds it anywhere in the workspace.
+    Met,
+    /// With the probability that the study asks for, or more, at the worst configuration.
+    MetWithProbability,
+    /// With less than that.
+    NotMet,
+}
+
+/// The verdict on position or orientation. Lengths in the spec's unit, angles in rad.
+///
+/// The probability is that of the worst configuration, where the radius (the norm of the repeatable errors and that of the
+/// random bounds, added) is largest: repeatable sources as they are, random ones drawn, to first order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// What it is about.
+    pub measurand: Measurand,
+    /// How large the norm of the error may be.
+    pub tolerance: f64,
+    /// Whether it is.
+    pub verdict: Verdict,
+    /// The largest error that any draw can make, if all random sources are bounded.
+    pub largest: Option<f64>,
+    /// How likely the tolerance is met: 1 if for certain.
+    pub compliance: Compliance,
+}
+
+impl Judged {
+    /// Judges the errors of a budget; `compliance` evaluates the probability at a configuration.
+    pub(super) fn new<E>(
+        budget: &Budget,
+        measurand: Measurand,
+        (tolerance, asked): (f64, f64),
+        compliance: impl FnOnce(Option<usize>) -> Result<Compliance, E>,
+    ) -> Result<Self, E> {
+        let (sources, combined, _) = budget.errors(measurand);
+        let bounded = sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
+        let largest = bounded.then_some(combined.bounded_radius.value);
+        if largest.is_some_and(|largest| largest <= tolerance) {
+            let compliance = Compliance { probability: 1.0, error: 0.0, draws: None };
+            return Ok(Self { measurand, tolerance, verdict: Verdict::Met, largest, compliance });
+        }
+        let compliance = compliance(combined.radius.configuration)?;
+        let met = compliance.probability >= asked;
+        let verdict = if met { Verdict::MetWithProbability } else { Verdict::NotMet };
+        Ok(Self { measurand, tolerance, verdict, largest, compliance })
+    }
+}
+
+impl Report {
+    /// The verdict on all tolerances of the study, the worst of them; none if it has no tolerance.
+    pub fn verdict(&self) -> Option<Verdict> {
+        let rank = |verdict: &Verdict| *verdict as u8;
+        self.judged.iter().map(|judged| judged.verdict).max_by_key(rank)
+    }
+
+    /// `Verdict: not met`.
+    pub fn verdict_line(&self) -> Option<String> {
+        let verdict = self.verdict()?;
+        let least = self
+            .judged
+            .iter()
+            .map(|judged| judged.compliance)
+            .min_by(|a, b| a.probability.total_cmp(&b.probability));
+        Some(match verdict {
+            Verdict::Met => "Verdict: met".to_owned(),
+            Verdict::MetWithProbability => format!("Verdict: met with probability {}", probability(least?)),
+            Verdict::NotMet => "Verdict: not met".to_owned(),
+        })
+    }
+
+    /// A sentence on each tolerance.
+    pub fn verdict_sentences(&self) -> Vec<String> {
+        self.judged.iter().map(|judged| self.judgement(judged)).collect()
+    }
+
+    fn judgement(&self, judged: &Judged) -> String {
+        let (_, combined, _) = self.budget.errors(judged.measurand);
+        let show = |value| unit::shown(self, judged.measurand, value);
+        let name = match judged.measurand {
+            Measurand::Position => "Position",
+            Measurand::Orientation => "Orientation",
+        };
+        let tolerance = show(judged.tolerance);
+        if let (Verdict::Met, Some(largest)) = (judged.verdict, judged.largest) {
+            return format!(
+                "{name}: met for certain. All random sources are bounded, and together with the repeatable ones they make at most \
+                 {} anywhere in the workspace, of {tolerance}.",
+                show(largest)
+            );
+        }
+        let at = combined.radius.configuration;
+        let at = self.configuration(at).map(|worst| self.label(worst)).unwrap_or_default();
+        let how = match judged.compliance.draws {
+            Some(draws) => format!("{} draws", number::short(draws as f64)),
+            None if self.is_random(judged.measurand) => "all random sources are normal".to_owned(),
+            None => "nothing is random".to_owned(),
+        };
+        let asked = number::at_least(self.study.probability);
+        let enough = match judged.verdict {
+            Verdict::NotMet => format!("{asked} are asked for"),
+            _ => format!("{asked} are enough"),
+        };
+        let met = if judged.verdict == Verdict::NotMet { "not met" } else { "met" };
+        format!(
+            "{name}: {met}. At the worst configuration ({at}) the error is within {tolerance} with probability {}; {enough}. \
+             Repeatable sources are as they are, random ones drawn ({how}).",
+            probability(judged.compliance)
+        )
+    }
+
+    fn is_random(&self, measurand: Measurand) -> bool {
+        self.budget.errors(measurand).1.random_radius.value > 0.0
+    }
+}
+
+/// `97.35 % ± 0.02 %` with the standard error of draws; what all draws say is a bound.
+fn probability(Compliance { probability, error, draws }: Compliance) -> String {
+    let percent = |p: f64| format!("{} %", number::trimmed(100.0 * p, 2));
+    match draws {
+        // No draw out of N was otherwise: 95 % sure that less than 3/N are.
+        Some(draws) if probability == 1.0 => {
+            format!("more than {} %", number::trimmed(100.0 * (1.0 - 3.0 / draws as f64), 3))
+        }
+        Some(draws) if probability == 0.0 => {
+            format!("less than {} %", number::trimmed(300.0 / draws as f64, 3))
+        }
+        Some(_) => format!("{} ± {}", percent(probability), percent(error.max(1e-4))),
+        None if probability > 0.9999 && probability < 1.0 => "more than 99.99 %".to_owned(),
+        None if probability < 0.0001 && probability > 0.0 => "less than 0.01 %".to_owned(),
+        None => percent(probability),
+    }
+}

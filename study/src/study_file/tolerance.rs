@@ -1,0 +1,71 @@
+//! `tolerance`: how large the error of the tool may be, and how sure that must be.
+
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item};
+use abbe_codegen::expr::Dimension;
+use abbe_codegen::spec::Spec;
+
+use super::keys;
+use crate::workspace::{constant, positive_length};
+
+/// How large the error may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tolerance {
+    /// Of the tool point, in the length unit.
+    pub(super) position: Option<f64>,
+    /// Of rows 4–6, rad.
+    pub(super) orientation: Option<f64>,
+    /// The probability with which it must be met: 0.95 if not said.
+    pub(super) probability: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self { position: None, orientation: None, probability: 0.95 }
+    }
+}
+
+/// A length, or `{ position = "0.5 mm", orientation = "0.5 mrad", probability = 0.99 }`.
+pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Tolerance> {
+    if !item.is_table() {
+        let position = positive_length(item, document, spec)?;
+        return Some(Tolerance { position: Some(position), ..Tolerance::default() });
+    }
+    let section = document.section(item)?;
+    section.check_keys(&[&keys::TOLERANCE], document);
+    let position = section.get("position").map(|item| positive_length(&item, document, spec));
+    let mut number = |key: &str, most: f64, help: &str| {
+        section.get(key).map(|item| {
+            let value = constant(&item, document, spec, Dimension::NONE, &format!("`{key}`"))?;
+            if value > 0.0 && value < most {
+                return Some(value);
+            }
+            let message = match most {
+                1.0 => format!("`{key}` must be between 0 and 1"),
+                _ => format!("`{key}` must be more than zero"),
+            };
+            document.mistake(Diagnostic::new(item.span(), message).label("this is not").help(help));
+            None
+        })
+    };
+    let orientation = number("orientation", f64::INFINITY, "write an angle such as \"0.5 mrad\"");
+    let probability = number("probability", 1.0, "write 0.95 for 95 %");
+    if position.is_none() && orientation.is_none() {
+        document.mistake(
+            Diagnostic::new(item.span(), "this tolerance says nothing")
+                .label("of what?")
+                .help("give `position`, a length, or `orientation`, an angle, or both"),
+        );
+        return None;
+    }
+    // What was given but could not be read was said to be a mistake.
+    let unread = |given: Option<Option<f64>>| given == Some(None);
+    if unread(position) || unread(orientation) || unread(probability) {
+        return None;
+    }
+    Some(Tolerance {
+        position: position.flatten(),
+        orientation: orientation.flatten(),
+        probability: probability.flatten().unwrap_or(Tolerance::default().probability),
+    })
+}
