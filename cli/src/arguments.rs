@@ -127,7 +127,7 @@ pub(crate) struct Analyze {
     #[arg(long)]
     pub(crate) check: bool,
     /// Write into this folder: report.html, its figures as SVG, and configurations.csv, sources.csv,
-    /// unreachable.csv
+    /// unreachable.csv, with draws monte_carlo.csv
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print JSON

@@ -1,5 +1,6 @@
 //! How the numbers of a figure are shown: names, units, ticks, colours.
 
+use abbe::analysis::Measurand;
 use abbe_codegen::spec::{Spec, VariableKind};
 
 use abbe_study::study_file::Over;
@@ -33,9 +34,13 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Of the errors: mm, whatever the spec's unit, because they are small.
-    pub(super) fn errors(name: &str, spec: &Spec) -> Self {
-        Self { name: name.to_owned(), unit: "mm".to_owned(), factor: 1e3 * spec.length.in_metres() }
+    /// Of the errors: mm, whatever the spec's unit, because they are small; of the orientation mrad.
+    pub(super) fn errors(measurand: Measurand, spec: &Spec) -> Self {
+        let (unit, factor) = match measurand {
+            Measurand::Position => ("mm", 1e3 * spec.length.in_metres()),
+            Measurand::Orientation => ("mrad", 1e3),
+        };
+        Self { name: String::new(), unit: unit.to_owned(), factor }
     }
 
     /// Of a length in the spec's unit.

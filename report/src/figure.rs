@@ -1,7 +1,8 @@
 //! A figure as it is drawn: what was gathered, with its names.
 
-use abbe_study::analyze::Report;
+use abbe::analysis::Measurand;
 use abbe_study::analyze::figures::{Figure, Gathered, Range};
+use abbe_study::analyze::{Report, unit};
 use abbe_study::study_file::{self, CombinedFigure, Content, Metric};
 
 use super::axis::Axis;
@@ -73,7 +74,11 @@ impl<'a> Named<'a> {
             Content::Pareto => ("pareto", Vec::new(), "Share of each source".to_owned()),
             Content::Manipulator(_) => ("manipulator", Vec::new(), "The frames at home".to_owned()),
         };
-        let words = [kind.to_owned()].into_iter().chain(asked.source.clone()).chain(overs);
+        let (rows, title) = match asked.measurand {
+            Measurand::Position => (None, title),
+            Measurand::Orientation => (Some("orientation".to_owned()), format!("orientation: {title}")),
+        };
+        let words = [kind.to_owned()].into_iter().chain(rows).chain(asked.source.clone()).chain(overs);
         let workspace_note = own_workspace.map(|[reached, unreached]| {
             format!("{reached} configurations of its own, {unreached} unreachable.")
         });
@@ -91,7 +96,8 @@ impl<'a> Named<'a> {
     ///
     /// `found` is what the axis spans here: half peak-to-peak is drawn about its middle.
     pub(super) fn printed(&self, axis: usize, found: Range, report: &Report) -> Option<Printed> {
-        let name = self.asked.source.as_deref()?;
+        // Nobody prints orientations.
+        let name = self.asked.source.as_deref().filter(|_| self.asked.measurand == Measurand::Position)?;
         let published = report.study.published.iter().find_map(|published| match &published.subject {
             study_file::Subject::Source(of, metric) if of == name => {
                 Some((published.figures[axis]?, *metric))
@@ -105,7 +111,7 @@ impl<'a> Named<'a> {
             // It stands for differences, which this figure does not show.
             Metric::RelativeToHome => return None,
         };
-        let errors = Axis::errors("", &report.spec);
+        let errors = self.axis(report);
         let shown = abbe_study::number::short(errors.show(value));
         Some(Printed {
             range: Range { least: middle - value, largest: middle + value },
@@ -124,7 +130,18 @@ impl<'a> Named<'a> {
     pub(super) fn printed_radius(&self, report: &Report) -> Option<f64> {
         let radius = study_file::Subject::Combined(CombinedFigure::Both);
         let published = report.study.published.iter().find(|published| published.subject == radius);
-        published.filter(|_| self.asked.source.is_none() && self.asked.region.is_none())?.figures[3]
+        let all = self.asked.source.is_none() && self.asked.region.is_none();
+        published.filter(|_| all && self.asked.measurand == Measurand::Position)?.figures[3]
+    }
+
+    /// The axis of its errors.
+    pub(super) fn axis(&self, report: &Report) -> Axis {
+        Axis::errors(self.asked.measurand, &report.spec)
+    }
+
+    /// The names of the three rows.
+    pub(super) fn rows(&self, report: &Report) -> [&'static str; 3] {
+        unit::rows(report, self.asked.measurand)
     }
 
     /// What is done about random errors, if that needs saying.

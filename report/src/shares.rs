@@ -1,6 +1,6 @@
 //! The share of each source in the sum of the largest errors.
 
-use super::axis::Axis;
+use super::figure::Named;
 use abbe_study::analyze::Report;
 
 /// The most sources that stand alone.
@@ -10,8 +10,8 @@ const MOST: usize = 12;
 #[derive(Clone, Debug)]
 pub(super) struct Share {
     pub(super) name: String,
-    /// The largest norm, in mm.
-    pub(super) millimetres: f64,
+    /// The largest norm, in the unit of the figure.
+    pub(super) largest: f64,
     /// Its share of the sum.
     pub(super) share: f64,
     /// Its share, and those of all larger ones.
@@ -19,9 +19,9 @@ pub(super) struct Share {
 }
 
 /// The largest first; the smallest together, if there are many.
-pub(super) fn shares(report: &Report) -> Vec<Share> {
-    let errors = Axis::errors("", &report.spec);
-    let sources = report.budget.sources.iter();
+pub(super) fn shares(figure: &Named, report: &Report) -> Vec<Share> {
+    let errors = figure.axis(report);
+    let sources = report.budget.errors(figure.asked.measurand).0.iter();
     let name = |source: usize| report.source(source).name.clone();
     let largest = sources.map(|alone| (name(alone.source), errors.show(alone.plain_max.norm)));
     let mut largest = largest.collect::<Vec<_>>();
@@ -33,10 +33,10 @@ pub(super) fn shares(report: &Report) -> Vec<Share> {
     }
     let sum = largest.iter().map(|(_, error)| error).sum::<f64>();
     let mut cumulative = 0.0;
-    let share = |(name, millimetres)| {
-        let share = if sum > 0.0 { millimetres / sum } else { 0.0 };
+    let share = |(name, largest)| {
+        let share = if sum > 0.0 { largest / sum } else { 0.0 };
         cumulative += share;
-        Share { name, millimetres, share, cumulative }
+        Share { name, largest, share, cumulative }
     };
     largest.into_iter().map(share).collect()
 }

@@ -13,6 +13,7 @@ pub(super) struct Spheres {
     added: bool,
     published: Option<f64>,
     pub(super) tolerance: Option<f64>,
+    errors: Axis,
 }
 
 impl Spheres {
@@ -21,14 +22,15 @@ impl Spheres {
             radius: points.worst.as_ref().map_or(0.0, |(norm, _)| *norm),
             added: figure.asked.source.is_none() && !figure.bounds,
             published: figure.printed_radius(report),
-            tolerance: report.study.tolerance,
+            tolerance: report.tolerance(figure.asked.measurand),
+            errors: figure.axis(report),
         }
     }
 
     /// What the circles are.
     pub(super) fn legend(&self, report: &Report) -> String {
-        let errors = Axis::errors("", &report.spec);
-        let show = |value: f64| format!("{} mm", number::trimmed(errors.show(value), 3));
+        let errors = &self.errors;
+        let show = |value: f64| format!("{} {}", number::trimmed(errors.show(value), 3), errors.unit);
         let what = if self.added { ", random errors added" } else { "" };
         let mut text = format!("Solid circle: radius {}{what}", show(self.radius));
         if let Some(published) = self.published {

@@ -3,6 +3,7 @@
 use abbe::analysis::Measurand;
 use abbe_codegen::document::Document;
 use abbe_codegen::spec::Spec;
+use abbe_study::analyze::figures::Gathered;
 use abbe_study::analyze::{Analyze, Report, Verdict};
 use abbe_study::{Machine, Study};
 
@@ -153,4 +154,25 @@ fn a_tolerance_that_says_nothing_is_a_mistake() {
         let refused = Study::read(Document::new("study.toml", text), &machine.spec).unwrap_err().to_string();
         assert!(refused.contains(said), "{tolerance}: {refused}");
     }
+}
+
+/// A figure of the orientation shows rows 4 to 6: its largest error is that of the ledger.
+#[test]
+fn figures_of_the_orientation() {
+    let machine = Machine::find("pps").unwrap();
+    let mut text = "[study]\ntitle = \"t\"\n[workspace.joints]\nsamples = 50\n".to_owned();
+    for kind in ["cloud\"", "histogram\"", "pareto\"", "travel\"\nover = \"q4\""] {
+        text += &format!("[[figure]]\nkind = \"{kind}\nrows = \"orientation\"\n");
+    }
+    let study = Study::read(Document::new("study.toml", text), &machine.spec).unwrap();
+    let mut job = Analyze::new(machine, study);
+    job.figures = true;
+    let report = job.run(&mut ()).unwrap();
+    let figures = &report.figures.as_ref().unwrap().figures;
+    let Gathered::Cloud(points) = &figures[0].data else { panic!("a cloud") };
+    let (norm, _) = points.worst.as_ref().unwrap();
+    let largest = report.budget.orientation.combined.radius.value;
+    assert!((norm - largest).abs() < 1e-12 * largest, "{norm} {largest}");
+    let json = serde_json::to_value(&report.figures).unwrap();
+    assert_eq!(json["figures"][3]["asked"]["measurand"], "orientation");
 }

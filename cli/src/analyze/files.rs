@@ -6,7 +6,7 @@ use std::path::Path;
 
 use abbe::analysis::{Configuration, Row};
 use abbe_codegen::spec::{Spec, VariableKind};
-use abbe_study::analyze::{Analyze, Report, figures_of, reason};
+use abbe_study::analyze::{Analyze, Drawn, Report, figures_of, reason};
 use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};
 use csv::Writer;
@@ -19,6 +19,8 @@ pub(super) struct Files {
     configurations: Writer<Pending>,
     sources: Writer<Pending>,
     unreachable: Writer<Pending>,
+    /// What was drawn, if anything is to be.
+    monte_carlo: Option<Writer<Pending>>,
     moved: Moved,
     /// The first thing that went wrong during the sweep.
     failure: Option<csv::Error>,
@@ -38,7 +40,7 @@ impl Moved {
 
 impl Files {
     /// Begins the files; makes the folder if there is none.
-    pub(super) fn create(folder: &Path, spec: &Spec, moved: Moved) -> Result<Self, Failure> {
+    pub(super) fn create(folder: &Path, spec: &Spec, moved: Moved, drawn: bool) -> Result<Self, Failure> {
         if folder.exists() && !folder.is_dir() {
             let message = "this is a file, not a folder";
             return Err(Failure::of(folder.display(), message).help("--out takes a folder"));
@@ -49,6 +51,7 @@ impl Files {
             configurations: begin("configurations.csv")?,
             sources: begin("sources.csv")?,
             unreachable: begin("unreachable.csv")?,
+            monte_carlo: if drawn { Some(begin("monte_carlo.csv")?) } else { None },
             moved,
             failure: None,
         };
@@ -78,11 +81,16 @@ impl Files {
     pub(super) fn finish(mut self, report: &Report) -> Result<(), Failure> {
         self.keep(|files| write_sources(&mut files.sources, report));
         self.keep(|files| write_unreachable(&mut files.unreachable, report));
+        self.keep(|files| match (&mut files.monte_carlo, &report.monte_carlo) {
+            (Some(writer), Some(drawn)) => write_drawn(writer, report, drawn),
+            _ => Ok(()),
+        });
         if let Some(error) = self.failure {
             return Err(Failure::of("--out", format!("cannot write the files: {error}")));
         }
         let mut complete = Vec::new();
-        for writer in [self.configurations, self.sources, self.unreachable] {
+        let always = [self.configurations, self.sources, self.unreachable];
+        for writer in always.into_iter().chain(self.monte_carlo) {
             let pending = writer.into_inner();
             complete.push(pending.map_err(|error| Failure::of("--out", error.error().to_string()))?);
         }
@@ -120,6 +128,41 @@ fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Resul
         let [x, y, z] = axes.map(|axis| axis.as_ref().map(number).unwrap_or_default());
         let (norm, worst) = (number(&norm), index(worst.configuration));
         writer.write_record(["all together", "", name, &x, &y, &z, &norm, &worst])?;
+    }
+    for (name, axes, norm) in [
+        ("random standard deviation", combined.standard_deviation, combined.standard_radius),
+        ("worst case", combined.worst_case, combined.worst_case_radius),
+    ] {
+        let ([x, y, z], worst) = (axes.map(|axis| number(&axis)), index(norm.configuration));
+        writer.write_record(["all together", "", name, &x, &y, &z, &number(&norm.value), &worst])?;
+    }
+    Ok(())
+}
+
+/// A row for each quantile of the norm, the largest, the mean and the standard deviation, at both places.
+fn write_drawn(writer: &mut Writer<impl Write>, report: &Report, drawn: &Drawn) -> csv::Result<()> {
+    let unit = report.spec.length.symbol();
+    let figures =
+        ["norm", "standard error of the norm", "x", "y", "z"].map(|figure| format!("{figure} ({unit})"));
+    let heading = ["at", "draws", "seed", "figure"].map(str::to_owned).into_iter().chain(figures);
+    writer.write_record(heading.collect::<Vec<_>>())?;
+    for (place, found) in drawn.places() {
+        let (draws, seed) = (found.draws.to_string(), drawn.seed.to_string());
+        let mut row = |figure: &str, cells: [String; 5]| {
+            let head = [place, &draws, &seed, figure].map(str::to_owned);
+            writer.write_record(head.into_iter().chain(cells).collect::<Vec<_>>())
+        };
+        let none = String::new;
+        for quantile in found.quantiles {
+            let name = format!("{} % quantile", 100.0 * quantile.probability);
+            let error = number(&quantile.standard_error);
+            row(&name, [number(&quantile.value), error, none(), none(), none()])?;
+        }
+        row("largest", [number(&found.largest), none(), none(), none(), none()])?;
+        let [x, y, z] = found.mean.map(|mean| number(&mean));
+        row("mean", [none(), none(), x, y, z])?;
+        let [x, y, z] = [0, 1, 2].map(|i| number(&found.covariance[i][i].sqrt()));
+        row("standard deviation", [none(), none(), x, y, z])?;
     }
     Ok(())
 }

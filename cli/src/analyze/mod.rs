@@ -29,7 +29,8 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     let report = match &arguments.out {
         None => job.run(&mut console)?,
         Some(folder) => {
-            let mut files = Files::create(folder, &job.machine().spec, Moved::new(&job))?;
+            let mut files =
+                Files::create(folder, &job.machine().spec, Moved::new(&job), job.monte_carlo.is_some())?;
             let mut show = |row: &Row| files.configuration(row);
             let report = job.run_showing(Some(&mut show), &mut console)?;
             let pictures = abbe_report::analysis(&report)?;

@@ -24,8 +24,8 @@ pub(super) fn conventions(report: &Report) -> String {
         ("Columns of J<sub>e</sub>", format!("{}: six per frame, frame 1 first, e_x1 … e_p{last}", 6 * last)),
         ("Rows 1–3", format!("the tool point in F<sub>0</sub>, {unit}")),
         ("Rows 4–6", rows.to_owned()),
-        ("Units", format!("{unit}, rad, kg, s, K; in figures errors in mm and angles in degrees")),
-        ("Sources", "repeatable: summed with sign. Random: root sum of squares of bounds (uniform: half-width, normal: 3σ)".to_owned()),
+        ("Units", format!("{unit}, rad, kg, s, K; in figures errors in mm or mrad, and joints in degrees")),
+        ("Sources", "repeatable: summed with sign. Random: root sum of squares of bounds (normal: 3σ, all others: the value)".to_owned()),
     ];
     let rows = facts.map(|(name, fact)| format!("<tr><th>{name}</th><td>{fact}</td></tr>\n")).concat();
     format!("<table class=\"facts\"><tbody>{rows}</tbody></table>\n")

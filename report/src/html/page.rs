@@ -47,7 +47,7 @@ pub(super) fn document(title: &str, body: &str) -> String {
 }
 
 const METRICS: &str = "<p>Largest errors of the tool point over the workspace, along the axes of F<sub>0</sub>. \
-    <i>Plain maximum</i>: the largest |ΔX|. <i>Half peak-to-peak</i>: half of what it varies by. \
+    <i>Plain maximum</i>: the largest |ΔX|. <i>Half peak-to-peak</i>: half of what it varies by; of the norm the radius of the smallest sphere around all errors. \
     <i>Relative to home</i>: the largest difference from the error at home. Of a random source the bound, plus or \
     minus. Sources in order of their largest norm.</p>";
 
@@ -176,7 +176,7 @@ fn drawn(figures: &[Named], drawings: &[String], left_out: &[String], report: &R
     section(
         "Figures",
         &format!(
-            "<p>Drag to turn or to zoom, point at a curve or a dot to see its configuration, double-click to go back. Errors are in mm.</p>\n{text}"
+            "<p>Drag to turn or to zoom, point at a curve or a dot to see its configuration, double-click to go back. Errors are in mm, those of the orientation in mrad.</p>\n{text}"
         ),
     )
 }

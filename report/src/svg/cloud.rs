@@ -11,7 +11,7 @@ use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Points;
 
 pub(super) fn draw(points: &Points, figure: &Named, report: &Report) -> Result<String, Failed> {
-    let errors = Axis::errors("", &report.spec);
+    let errors = figure.axis(report);
     let spheres = Spheres::of(points, figure, report);
     let reach = errors.show(spheres.radius.max(spheres.tolerance.unwrap_or_default())) * 1.12;
     let reach = if reach > 0.0 { reach } else { 1.0 };
@@ -22,7 +22,8 @@ pub(super) fn draw(points: &Points, figure: &Named, report: &Report) -> Result<S
         let (views, below) = area.split_vertically(px(324.0));
         let areas = views.split_evenly((1, 3));
         for ((across, up), area) in [(0, 1), (0, 2), (2, 1)].into_iter().zip(areas) {
-            let axis = |i: usize| Axis { name: format!("{} error", ["x", "y", "z"][i]), ..errors.clone() };
+            let axis =
+                |i: usize| Axis { name: format!("{} error", figure.rows(report)[i]), ..errors.clone() };
             let (across_axis, up_axis) = (axis(across), axis(up));
             let side = |axis| Side { axis, range: [-reach, reach], about: 7, labelled: true };
             let mut chart = panel(&area, &side(&across_axis), &side(&up_axis), 18.0)?;

@@ -15,12 +15,13 @@ pub(super) fn draw(histogram: &Histogram, figure: &Named, report: &Report) -> Re
     let count = Axis { name: "configurations".to_owned(), unit: String::new(), factor: 1.0 };
     let total = all[3].iter().map(|(_, count)| count.0).sum::<usize>();
     Sheet::new((900, 560), figure, report, &format!("{total} configurations")).draw(|area| {
-        let names = ["x", "y", "z", "norm of the"].map(|name| format!("{name} {}", figure.errors()));
+        let [x, y, z] = figure.rows(report);
+        let names = [x, y, z, "norm of the"].map(|name| format!("{name} {}", figure.errors()));
         let colours = [XYZ[0], XYZ[1], XYZ[2], INK];
         for (((area, bins), name), colour) in
             area.split_evenly((2, 2)).iter().zip(all).zip(names).zip(colours)
         {
-            let errors = Axis::errors(&name, &report.spec);
+            let errors = Axis { name, ..figure.axis(report) };
             let edges = |(key, count): (i64, &_)| (bins.edges(key).map(|edge| errors.show(edge)), *count);
             let bars = bins.iter().map(edges).collect::<Vec<_>>();
             let ends = bars.first().zip(bars.last()).map(|((first, _), (last, _))| [first[0], last[1]]);

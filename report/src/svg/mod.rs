@@ -27,6 +27,6 @@ pub(super) fn draw(figure: &Named, report: &Report) -> Result<String, Failed> {
         (Gathered::Manipulator(stick), Content::Manipulator(up)) => {
             manipulator::draw(stick, up, &sheet((900, 640), ""), report)
         }
-        _ => pareto::draw(&sheet((900, 460), "largest norm of each source alone"), report),
+        _ => pareto::draw(&sheet((900, 460), "largest norm of each source alone"), figure, report),
     }
 }

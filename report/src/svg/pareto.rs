@@ -5,11 +5,13 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::canvas::{Failed, Sheet, Side, line, panel, px, rgb, text};
 use crate::axis::{Axis, BAR, GREY, INK, XYZ};
+use crate::figure::Named;
 use crate::shares::shares;
 use abbe_study::analyze::Report;
 
-pub(super) fn draw(sheet: &Sheet, report: &Report) -> Result<String, Failed> {
-    let shares = shares(report);
+pub(super) fn draw(sheet: &Sheet, figure: &Named, report: &Report) -> Result<String, Failed> {
+    let shares = shares(figure, report);
+    let unit = figure.axis(report).unit;
     let share = Axis { name: "share".to_owned(), unit: "%".to_owned(), factor: 100.0 };
     let rank = Axis { name: String::new(), unit: String::new(), factor: 1.0 };
     sheet.draw(|area| {
@@ -27,7 +29,7 @@ pub(super) fn draw(sheet: &Sheet, report: &Report) -> Result<String, Failed> {
         chart.draw_series(LineSeries::new(curve.iter().copied(), line(XYZ[0], 1.8)))?;
         chart.draw_series(curve.iter().map(|at| Circle::new(*at, px(3.2), rgb(XYZ[0]).filled())))?;
         for (i, bar) in shares.iter().enumerate() {
-            let label = format!("{} mm", abbe_study::number::trimmed(bar.millimetres, 3));
+            let label = format!("{} {unit}", abbe_study::number::trimmed(bar.largest, 3));
             let at = (i as f64, share.show(bar.share));
             // Where the curve begins the number makes room for it.
             let inside = i == 0 && bar.share > 0.15 && shares.len() < 9;

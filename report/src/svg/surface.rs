@@ -14,7 +14,7 @@ use abbe_study::study_file::Over;
 
 pub(super) fn draw(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Report) -> Result<String, Failed> {
     let [first, second] = over.map(|over| Axis::over(over, &report.spec));
-    let errors = Axis::errors("", &report.spec);
+    let errors = figure.axis(report);
     let what = format!("{} farthest from zero where others vary too{}", figure.errors(), figure.remark());
     Sheet::new((1200, 430), figure, report, &what).draw(|area| {
         for (axis, area) in area.split_evenly((1, 3)).iter().enumerate() {
@@ -72,7 +72,7 @@ pub(super) fn draw(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Report
 
             let (width, _) = area.dim_in_pixel();
             let title = text(13.0, INK, HPos::Center, VPos::Top);
-            let name = format!("{} {} ({})", ["x", "y", "z"][axis], figure.errors(), errors.unit);
+            let name = format!("{} {} ({})", figure.rows(report)[axis], figure.errors(), errors.unit);
             area.draw(&Text::new(name, (width as i32 / 2, px(4.0)), title))?;
             axis_titles(&mut chart, [&first, &second], x_range, z_range, span)?;
             printed(area, axis, mesh, figure, report)?;
@@ -110,8 +110,9 @@ fn printed(
 ) -> Result<(), Failed> {
     let mut span = Range::default();
     mesh.cells.iter().flatten().flatten().for_each(|cell| span.join(cell.errors[axis]));
-    let errors = Axis::errors("", &report.spec);
-    let here = format!("here: {} mm", abbe_study::number::trimmed(errors.show(span.farther()), 4));
+    let errors = figure.axis(report);
+    let here =
+        format!("here: {} {}", abbe_study::number::trimmed(errors.show(span.farther()), 4), errors.unit);
     let label = match figure.printed(axis, span, report) {
         Some(printed) => format!("{here} · {}", printed.label()),
         None => here,

@@ -17,7 +17,7 @@ pub(super) fn draw(
     report: &Report,
 ) -> Result<String, Failed> {
     let travel = Axis::over(over, &report.spec);
-    let errors = Axis::errors("", &report.spec);
+    let errors = figure.axis(report);
     let bins = envelope.0.iter().map(|(_, bin)| bin).collect::<Vec<_>>();
     let mut spans = [Range::default(); 3];
     let mut travelled = Range::default();
@@ -36,7 +36,7 @@ pub(super) fn draw(
     Sheet::new((900, 600), figure, report, &what).draw(|area| {
         let areas = area.split_by_breakpoints(Vec::<i32>::new(), [px(185.0), px(370.0)]);
         for (axis, area) in areas.iter().enumerate() {
-            let name = format!("{} {}", ["x", "y", "z"][axis], figure.errors());
+            let name = format!("{} {}", figure.rows(report)[axis], figure.errors());
             let errors = Axis { name, ..errors.clone() };
             let x = Side { axis: &travel, range: across, about: 9, labelled: axis == 2 };
             let y = Side { axis: &errors, range, about: 4, labelled: true };

@@ -8,6 +8,7 @@
 //! paper = "Figure 8"                       # the figure of the paper that this one stands for
 //! caption = "What it shows, and what is known of it"
 //! # kind = "surface", over = ["z", "q4"]   the worst error over two of them
+//! # rows = "orientation"                  what turns the tool, in mrad, instead of where its point is
 //! # kind = "cloud"                         the errors in space, and the sphere around them
 //! # kind = "histogram"                     how often which error occurs
 //! # kind = "pareto"                        the share of each source
@@ -17,12 +18,13 @@
 //! d1 = { from = "0 mm", to = "2256 mm", count = 200 }
 //! ```
 
+use abbe::analysis::Measurand;
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::find_name;
 use abbe_codegen::keys::Keys;
 use abbe_codegen::spec::Spec;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::keys;
 use crate::workspace::{Form, Region, read_region};
@@ -34,6 +36,9 @@ pub struct Figure {
     pub content: Content,
     /// The source that it is about; all together if there is none.
     pub source: Option<String>,
+    /// Whether it shows position or orientation.
+    #[serde(serialize_with = "rows")]
+    pub measurand: Measurand,
     /// What the study says of it.
     pub caption: String,
     /// Which figure of the paper it stands for, if any.
@@ -97,7 +102,8 @@ const UP: usize = 2;
 
 impl Figure {
     fn of(content: Content) -> Self {
-        Self { content, source: None, caption: String::new(), paper: String::new(), region: None }
+        let measurand = Measurand::Position;
+        Self { content, source: None, measurand, caption: String::new(), paper: String::new(), region: None }
     }
 
     /// Whether it is drawn over one of these inputs.
@@ -146,7 +152,11 @@ pub(super) fn read_figures(
         section.span = item.span();
         section.name = "a [[figure]]".to_owned();
         let Some(figure) = read_one(&section, document, spec) else { continue };
-        if figures.iter().any(|other| other.content == figure.content && other.source == figure.source) {
+        let same = |other: &Figure| {
+            (other.content, &other.source, other.measurand)
+                == (figure.content, &figure.source, figure.measurand)
+        };
+        if figures.iter().any(same) {
             let message = "this figure stands here twice";
             document.mistake(Diagnostic::new(item.span(), message).help("keep one of them"));
         }
@@ -158,10 +168,10 @@ pub(super) fn read_figures(
 fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Figure> {
     let kind = section.required("kind", document).and_then(|item| document.choice(&item, &KINDS))?;
     let known: &[&Keys] = match kind {
-        Kind::Travel | Kind::Surface => &[&keys::GATHERED, &keys::OVER, &keys::FIGURE],
-        Kind::Cloud | Kind::Histogram => &[&keys::GATHERED, &keys::FIGURE],
+        Kind::Travel | Kind::Surface => &[&keys::GATHERED, &keys::OVER, &keys::ROWS, &keys::FIGURE],
+        Kind::Cloud | Kind::Histogram => &[&keys::GATHERED, &keys::ROWS, &keys::FIGURE],
         Kind::Manipulator => &[&keys::UP, &keys::FIGURE],
-        Kind::Pareto => &[&keys::FIGURE],
+        Kind::Pareto => &[&keys::ROWS, &keys::FIGURE],
     };
     section.check_keys(known, document);
     let content = match kind {
@@ -192,6 +202,9 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
         find_name(document, item.span(), &name, &names, "source")?;
         figure.source = Some(name);
     }
+    if let Some(item) = section.get("rows") {
+        figure.measurand = document.choice(&item, &Measurand::ALL.map(|rows| (name(rows), rows)))?;
+    }
     if let Some(item) = section.get("workspace") {
         let mut region = read_region(&item, document, spec)?;
         region.over_ranges(spec);
@@ -200,6 +213,17 @@ fn read_one(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Opti
     figure.caption = section.optional_text("caption", document);
     figure.paper = section.optional_text("paper", document);
     Some(figure)
+}
+
+fn name(measurand: Measurand) -> &'static str {
+    match measurand {
+        Measurand::Position => "position",
+        Measurand::Orientation => "orientation",
+    }
+}
+
+fn rows<S: Serializer>(measurand: &Measurand, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(name(*measurand))
 }
 
 fn over(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Over> {

@@ -9,6 +9,7 @@ abbe_codegen::tables! {
 
     FIGURE: ["[[figure]]"], ["kind", "caption", "paper"];
     GATHERED: ["[[figure]]"], ["source", "workspace"];
+    ROWS: ["[[figure]]"], ["rows"];
     OVER: ["[[figure]]"], ["over"];
     UP: ["[[figure]]"], ["up"];
 

@@ -6,7 +6,7 @@ use plotly::{Scatter3D, Surface};
 
 use super::Plots;
 use super::style::{margin, plot, scene};
-use crate::axis::{Axis, BAR, INK, TOLERANCE, XYZ, css};
+use crate::axis::{BAR, INK, TOLERANCE, XYZ, css};
 use crate::figure::Named;
 use crate::spheres::Spheres;
 use abbe_study::analyze::Report;
@@ -18,8 +18,9 @@ use abbe_study::number::trimmed;
 const MESH: usize = 36;
 
 pub(super) fn plots(points: &Points, figure: &Named, report: &Report) -> Plots {
-    let errors = Axis::errors("", &report.spec);
-    let titles = ["x", "y", "z"].map(|axis| format!("{axis} {} (mm)", figure.errors()));
+    let errors = figure.axis(report);
+    let unit = &errors.unit;
+    let titles = figure.rows(report).map(|axis| format!("{axis} {} ({unit})", figure.errors()));
     let titles = titles.each_ref().map(String::as_str);
     let layout = Layout::new().margin(margin([0, 0, 0, 0])).scene(scene(titles, AspectMode::Data, 2, 0.8));
     let mut plot = plot(layout);
@@ -29,7 +30,7 @@ pub(super) fn plots(points: &Points, figure: &Named, report: &Report) -> Plots {
         let hover = |point: &&Point| {
             let [x, y, z] = point.error.map(|error| trimmed(errors.show(error), 4));
             let norm = trimmed(errors.show(norm(point.error)), 4);
-            format!("({x}, {y}, {z}) mm, norm {norm} mm<br>{}", report.label(&point.configuration))
+            format!("({x}, {y}, {z}) {unit}, norm {norm} {unit}<br>{}", report.label(&point.configuration))
         };
         Scatter3D::new(along(0), along(1), along(2))
             .mode(Mode::Markers)

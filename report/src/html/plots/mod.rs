@@ -38,6 +38,6 @@ pub(super) fn of(figure: &Named, report: &Report) -> Plots {
         (Gathered::Cloud(points), _) => cloud::plots(points, figure, report),
         (Gathered::Histogram(histogram), _) => histogram::plots(histogram, figure, report),
         (Gathered::Manipulator(stick), Content::Manipulator(up)) => manipulator::plots(stick, up, report),
-        _ => pareto::plots(report),
+        _ => pareto::plots(figure, report),
     }
 }

@@ -6,18 +6,20 @@ use plotly::{Bar, Layout, Scatter};
 use super::Plots;
 use super::style::{axis, margin, plot};
 use crate::axis::{BAR, XYZ, css};
+use crate::figure::Named;
 use crate::shares::shares;
 use abbe_study::analyze::Report;
 use abbe_study::number::trimmed;
 
-pub(super) fn plots(report: &Report) -> Plots {
-    let shares = shares(report);
+pub(super) fn plots(figure: &Named, report: &Report) -> Plots {
+    let shares = shares(figure, report);
+    let unit = figure.axis(report).unit;
     let names = shares.iter().map(|bar| super::super::escaped(&bar.name)).collect::<Vec<_>>();
     let percent = |value: f64| trimmed(100.0 * value, 1);
     let hover = shares.iter().map(|bar| {
         let (share, together) = (percent(bar.share), percent(bar.cumulative));
-        let millimetres = trimmed(bar.millimetres, 4);
-        format!("{}: {millimetres} mm, {share} %<br>together {together} %", super::super::escaped(&bar.name))
+        let largest = trimmed(bar.largest, 4);
+        format!("{}: {largest} {unit}, {share} %<br>together {together} %", super::super::escaped(&bar.name))
     });
     let hover = hover.collect::<Vec<_>>();
     let layout = Layout::new()

@@ -15,7 +15,7 @@ use abbe_study::study_file::Over;
 
 pub(super) fn plots(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Report) -> Plots {
     let [first, second] = over.map(|over| Axis::over(over, &report.spec));
-    let errors = Axis::errors("", &report.spec);
+    let (errors, rows) = (figure.axis(report), figure.rows(report));
     let plots = (0..3).map(|i| {
         let height = |cell: &Option<Extremes>| Some(errors.show(cell.as_ref()?.errors[i].farther()));
         // Plotly's lines are along y: it wants one for each value of the second.
@@ -23,7 +23,7 @@ pub(super) fn plots(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Repor
             let line = |j: usize| mesh.cells.iter().map(|line| content(&line[j])).collect();
             (0..mesh.second.len()).map(line).collect::<Vec<Vec<_>>>()
         };
-        let name = format!("{} {} (mm)", ["x", "y", "z"][i], figure.errors());
+        let name = format!("{} {} ({})", rows[i], figure.errors(), errors.unit);
         let surface = Surface::new(lines(&height))
             .x(mesh.first.iter().map(|value| first.show(*value)).collect())
             .y(mesh.second.iter().map(|value| second.show(*value)).collect())
@@ -37,7 +37,7 @@ pub(super) fn plots(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Repor
             .scene(scene(titles.each_ref().map(String::as_str), AspectMode::Cube, 2, 1.0));
         let mut plot = plot(layout);
         plot.add_trace(surface);
-        plot.add_trace(dots(mesh, i, [&first, &second], report));
+        plot.add_trace(dots(mesh, i, [&first, &second], figure, report));
         plot
     });
     Plots::new(plots.collect(), 400)
@@ -48,9 +48,10 @@ fn dots(
     mesh: &Mesh,
     axis: usize,
     [first, second]: [&Axis; 2],
+    figure: &Named,
     report: &Report,
 ) -> Box<Scatter3D<f64, f64, f64>> {
-    let errors = Axis::errors("", &report.spec);
+    let errors = figure.axis(report);
     let (mut at, mut texts) = ([const { Vec::new() }; 3], Vec::new());
     for (line, one) in mesh.cells.iter().zip(&mesh.first) {
         for (cell, other) in line.iter().zip(&mesh.second) {
@@ -58,7 +59,7 @@ fn dots(
             let height = errors.show(cell.errors[axis].farther());
             let place = [first.show(*one), second.show(*other), height];
             at.iter_mut().zip(place).for_each(|(values, value)| values.push(value));
-            texts.push(hover(cell, axis, report));
+            texts.push(hover(cell, axis, figure, report));
         }
     }
     let [x, y, z] = at;
@@ -69,12 +70,13 @@ fn dots(
         .hover_text_array(texts)
 }
 
-fn hover(cell: &Extremes, axis: usize, report: &Report) -> String {
-    let errors = Axis::errors("", &report.spec);
+fn hover(cell: &Extremes, axis: usize, figure: &Named, report: &Report) -> String {
+    let errors = figure.axis(report);
+    let unit = &errors.unit;
     let value = trimmed(errors.show(cell.errors[axis].farther()), 5);
     let worst = cell.worst.as_ref().map(|Worst { norm, configuration }| {
         let norm = trimmed(errors.show(*norm), 5);
-        format!("<br>largest norm {norm} mm at<br>{}", report.label(configuration))
+        format!("<br>largest norm {norm} {unit} at<br>{}", report.label(configuration))
     });
-    format!("{} {value} mm{}", ["x", "y", "z"][axis], worst.unwrap_or_default())
+    format!("{} {value} {unit}{}", figure.rows(report)[axis], worst.unwrap_or_default())
 }

@@ -17,8 +17,8 @@ const DOMAINS: [[f64; 2]; 3] = [[0.7, 1.0], [0.35, 0.65], [0.0, 0.3]];
 
 pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Named, report: &Report) -> Plots {
     let travel = Axis::over(over, &report.spec);
-    let errors = Axis::errors("", &report.spec);
-    let title = |i: usize| format!("{} {} (mm)", ["x", "y", "z"][i], figure.errors());
+    let (errors, rows) = (figure.axis(report), figure.rows(report));
+    let title = |i: usize| format!("{} {} ({})", rows[i], figure.errors(), errors.unit);
     let side = |i: usize| axis(&title(i)).domain(&DOMAINS[i]);
     let layout = Layout::new()
         .margin(margin([70, 16, 12, 50]))
@@ -38,7 +38,7 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Named, report: &Re
         let edge = |end: fn(Range) -> f64| bins.iter().map(|bin| errors.show(end(bin.errors[i]))).collect();
         let edges: [Vec<f64>; 2] = [edge(|range| range.least), edge(|range| range.largest)];
         for (end, values) in edges.into_iter().enumerate() {
-            let hover = bins.iter().map(|bin| hover(bin, i, &travel, report)).collect::<Vec<_>>();
+            let hover = bins.iter().map(|bin| hover(bin, i, [&travel, &errors], report)).collect::<Vec<_>>();
             let curve = Scatter::new(at.clone(), values)
                 .mode(Mode::Lines)
                 .y_axis(name)
@@ -49,7 +49,7 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Named, report: &Re
             plot.add_trace(if end == 1 { band(curve) } else { curve });
         }
         let Some(printed) = figure.printed(i, span, report) else { continue };
-        notes.push(format!("{} in {}", printed.lines[1..].join(" "), ["x", "y", "z"][i]));
+        notes.push(format!("{} in {}", printed.lines[1..].join(" "), rows[i]));
         for end in [printed.range.least, printed.range.largest] {
             let ends = at.first().into_iter().chain(at.last()).copied().collect::<Vec<_>>();
             let line = Scatter::new(ends, vec![errors.show(end); 2])
@@ -69,14 +69,14 @@ pub(super) fn plots(envelope: &Envelope, over: Over, figure: &Named, report: &Re
     Plots { plots: vec![plot], height: 520, note }
 }
 
-fn hover(bin: &Extremes, axis: usize, travel: &Axis, report: &Report) -> String {
-    let errors = Axis::errors("", &report.spec);
+fn hover(bin: &Extremes, axis: usize, [travel, errors]: [&Axis; 2], report: &Report) -> String {
+    let unit = &errors.unit;
     let show = |value: f64| trimmed(errors.show(value), 5);
     let Range { least, largest } = bin.errors[axis];
     let range = if least == largest { show(least) } else { format!("{} … {}", show(least), show(largest)) };
     let at = trimmed(travel.show(bin.travel.middle()), 3);
     let worst = bin.worst.as_ref().map(|Worst { norm, configuration }| {
-        format!("<br>largest norm {} mm at {}", show(*norm), report.label(configuration))
+        format!("<br>largest norm {} {unit} at {}", show(*norm), report.label(configuration))
     });
-    format!("{} = {at} {}: {range} mm{}", travel.name, travel.unit, worst.unwrap_or_default())
+    format!("{} = {at} {}: {range} {unit}{}", travel.name, travel.unit, worst.unwrap_or_default())
 }

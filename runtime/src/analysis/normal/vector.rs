@@ -9,11 +9,12 @@ use super::quadrature::integral;
 /// largest standard deviation.
 pub const PROBABILITY_ERROR: f64 = 1e-9;
 
-/// Beyond so many standard deviations is a share of 2e-17.
-const TAIL: f64 = 8.5;
-/// Where the rules of an integral must agree: the outer integral sees the noise of the inner one.
-const OUTER: f64 = 1e-10;
-const INNER: f64 = 1e-11;
+/// Beyond so many standard deviations is a share of 3e-12.
+const TAIL: f64 = 7.0;
+/// How far the two rules of an integral may differ; the better one is far nearer than that. The outer integral sees the noise
+/// of the inner one.
+const OUTER: f64 = 1e-9;
+const INNER: f64 = 1e-10;
 
 /// A vector `X = m + √λ_1 Z_1 a_1 + √λ_2 Z_2 a_2 + √λ_3 Z_3 a_3` with independent standard normal Z, along the principal axes
 /// of its covariance. Some or all of the λ may be 0.

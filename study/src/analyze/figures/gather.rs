@@ -76,9 +76,9 @@ impl<'a> Gather<'a> {
     }
 
     fn errors(&self, row: &Row) -> Errors {
-        let position = |[x, y, z, ..]: [f64; 6]| [x, y, z];
-        match self.source.map(|source| position(row.sources[source])) {
-            None => Errors { repeatable: position(row.repeatable), random: position(row.random) },
+        let rows = |deviation: &[f64; 6]| self.figure.measurand.rows(deviation);
+        match self.source.map(|source| rows(&row.sources[source])) {
+            None => Errors { repeatable: rows(&row.repeatable), random: rows(&row.random) },
             Some(random) if self.random => Errors { repeatable: [0.0; 3], random },
             Some(repeatable) => Errors { repeatable, random: [0.0; 3] },
         }
