@@ -130,7 +130,7 @@ fn the_ledger_ranks_and_the_budget_is_read_backwards() {
     let radius = number(&report["combined"]["radius"]);
     assert!((number(&budget["together"]) * radius - 0.5).abs() < 1e-12);
     assert_eq!(budget["sources"][0]["name"], "assembly");
-    assert!((number(&budget["equal_share"]) - 0.5 / (3.0 + 2.0)).abs() < 1e-12);
+    assert!((number(&budget["equal_share"]) - 0.5 / 7.0).abs() < 1e-12);
     let combined = &report["combined"];
     assert!(number(&combined["worst_case_radius"]) > radius);
     assert!(number(&combined["enclosing_sphere"]["radius"]) <= number(&combined["repeatable_radius"]));

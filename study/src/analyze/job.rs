@@ -19,6 +19,9 @@ use crate::notes::Notes;
 use crate::study_file::Study;
 use crate::{mistake, number};
 
+/// The draws of verdicts and budgets are always the same: they are to be as good as integrals.
+const SEED: u64 = 0;
+
 /// What does every source do?
 #[derive(Clone)]
 pub struct Analyze {
@@ -100,7 +103,6 @@ impl Analyze {
             monte_carlo(manipulator, &configuration, draws, self.seed.unwrap_or(0))
                 .map_err(|error| refused(Unevaluated { configuration: index, error }))
         };
-        let seed = self.seed.unwrap_or(0);
         let at = |index: Option<usize>| {
             let configuration = index.and_then(|index| workspace.configuration(index).ok());
             let configuration = configuration.unwrap_or_else(|| workspace.home().clone());
@@ -112,14 +114,14 @@ impl Analyze {
         for (measurand, tolerance) in Measurand::ALL.into_iter().zip(tolerances) {
             let Some(tolerance) = tolerance else { continue };
             judged.push(Judged::new(&budget, measurand, (tolerance, study.probability), |index| {
-                Ok::<_, Diagnostics>(compliance(&at(index)?, measurand, tolerance, seed))
+                Ok::<_, Diagnostics>(compliance(&at(index)?, measurand, tolerance, SEED))
             })?);
         }
         let mut stated = Vec::new();
         for measurand in Measurand::ALL {
             let largest = budget.errors(measurand).1.standard_radius;
             if largest.value > 0.0 {
-                let statement = Statement::new(&at(largest.configuration)?, measurand, seed);
+                let statement = Statement::new(&at(largest.configuration)?, measurand, SEED);
                 stated.push(Stated { statement, configuration: largest.configuration });
             }
         }

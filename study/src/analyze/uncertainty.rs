@@ -67,7 +67,7 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     let Statement { measurand, coverage, coverage_factors, .. } = &stated.statement;
     let (_, combined, _) = report.budget.errors(*measurand);
     let show = |value| unit::shown(report, *measurand, value);
-    let at = report.configuration(stated.configuration).map(|worst| report.label(worst)).unwrap_or_default();
+    let at = report.configuration(stated.configuration).map(|worst| number::unbroken(&report.label(worst))).unwrap_or_default();
     let holds = match coverage.draws {
         None => "U covers 95 % of the errors: all random sources are normal.".to_owned(),
         Some(draws) => format!(
@@ -80,9 +80,8 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     let largest = LINE_95 * combined.standard_radius.value;
     let mut sentences = vec![
         format!(
-            "Uncertainty after the GUM (JCGM 100), where it is largest ({at}): u = value × sensitivity / divisor, added as root sum of \
-             squares. k of a row is that of {} %; k of the norm, {:.3}, is the quantile of the norm of a normal vector with this \
-             covariance. The spec gives no degrees of freedom: they are taken as infinite.",
+            "After the GUM (JCGM 100), where u is largest ({at}): u = value × sensitivity / divisor, added as root sum of squares. k is that \
+             of {} % of a normal error: {:.3} of the norm of a vector with this covariance. Degrees of freedom are taken as infinite.",
             number::short(100.0 * COVERAGE),
             coverage_factors[3],
         ),

@@ -102,7 +102,7 @@ impl Report {
             );
         }
         let at = combined.radius.configuration;
-        let at = self.configuration(at).map(|worst| self.label(worst)).unwrap_or_default();
+        let at = self.configuration(at).map(|worst| number::unbroken(&self.label(worst))).unwrap_or_default();
         let how = match judged.compliance.draws {
             Some(draws) => format!("{} draws", number::short(draws as f64)),
             None if self.is_random(judged.measurand) => "all random sources are normal".to_owned(),

@@ -4,7 +4,7 @@ abbe_codegen::tables! {
     FILE: ["the file"], ["study", "workspace", "published", "compensated", "compensation", "figure"];
     STUDY: ["[study]"],
         ["title", "description", "reference", "publisher", "tolerance", "set", "enable", "disable", "not_reproducible"];
-    TOLERANCE: ["tolerance = {…}"], ["position", "orientation", "probability"];
+    TOLERANCE: ["[study.tolerance]"], ["position", "orientation", "probability"];
     COMPENSATION: ["[compensation]"], ["default"];
 
     FIGURE: ["[[figure]]"], ["kind", "caption", "paper"];

@@ -173,7 +173,8 @@ impl<R: Register> Lane<R> {
         weight: Lanes<R>,
         index: impl Fn(usize) -> usize,
     ) -> Sums<R> {
-        let rows = &rows[self.measurand.first()..];
+        // Without sources there are no rows.
+        let rows = rows.get(self.measurand.first()..).unwrap_or_default();
         let sums = Sums::new(classes, rows, &mut self.norm_of, place, weight);
         self.all.add(&sums, index);
         self.shrunk.add(classes, rows, &self.norm_of, &sums);
