@@ -226,3 +226,54 @@ fn euler_singularities_are_counted() {
     let result = json(&[&arguments[..], &["--json"]].concat());
     assert_eq!((&result["configurations"], &result["unreachable"]), (&Value::from(23), &Value::from(2)));
 }
+
+/// The verdict stands first, and `--check` makes it the exit status.
+#[test]
+fn a_verdict_is_an_exit_status() {
+    let folder = tempdir().unwrap();
+    let run = |tolerance: &str, more: &[&str]| {
+        let text = format!("[study]\ntitle = \"A study\"\n{tolerance}[workspace.joints]\nsamples = 20\n");
+        let path = write(folder.path(), "study.toml", &text);
+        abbe(&[&["analyze", "pps", "--study", path.to_str().unwrap()], more].concat())
+    };
+    let missed = run("tolerance = \"0.5 mm\"\n", &["--check"]);
+    assert_eq!(missed.status, 1, "{}", missed.stderr);
+    assert!(missed.stdout.starts_with("Verdict: not met\n"), "{}", missed.stdout);
+    assert_eq!(run("tolerance = \"0.5 mm\"\n", &[]).status, 0);
+    let met = run("tolerance = { position = \"20 mm\", orientation = \"20 mrad\" }\n", &["--check"]);
+    assert_eq!(met.status, 0, "{}", met.stderr);
+    assert!(met.stdout.starts_with("Verdict: met\nPosition: met for certain."), "{}", met.stdout);
+    // One of two is enough to miss.
+    let turned = run("tolerance = { position = \"20 mm\", orientation = \"0.02 mrad\" }\n", &["--check"]);
+    assert_eq!(turned.status, 1);
+    let none = run("", &["--check"]);
+    assert_eq!((none.status, none.stdout.as_str()), (2, ""));
+    assert!(none.stderr.contains("the study has no tolerance"), "{}", none.stderr);
+    assert!(!run("", &[]).stdout.contains("Verdict"));
+}
+
+/// Rows 4 to 6 in pictures, the budget and the draws on the page and in a file.
+#[test]
+fn a_report_says_what_it_covers() {
+    let folder = tempdir().unwrap();
+    let text = "[study]\ntitle = \"A study\"\ntolerance = \"0.5 mm\"\n[workspace.joints]\nsamples = 20\n\
+                [[figure]]\nkind = \"cloud\"\nrows = \"orientation\"\n[[figure]]\nkind = \"pareto\"\nrows = \"orientation\"\n";
+    let path = write(folder.path(), "study.toml", text);
+    let out = folder.path().join("out");
+    let study = path.to_str().unwrap();
+    prints(&["analyze", "pps", "--study", study, "--monte-carlo", "500", "--out", out.to_str().unwrap()]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    let places =
+        ["Verdict: not met", "Every source alone", "Ledger of the orientation", "Uncertainty budget (mm)"]
+            .map(|title| page.find(title).unwrap_or_else(|| panic!("{title}")));
+    assert!(places.is_sorted(), "{places:?}");
+    for figure in ["cloud-orientation.svg", "pareto-orientation.svg"] {
+        let svg = std::fs::read_to_string(out.join(figure)).unwrap();
+        assert!(svg.contains("mrad") && !svg.contains(" mm<"), "{figure}");
+    }
+    // Three quantiles, the largest, mean and standard deviation at both places, below the heading.
+    let drawn = std::fs::read_to_string(out.join("monte_carlo.csv")).unwrap();
+    assert_eq!(drawn.lines().count(), 1 + 2 * 6);
+    let sources = std::fs::read_to_string(out.join("sources.csv")).unwrap();
+    assert!(sources.contains("random standard deviation") && sources.contains("worst case"));
+}

@@ -67,7 +67,10 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     let Statement { measurand, coverage, coverage_factors, .. } = &stated.statement;
     let (_, combined, _) = report.budget.errors(*measurand);
     let show = |value| unit::shown(report, *measurand, value);
-    let at = report.configuration(stated.configuration).map(|worst| number::unbroken(&report.label(worst))).unwrap_or_default();
+    let at = report
+        .configuration(stated.configuration)
+        .map(|worst| number::unbroken(&report.label(worst)))
+        .unwrap_or_default();
     let holds = match coverage.draws {
         None => "U covers 95 % of the errors: all random sources are normal.".to_owned(),
         Some(draws) => format!(

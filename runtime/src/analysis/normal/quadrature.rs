@@ -8,7 +8,7 @@ const NODES: [(f64, f64, f64); 8] = [
     (0.864_864_423_359_769_1, 0.104_790_010_322_250_19, 0.0),
     (0.741_531_185_599_394_5, 0.140_653_259_715_525_92, 0.279_705_391_489_276_64),
     (0.586_087_235_467_691_1, 0.169_004_726_639_267_9, 0.0),
-    (0.405_845_151_377_397_2, 0.190_350_578_064_785_42, 0.381_830_050_505_118_93),
+    (0.405_845_151_377_397_2, 0.190_350_578_064_785_42, 0.381_830_050_505_118_9),
     (0.207_784_955_007_898_47, 0.204_432_940_075_298_89, 0.0),
     (0.0, 0.209_482_141_084_727_82, 0.417_959_183_673_469_4),
 ];
@@ -35,8 +35,8 @@ fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, error: f64, depth: usize
         fine += kronrod * both;
         coarse += gauss * both;
     }
-    // Written so that what is not a number ends here.
-    if depth == 0 || !((fine - coarse).abs() * half > error) {
+    let apart = (fine - coarse).abs() * half;
+    if depth == 0 || apart <= error || apart.is_nan() {
         return fine * half;
     }
     adaptive(f, from, middle, error, depth - 1) + adaptive(f, middle, to, error, depth - 1)
