@@ -20,6 +20,9 @@ pub(super) fn read_loads(
             section.span = item.span();
             section.name = "this [[load]]".to_owned();
             section.check_keys(&[&keys::LOAD], document);
+            for text in ["name", "description", "reference"] {
+                section.optional_text(text, document);
+            }
             loads.extend(read_load(&section, frames, scope, document));
         }
     }
