@@ -75,7 +75,7 @@ impl Interpreter {
             count(array.quantity, array.len(&self.routines.description), values.len())?;
             checks::finite(array.quantity, values)?;
         }
-        if let [_, _, u] = arguments {
+        if let [_, _, u, ..] = arguments {
             checks::inputs(&self.routines.description.inputs, u)?;
         }
         let values = self.evaluate(function, &arguments.concat())?;
@@ -156,6 +156,10 @@ impl Manipulator for Interpreter {
         count(Quantity::Errors, self.routines.description.frames.len(), errors.len())?;
         errors.as_flattened_mut().copy_from_slice(&self.run(Function::GeneralizedErrors, &[q, s, u])?);
         Ok(())
+    }
+
+    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
+        Ok(Some(pose_of(&self.run(Function::DrawnPose, &[q, s, u, magnitudes])?)))
     }
 }
 

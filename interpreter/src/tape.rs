@@ -310,6 +310,7 @@ impl<'r> Packer<'r> {
             Operand::Symbol(Symbol::Parameter(i)) => argument(&["s"], i),
             Operand::Symbol(Symbol::Input(i)) => argument(&["u"], i),
             Operand::Symbol(Symbol::Error(i)) => argument(&["errors", "variances"], i),
+            Operand::Symbol(Symbol::Magnitude(i)) => argument(&["magnitudes"], i),
             Operand::Symbol(Symbol::Local(i)) => locals[i],
             Operand::Constant(value) => {
                 let place = self.constants.iter().position(|known| known.to_bits() == value.to_bits());

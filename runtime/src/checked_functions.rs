@@ -249,6 +249,24 @@ macro_rules! checked_face {
                 raw::generalized_errors(q, s, u, errors);
                 $crate::checks::finite($crate::Quantity::Errors, errors.as_flattened())
             }
+
+            fn drawn_pose(
+                &self,
+                q: &[f64],
+                s: &[f64],
+                u: &[f64],
+                magnitudes: &[f64],
+            ) -> Result<Option<$crate::Pose>, $crate::Error> {
+                let q = $crate::checks::argument($crate::Quantity::Variables, q)?;
+                let s = $crate::checks::argument($crate::Quantity::Parameters, s)?;
+                let u = $crate::checks::argument($crate::Quantity::Inputs, u)?;
+                let magnitudes = $crate::checks::argument($crate::Quantity::Magnitudes, magnitudes)?;
+                $crate::checks::inputs(&DESCRIPTION.inputs, u)?;
+                let mut pose = [[0.0; 3]; 4];
+                raw::drawn_pose(q, s, u, magnitudes, &mut pose);
+                $crate::checks::finite($crate::Quantity::Pose, pose.as_flattened())?;
+                Ok(Some($crate::Pose(pose)))
+            }
         }
     };
     (@jacobian $jacobian:ident) => {

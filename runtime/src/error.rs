@@ -24,6 +24,8 @@ pub enum Quantity {
     Effects,
     /// Generalized errors, six per frame, or their variances.
     Errors,
+    /// What the errors of sources are multiplied with: one value per source.
+    Magnitudes,
     /// The rows of arguments of a batch.
     Arguments,
     /// The rows of results of a batch.
@@ -46,6 +48,7 @@ impl fmt::Display for Quantity {
             Self::Jacobian => "Jacobian column",
             Self::Effects => "effect of a source",
             Self::Errors => "generalized error",
+            Self::Magnitudes => "magnitude of a source",
             Self::Arguments => "row of arguments",
             Self::Results => "row of results",
             Self::Configurations => "configuration of a batch",

@@ -33,7 +33,9 @@ pub enum Function {
     SourceDisplacements,
     /// The pose of the tool point with the errors of the repeatable sources, exactly.
     RealPose,
-    /// That pose and the nominal `J_q` with rotation-vector rows.
+    /// The same with the errors of all sources, each times a magnitude.
+    DrawnPose,
+    /// The real pose and the nominal `J_q` with rotation-vector rows.
     CompensatorStep,
 }
 
@@ -97,7 +99,7 @@ pub enum Count {
 
 impl Function {
     /// All of them, in the order in which they are generated.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Transforms,
         Self::Pose,
         Self::ErrorJacobian,
@@ -111,6 +113,7 @@ impl Function {
         Self::PredictedDisplacement,
         Self::SourceDisplacements,
         Self::RealPose,
+        Self::DrawnPose,
         Self::CompensatorStep,
     ];
 
@@ -249,6 +252,15 @@ impl Function {
                 results: &[POSE],
                 oriented: false,
             },
+            Self::DrawnPose => &Signature {
+                name: "drawn_pose",
+                documentation: "Pose of the tool point in `F_0` with the errors of every source times a magnitude of its \
+                                own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of the \
+                                frame.",
+                arguments: &[Q, S, U, MAGNITUDES],
+                results: &[POSE],
+                oriented: false,
+            },
             Self::CompensatorStep => &Signature {
                 name: "compensator_step",
                 documentation: "The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per variable.",
@@ -331,6 +343,15 @@ const U: Array = Array {
     shape: &[Count::Inputs],
     unit: "coherent",
     documentation: "The inputs.",
+};
+
+const MAGNITUDES: Array = Array {
+    name: "magnitudes",
+    quantity: Quantity::Magnitudes,
+    shape: &[Count::Sources],
+    unit: "1",
+    documentation: "What the errors of each source are multiplied with: 1 of a repeatable source, of a random one what \
+                    was drawn.",
 };
 
 const POSE: Array = Array {

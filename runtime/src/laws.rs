@@ -60,7 +60,7 @@ mod tests;
 
 pub use batches::{batches, sweeps};
 pub use contract::{contract, pose};
-pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian};
+pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian, source_displacements};
 pub use failure::{Discrepancy, Failure};
 pub use remainder::{Slope, remainder_slope};
 
@@ -83,6 +83,7 @@ pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
     error_jacobian(manipulator, samples)?.within("error Jacobian", DERIVATIVE_TOLERANCE)?;
     joint_jacobian(manipulator, samples)?.within("joint Jacobian", DERIVATIVE_TOLERANCE)?;
     parameter_jacobian(manipulator, samples)?.within("parameter Jacobian", DERIVATIVE_TOLERANCE)?;
+    source_displacements(manipulator, samples)?.within("sources", DERIVATIVE_TOLERANCE)?;
     remainder_slope(manipulator, samples)?.within(SLOPE_TOLERANCE)
 }
 
@@ -140,6 +141,12 @@ macro_rules! test_manipulator {
             fn parameter_jacobian_is_the_derivative_of_the_pose() {
                 let found = holds(laws::parameter_jacobian(&$manipulator, laws::SAMPLES));
                 holds(found.within("parameter Jacobian", laws::DERIVATIVE_TOLERANCE));
+            }
+
+            #[test]
+            fn sources_are_the_derivatives_of_the_exact_chain() {
+                let found = holds(laws::source_displacements(&$manipulator, laws::SAMPLES));
+                holds(found.within("sources", laws::DERIVATIVE_TOLERANCE));
             }
 
             #[test]

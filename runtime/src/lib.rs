@@ -34,6 +34,8 @@ pub mod compensator;
 mod component;
 mod description;
 pub mod distinct;
+#[cfg(feature = "std")]
+mod drawn_pose;
 mod error;
 mod floats;
 pub mod function;
@@ -70,6 +72,8 @@ pub use description::{
     Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
     Variable, VariableKind,
 };
+#[cfg(feature = "std")]
+pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
 pub use error::{Error, MINIMUM_MARGIN, Quantity};
 pub use function::Function;
 pub use manipulator::Manipulator;

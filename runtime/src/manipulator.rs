@@ -43,4 +43,19 @@ pub trait Manipulator: Sync {
         u: &[f64],
         errors: &mut [[f64; 6]],
     ) -> Result<(), Error>;
+
+    /// The pose of the tool point with the errors of every source times its magnitude, exactly; errors as for
+    /// [`effects`](Self::effects).
+    ///
+    /// None, as provided, where all errors of sources are those of frames: the chain with [`effects`](Self::effects) as
+    /// they are is then exact. [`drawn_pose`](crate::drawn_pose) has the pose in either case.
+    fn drawn_pose(
+        &self,
+        _q: &[f64],
+        _s: &[f64],
+        _u: &[f64],
+        _magnitudes: &[f64],
+    ) -> Result<Option<Pose>, Error> {
+        Ok(None)
+    }
 }

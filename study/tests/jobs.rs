@@ -120,6 +120,9 @@ impl Manipulator for Forgetful {
     ) -> Result<(), Error> {
         self.0.generalized_errors(q, s, u, errors)
     }
+    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], m: &[f64]) -> Result<Option<Pose>, Error> {
+        self.0.drawn_pose(q, s, u, m)
+    }
 }
 
 impl Batches for Forgetful {

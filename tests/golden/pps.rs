@@ -41,6 +41,7 @@
 /// | `predicted_displacement` | 77 mul, 103 add, 8 div, 4 sincos, 1 sqrt |
 /// | `source_displacements` | 88 mul, 105 add, 8 div, 4 sincos, 1 sqrt, 4 neg |
 /// | `real_pose` | 304 mul, 190 add, 7 div, 8 sincos |
+/// | `drawn_pose` | 315 mul, 194 add, 7 div, 9 sincos |
 /// | `compensator_step` | 340 mul, 216 add, 7 div, 11 sincos, 4 neg |
 #[allow(dead_code)]
 #[allow(non_snake_case)]
@@ -1907,6 +1908,225 @@ pub mod pps {
                 [t176, t177, t178],
                 [t179, t180, t181],
                 [t185, t186, t187],
+            ];
+        }
+
+        /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
+        /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
+        /// the frame.
+        ///
+        /// 315 mul, 194 add, 7 div, 9 sincos.
+        #[inline(always)]
+        pub fn drawn_pose<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            magnitudes: &[T; SOURCES],
+            pose: &mut [[T; 3]; 4],
+        ) {
+            let [d1, d2, d3, q4, q5, q6] = *q;
+            let [
+                y_offset,
+                z_offset,
+                roll_offset,
+                couch_offset,
+                x,
+                y,
+                z,
+                tip_load,
+                tip_lever,
+                arm_EI,
+                arm_GJ,
+                assembly_shift,
+                assembly_turn,
+            ] = *s;
+            let [m1, m2, m3, m4, m5, m6, m7] = *magnitudes;
+            let t1 = d1 * T::constant(::core::f64::consts::PI);
+            let t2 = assembly_turn * m7;
+            let [
+                (s4, c4),
+                (s5, c5),
+                (s6, c6),
+                (sin_3, cos_3),
+                (sin_4, cos_4),
+                (sin_5, cos_5),
+            ] = T::sin_cos_each([
+                q4,
+                q5,
+                q6,
+                t1 / T::constant(1600.0),
+                t2,
+                m2.mul_sub(T::constant(6.3e-5), t2),
+            ]);
+            let p2_y = y_offset + d2;
+            let p3_z = z_offset + d3;
+            let t6 = T::constant(0.060706) * sin_3;
+            let t7 = c4 * tip_lever;
+            let t8 = p3_z / T::constant(3.0) + t7 / T::constant(2.0);
+            let t9 = assembly_shift * m7;
+            let t10 = cos_3.mul_add(T::constant(0.000119), T::constant(6.2e-5));
+            let (sin_11, cos_11) = t10.mul_sub(m1, t2).sin_cos();
+            let t12 = cos_11 * cos_4;
+            let t13 = sin_11 * cos_4;
+            let t14 = cos_11 * sin_4;
+            let t15 = sin_11 * sin_4;
+            let t16 = cos_4 * cos_4;
+            let t17 = sin_4 * cos_4;
+            let t18 = cos_4.mul_add(t14, t15);
+            let t19 = cos_4.neg_mul_add(t15, t14);
+            let t20 = sin_4.neg_mul_add(t14, t13);
+            let t21 = sin_4.mul_add(t15, t12);
+            let t22 = d1.mul_add(T::constant(6.2e-5), t6).mul_add(m1, t9);
+            let t23 = m4.mul_add(T::constant(0.04), t9);
+            let t24 = p2_y.mul_add(t18, d1 + m3.mul_add(T::constant(0.04), t9));
+            let t25 = t18.mul_add(t23, t9.neg_mul_add(t12, t24));
+            let t26 = t16.mul_add(t23, t9.mul_add(sin_4, p2_y.mul_add(t16, t9)));
+            let t27 = t19.mul_add(t23, t9.mul_add(t13, p2_y.mul_sub(t19, t22)));
+            let t28 = cos_4.mul_sub(t20, sin_4 * t12);
+            let t29 = sin_4.mul_sub(sin_4, cos_4 * t17);
+            let t30 = cos_4.mul_add(t21, sin_4 * t13);
+            let t31 = sin_4.mul_add(t20, cos_4 * t12);
+            let t32 = sin_4.mul_add(t17, t17);
+            let t33 = sin_4.mul_sub(t21, cos_4 * t13);
+            let t34 = cos_4.mul_sub(t31, sin_4 * t18);
+            let t35 = cos_4.mul_add(t32, sin_4 * t16);
+            let t36 = cos_4.mul_sub(t33, sin_4 * t19);
+            let t37 = sin_4.mul_add(t31, cos_4 * t18);
+            let t38 = cos_4.mul_sub(t16, sin_4 * t32);
+            let t39 = sin_4.mul_add(t33, cos_4 * t19);
+            let t40 = cos_4.mul_sub(t37, sin_4 * t28);
+            let t41 = cos_4.mul_sub(t38, sin_4 * t29);
+            let t42 = cos_4.mul_sub(t39, sin_4 * t30);
+            let t43 = sin_4.mul_add(t37, cos_4 * t28);
+            let t44 = sin_4.mul_add(t38, cos_4 * t29);
+            let t45 = sin_4.mul_add(t39, cos_4 * t30);
+            let t46 = (tip_load * (p3_z * p3_z) / arm_EI * t8).neg_mul_add(m6, t9);
+            let t47 = m5.mul_add(T::constant(0.04), t9);
+            let t48 = p3_z * (s4 * (tip_load * tip_lever)) / arm_GJ;
+            let t49 = p3_z * tip_load / arm_EI * (t7 + p3_z / T::constant(2.0));
+            let t50 = p3_z.mul_add(t43, t9.neg_mul_add(t20, t25));
+            let t51 = p3_z.mul_add(t45, t9.neg_mul_add(t21, t27));
+            let t52 = t9.mul_add(t35, p3_z.mul_add(t44, t9.mul_add(t17, t26)));
+            let t53 = cos_4.mul_sub(t43, sin_4 * t34);
+            let t54 = cos_4.mul_add(t44, sin_4 * t35);
+            let t55 = cos_4.mul_sub(t45, sin_4 * t36);
+            let t56 = sin_4.mul_add(t43, cos_4 * t34);
+            let t57 = sin_4.mul_sub(t44, cos_4 * t35);
+            let t58 = sin_4.mul_add(t45, cos_4 * t36);
+            let (sin_59, cos_59) = t48.mul_add(m6, t2).sin_cos();
+            let t60 = t56.mul_sub(cos_59, t40 * sin_59);
+            let t61 = t57.mul_sub(cos_59, t41 * sin_59);
+            let t62 = t58.mul_sub(cos_59, t42 * sin_59);
+            let t63 = t56.mul_add(sin_59, t40 * cos_59);
+            let t64 = t57.mul_add(sin_59, t41 * cos_59);
+            let t65 = t58.mul_add(sin_59, t42 * cos_59);
+            let (sin_66, cos_66) = t49.mul_add(m6, t2).sin_cos();
+            let t67 = t63.mul_add(cos_66, t53 * sin_66);
+            let t68 = t64.mul_add(cos_66, t54 * sin_66);
+            let t69 = t65.mul_add(cos_66, t55 * sin_66);
+            let t70 = t53.mul_sub(cos_66, t63 * sin_66);
+            let t71 = t54.mul_sub(cos_66, t64 * sin_66);
+            let t72 = t55.mul_sub(cos_66, t65 * sin_66);
+            let t73 = c4.mul_add(t70, s4 * t60);
+            let t74 = c4.mul_add(t71, s4 * t61);
+            let t75 = c4.mul_add(t72, s4 * t62);
+            let t76 = c4.mul_sub(t60, s4 * t70);
+            let t77 = c4.mul_sub(t61, s4 * t71);
+            let t78 = c4.mul_sub(t62, s4 * t72);
+            let t79 = t43.mul_add(t47, t40.mul_add(t46, t9.neg_mul_add(t34, t50)));
+            let t80 = t45.mul_add(t47, t42.mul_add(t46, t9.neg_mul_add(t36, t51)));
+            let t81 = t9.neg_mul_add(t77, t44.mul_add(t47, t41.mul_add(t46, t52)));
+            let t82 = t9.mul_add(t67, t9.neg_mul_add(t76, t79));
+            let t83 = t9.mul_add(t69, t9.neg_mul_add(t78, t80));
+            let t84 = t73.mul_add(cos_5, t76 * sin_5);
+            let t85 = t74.mul_add(cos_5, t77 * sin_5);
+            let t86 = t75.mul_add(cos_5, t78 * sin_5);
+            let t87 = t76.mul_sub(cos_5, t73 * sin_5);
+            let t88 = t77.mul_sub(cos_5, t74 * sin_5);
+            let t89 = t78.mul_sub(cos_5, t75 * sin_5);
+            let t90 = cos_4.mul_sub(t87, sin_4 * t67);
+            let t91 = cos_4.mul_sub(t88, sin_4 * t68);
+            let t92 = cos_4.mul_sub(t89, sin_4 * t69);
+            let t93 = sin_4.mul_add(t87, cos_4 * t67);
+            let t94 = sin_4.mul_add(t88, cos_4 * t68);
+            let t95 = sin_4.mul_add(t89, cos_4 * t69);
+            let t96 = cos_4.mul_add(t93, sin_4 * t84);
+            let t97 = cos_4.mul_add(t94, sin_4 * t85);
+            let t98 = cos_4.mul_add(t95, sin_4 * t86);
+            let t99 = cos_4.mul_sub(t84, sin_4 * t93);
+            let t100 = cos_4.mul_sub(t85, sin_4 * t94);
+            let t101 = cos_4.mul_sub(t86, sin_4 * t95);
+            let t102 = t9.neg_mul_add(t74, t9.mul_add(t68, t81));
+            let t103 = c5.mul_add(t90, s5 * t96);
+            let t104 = c5.mul_add(t91, s5 * t97);
+            let t105 = c5.mul_add(t92, s5 * t98);
+            let t106 = c5.mul_sub(t96, s5 * t90);
+            let t107 = c5.mul_sub(t97, s5 * t91);
+            let t108 = c5.mul_sub(t98, s5 * t92);
+            let t109 = roll_offset.mul_add(t96, t9.neg_mul_add(t73, t82));
+            let t110 = roll_offset.mul_add(t98, t9.neg_mul_add(t75, t83));
+            let t111 = t9.neg_mul_add(t104, roll_offset.mul_add(t97, t102));
+            let t112 = t9.neg_mul_add(t106, t9.neg_mul_add(t103, t109));
+            let t113 = t9.neg_mul_add(t108, t9.neg_mul_add(t105, t110));
+            let t114 = cos_4.mul_sub(t99, sin_4 * t103);
+            let t115 = cos_4.mul_sub(t100, sin_4 * t104);
+            let t116 = cos_4.mul_sub(t101, sin_4 * t105);
+            let t117 = sin_4.mul_add(t99, cos_4 * t103);
+            let t118 = sin_4.mul_add(t100, cos_4 * t104);
+            let t119 = sin_4.mul_add(t101, cos_4 * t105);
+            let t120 = cos_4.mul_add(t117, sin_4 * t106);
+            let t121 = cos_4.mul_add(t118, sin_4 * t107);
+            let t122 = cos_4.mul_add(t119, sin_4 * t108);
+            let t123 = cos_4.mul_sub(t106, sin_4 * t117);
+            let t124 = cos_4.mul_sub(t107, sin_4 * t118);
+            let t125 = cos_4.mul_sub(t108, sin_4 * t119);
+            let t126 = cos_4.mul_add(t123, sin_4 * t114);
+            let t127 = cos_4.mul_add(t124, sin_4 * t115);
+            let t128 = cos_4.mul_add(t125, sin_4 * t116);
+            let t129 = cos_4.mul_sub(t114, sin_4 * t123);
+            let t130 = cos_4.mul_sub(t115, sin_4 * t124);
+            let t131 = cos_4.mul_sub(t116, sin_4 * t125);
+            let t132 = c6.mul_add(t126, s6 * t129);
+            let t133 = c6.mul_add(t127, s6 * t130);
+            let t134 = c6.mul_add(t128, s6 * t131);
+            let t135 = c6.mul_sub(t129, s6 * t126);
+            let t136 = c6.mul_sub(t130, s6 * t127);
+            let t137 = c6.mul_sub(t131, s6 * t128);
+            let t138 = t9.mul_add(t100, t9.neg_mul_add(t107, t111));
+            let t139 = couch_offset.mul_add(t132, t9.mul_add(t99, t112));
+            let t140 = couch_offset.mul_add(t134, t9.mul_add(t101, t113));
+            let t141 = t9.mul_add(t121, couch_offset.mul_add(t133, t138));
+            let t142 = t9.neg_mul_add(t132, t9.mul_add(t120, t139));
+            let t143 = t9.neg_mul_add(t134, t9.mul_add(t122, t140));
+            let t144 = cos_4.mul_add(t135, sin_4 * t120);
+            let t145 = cos_4.mul_add(t136, sin_4 * t121);
+            let t146 = cos_4.mul_add(t137, sin_4 * t122);
+            let t147 = cos_4.mul_sub(t120, sin_4 * t135);
+            let t148 = cos_4.mul_sub(t121, sin_4 * t136);
+            let t149 = cos_4.mul_sub(t122, sin_4 * t137);
+            let t150 = cos_4.mul_add(t147, sin_4 * t132);
+            let t151 = cos_4.mul_add(t148, sin_4 * t133);
+            let t152 = cos_4.mul_add(t149, sin_4 * t134);
+            let t153 = cos_4.mul_sub(t132, sin_4 * t147);
+            let t154 = cos_4.mul_sub(t133, sin_4 * t148);
+            let t155 = cos_4.mul_sub(t134, sin_4 * t149);
+            let t156 = cos_4.mul_add(t153, sin_4 * t144);
+            let t157 = cos_4.mul_add(t154, sin_4 * t145);
+            let t158 = cos_4.mul_add(t155, sin_4 * t146);
+            let t159 = cos_4.mul_sub(t144, sin_4 * t153);
+            let t160 = cos_4.mul_sub(t145, sin_4 * t154);
+            let t161 = cos_4.mul_sub(t146, sin_4 * t155);
+            let t162 = t9.neg_mul_add(t136, t9.neg_mul_add(t133, t141));
+            let t163 = y.mul_add(t156, x.mul_add(t150, t9.neg_mul_add(t135, t142)));
+            let t164 = z.mul_add(t159, t163);
+            let t165 = z.mul_add(t160, y.mul_add(t157, x.mul_add(t151, t162)));
+            let t166 = y.mul_add(t158, x.mul_add(t152, t9.neg_mul_add(t137, t143)));
+            let t167 = z.mul_add(t161, t166);
+            *pose = [
+                [t150, t151, t152],
+                [t156, t157, t158],
+                [t159, t160, t161],
+                [t164, t165, t167],
             ];
         }
 

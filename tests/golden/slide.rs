@@ -26,6 +26,7 @@
 /// | `predicted_displacement` | 0 mul, 0 add |
 /// | `source_displacements` | 0 mul, 0 add |
 /// | `real_pose` | 0 mul, 0 add |
+/// | `drawn_pose` | 0 mul, 0 add |
 /// | `compensator_step` | 0 mul, 0 add |
 #[allow(dead_code)]
 pub mod slide {
@@ -353,6 +354,22 @@ pub mod slide {
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
+            pose: &mut [[T; 3]; 4],
+        ) {
+            self::pose(q, s, pose);
+        }
+
+        /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
+        /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
+        /// the frame.
+        ///
+        /// 0 mul, 0 add.
+        #[inline(always)]
+        pub fn drawn_pose<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            _u: &[T; INPUTS],
+            _magnitudes: &[T; SOURCES],
             pose: &mut [[T; 3]; 4],
         ) {
             self::pose(q, s, pose);

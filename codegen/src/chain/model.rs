@@ -8,7 +8,7 @@ use super::displacement::Displacement;
 use super::error_jacobian;
 use super::local_twist::{LocalTwist, local_twists};
 use super::moments::Moments;
-use super::real::real_pose;
+use super::real::RealChain;
 use super::rows::Rows;
 use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
@@ -59,6 +59,12 @@ pub struct Model {
     pub source_displacements: [Jacobian; 2],
     /// The pose of the tool point with the errors of the enabled repeatable sources, exactly.
     pub real_pose: Frame,
+    /// The same with the errors of all enabled sources, each times its magnitude.
+    pub drawn_pose: Frame,
+    /// Of a long chain with more than errors of frames, those of every frame that make the nominal chain that of `real_pose`.
+    pub real_errors: Option<Vec<[Node; 6]>>,
+    /// Of a long chain, those that make it that of `drawn_pose`.
+    pub drawn_errors: Vec<[Node; 6]>,
     /// `J_q` with rotation-vector rows whatever the spec's are.
     pub joint_twists: Vec<[Node; 6]>,
     /// Of a long chain, what variables do to each transform.
@@ -117,7 +123,7 @@ impl Model {
 
         let factors = spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]);
         let transforms = factors.map(|factors| transform(g, factors)).collect();
-        let effects = sources::effects(g, spec, &frames);
+        let (effects, causes) = sources::effects(g, spec, &frames);
         let generalized_errors = sources::generalized_errors(g, spec, &effects);
 
         let zero = g.zero();
@@ -143,7 +149,16 @@ impl Model {
         };
         let predicted_displacement = two_ways(std::slice::from_ref(&generalized_errors));
         let source_displacements = two_ways(&by_source::errors_by_source(zero, spec, &effects));
-        let real_pose = real_pose(g, spec, &generalized_errors);
+        let repeatable = spec.enabled_sources().map(|source| source.class == Class::Repeatable);
+        let magnitudes = repeatable.map(|one| g.constant(if one { 1.0 } else { 0.0 })).collect();
+        let real = RealChain::new(g, spec, &causes, magnitudes);
+        let magnitudes =
+            (0..spec.enabled_sources().count()).map(|i| g.symbol(Symbol::Magnitude(i))).collect();
+        let drawn = RealChain::new(g, spec, &causes, magnitudes);
+        let (real_pose, drawn_pose) = (real.pose(g), drawn.pose(g));
+        let more = spec.is_long() && real.is_more_than_errors_of_frames(g);
+        let real_errors = more.then(|| real.errors(g));
+        let drawn_errors = if spec.is_long() { drawn.errors(g) } else { Vec::new() };
         let mut twists_of = |symbols: Vec<Symbol>| match spec.is_long() {
             true => local_twists(g, spec, &symbols),
             false => Vec::new(),
@@ -166,6 +181,9 @@ impl Model {
             predicted_displacement,
             source_displacements,
             real_pose,
+            drawn_pose,
+            real_errors,
+            drawn_errors,
             joint_twists,
             joint_local_twists,
             parameter_local_twists,

@@ -1,19 +1,180 @@
 //! The exact chain with the errors of the spec's own sources: equation (6) with true rotations.
+//!
+//! Every source has a magnitude m, which its errors are multiplied with: 1 of a repeatable one, 0 of a random one where only
+//! the former are meant, and what was drawn in a draw. What several sources do at one frame comes in this order:
+//!
+//! ```text
+//! Π_i  A_i(q + Σ m δq, s + Σ m δs)  ·  Π L E_M(m e) L⁻¹  ·  E_i(Σ m e)          then  T(s + Σ m δs)
+//! ```
+//!
+//! the numbers of `A_i` as they really are, those of a `dh` frame too; then errors located elsewhere on the link, in the order of
+//! the file; then the sum of all errors of the frame itself. To first order no order matters.
 
-use super::walk::{Step, walk};
-use crate::expr::{Motion, motion};
+use super::sources::Causes;
+use super::walk::{Step, apply_with, transform, walk};
+use crate::expr::{Expression, Motion, Symbol, motion};
 use crate::graph::{Frame, Graph, Node};
-use crate::spec::{Component, Spec};
+use crate::spec::{ChainNumber, Component, Factor, Spec};
 
-/// `A_1 E_1 A_2 E_2 … A_n E_n · T`; errors that are always zero are left out.
-pub(super) fn real_pose(graph: &mut Graph, spec: &Spec, errors: &[[Node; 6]]) -> Frame {
-    let mut unused: Vec<Step> = Vec::new();
-    let mut pose = graph.identity();
-    for (frame, errors) in spec.frames.iter().zip(errors) {
-        pose = walk(graph, pose, &frame.factors, &mut unused);
-        pose = displaced(graph, pose, errors);
+/// The chain with the errors of all sources, each times its magnitude.
+pub(super) struct RealChain<'a> {
+    spec: &'a Spec,
+    causes: &'a Causes,
+    magnitudes: Vec<Node>,
+    /// How much more numbers of the chain are.
+    deviations: Vec<(ChainNumber, Node)>,
+}
+
+impl<'a> RealChain<'a> {
+    /// One magnitude for each enabled source.
+    pub(super) fn new(graph: &mut Graph, spec: &'a Spec, causes: &'a Causes, magnitudes: Vec<Node>) -> Self {
+        let mut deviations: Vec<(ChainNumber, Node)> = Vec::new();
+        for deviation in &causes.deviations {
+            let error = graph.mul(magnitudes[deviation.source], deviation.error);
+            match deviations.iter_mut().find(|(number, _)| *number == deviation.number) {
+                Some((_, sum)) => *sum = graph.add(*sum, error),
+                None => deviations.push((deviation.number, error)),
+            }
+        }
+        deviations.retain(|(_, error)| *error != graph.zero());
+        Self { spec, causes, magnitudes, deviations }
     }
-    walk(graph, pose, &spec.tool, &mut unused)
+
+    /// `A_T` of the real machine; errors that are always zero are left out.
+    pub(super) fn pose(&self, graph: &mut Graph) -> Frame {
+        let mut pose = graph.identity();
+        for frame in 0..self.spec.frames.len() {
+            pose = self.nominal(graph, pose, frame);
+            pose = self.displaced(graph, pose, frame);
+        }
+        self.nominal(graph, pose, self.spec.frames.len())
+    }
+
+    /// The six errors of every frame that make the nominal chain the real one: `E_i` is all that follows the nominal `A_i`,
+    /// and the last one has the tool's part, `T(s + δs) T⁻¹`.
+    pub(super) fn errors(&self, graph: &mut Graph) -> Vec<[Node; 6]> {
+        let last = self.spec.frames.len();
+        let errors = |graph: &mut Graph, frame: usize| {
+            let of_tool = frame + 1 == last && self.is_changed(last);
+            if !self.is_changed(frame) && !of_tool && self.located(graph, frame).is_empty() {
+                return self.plain(graph, frame);
+            }
+            let start = graph.identity();
+            let mut real = self.nominal(graph, start, frame);
+            real = self.displaced(graph, real, frame);
+            if of_tool {
+                real = self.nominal(graph, real, last);
+                let tool = transform(graph, &self.spec.tool);
+                let back = graph.inverse(&tool);
+                real = graph.then(&real, &back);
+            }
+            let nominal = transform(graph, &self.spec.frames[frame].factors);
+            let back = graph.inverse(&nominal);
+            let motion = graph.then(&back, &real);
+            six_of(graph, &motion)
+        };
+        (0..last).map(|frame| errors(graph, frame)).collect()
+    }
+
+    /// Whether there is more than the errors of frames themselves.
+    pub(super) fn is_more_than_errors_of_frames(&self, graph: &mut Graph) -> bool {
+        !self.deviations.is_empty()
+            || (0..self.spec.frames.len()).any(|frame| !self.located(graph, frame).is_empty())
+    }
+
+    /// The factors of a frame, or of the tool behind the last one.
+    fn factors(&self, frame: usize) -> &[Factor] {
+        self.spec.frames.get(frame).map_or(&self.spec.tool, |frame| &frame.factors)
+    }
+
+    fn deviation(&self, number: ChainNumber) -> Option<Node> {
+        self.deviations.iter().find(|(known, _)| *known == number).map(|(_, error)| *error)
+    }
+
+    fn deviation_of(&self, symbol: Symbol) -> Option<Node> {
+        match symbol {
+            Symbol::Variable(i) => self.deviation(ChainNumber::Joint(i)),
+            Symbol::Parameter(i) => self.deviation(ChainNumber::Parameter(i)),
+            _ => None,
+        }
+    }
+
+    /// How much more the number of factor `place` of a Denavit-Hartenberg frame is.
+    fn deviation_of_factor(&self, frame: usize, place: usize) -> Option<Node> {
+        let number = *self.spec.frames.get(frame)?.convention?.order().get(place)?;
+        self.deviation(ChainNumber::DenavitHartenberg { frame, number })
+    }
+
+    fn is_changed(&self, frame: usize) -> bool {
+        let factors = self.factors(frame);
+        let mut symbols = factors.iter().flat_map(Factor::expressions).flat_map(Expression::symbols);
+        symbols.any(|symbol| self.deviation_of(symbol).is_some())
+            || (0..factors.len()).any(|place| self.deviation_of_factor(frame, place).is_some())
+    }
+
+    /// Extends a pose by `A_i` as its numbers really are.
+    fn nominal(&self, graph: &mut Graph, pose: Frame, frame: usize) -> Frame {
+        let factors = self.factors(frame);
+        if !self.is_changed(frame) {
+            let mut unused: Vec<Step> = Vec::new();
+            return walk(graph, pose, factors, &mut unused);
+        }
+        let value = |graph: &mut Graph, symbol: Symbol| {
+            let node = graph.symbol(symbol);
+            self.deviation_of(symbol).map_or(node, |error| graph.add(node, error))
+        };
+        factors.iter().enumerate().fold(pose, |pose, (place, factor)| {
+            let more = self.deviation_of_factor(frame, place);
+            let lower = |graph: &mut Graph, amount: &Expression| {
+                let amount = graph.lower_with(amount, &value);
+                more.map_or(amount, |error| graph.add(amount, error))
+            };
+            apply_with(graph, pose, factor, &lower).0
+        })
+    }
+
+    /// Extends a pose by everything that follows `A_i`.
+    fn displaced(&self, graph: &mut Graph, mut pose: Frame, frame: usize) -> Frame {
+        for (place, errors) in self.located(graph, frame) {
+            pose = graph.then(&pose, &place);
+            pose = displaced(graph, pose, &errors);
+            let back = graph.inverse(&place);
+            pose = graph.then(&pose, &back);
+        }
+        let errors = self.plain(graph, frame);
+        displaced(graph, pose, &errors)
+    }
+
+    /// The places on the link of a frame that have errors.
+    fn located(&self, graph: &mut Graph, frame: usize) -> Vec<(Frame, [Node; 6])> {
+        let zero = graph.zero();
+        let at_frame = self.causes.errors.iter().filter(|caused| caused.frame == frame);
+        let located = at_frame.filter_map(|caused| {
+            let magnitude = self.magnitudes[caused.source];
+            let errors = caused.errors.map(|error| graph.mul(magnitude, error));
+            caused.place.filter(|_| errors != [zero; 6]).map(|place| (place, errors))
+        });
+        located.collect()
+    }
+
+    /// The sum of the errors of a frame itself: of each source, then of all.
+    fn plain(&self, graph: &mut Graph, frame: usize) -> [Node; 6] {
+        let mut sums = [graph.zero(); 6];
+        for (source, magnitude) in self.magnitudes.iter().enumerate() {
+            let mut of_source = [graph.zero(); 6];
+            let here = |frame_of: usize, source_of: usize| frame_of == frame && source_of == source;
+            for caused in self.causes.errors.iter().filter(|caused| here(caused.frame, caused.source)) {
+                if caused.place.is_none() {
+                    of_source = std::array::from_fn(|i| graph.add(of_source[i], caused.errors[i]));
+                }
+            }
+            for (sum, error) in sums.iter_mut().zip(of_source) {
+                let error = graph.mul(*magnitude, error);
+                *sum = graph.add(*sum, error);
+            }
+        }
+        sums
+    }
 }
 
 /// A pose and `E = T(e_x, e_y, e_z) R_y(e_s) R_z(e_r) R_x(e_p)`, in the order of ε.
@@ -28,4 +189,16 @@ pub(crate) fn displaced(graph: &mut Graph, mut pose: Frame, errors: &[Node; 6]) 
         };
     }
     pose
+}
+
+/// The six errors whose E is that motion: position, and `R = R_y(σ) R_z(ρ) R_x(π)`.
+fn six_of(graph: &mut Graph, motion: &Frame) -> [Node; 6] {
+    let ([x, y, z], [e_x, e_y, e_z]) = (motion.axes, motion.position);
+    let (squares, minus) = ([x[0], x[2]].map(|entry| graph.mul(entry, entry)), graph.neg(x[2]));
+    let sum = graph.add(squares[0], squares[1]);
+    let cosine = graph.sqrt(sum);
+    let (spin, roll) = (graph.atan2(minus, x[0]), graph.atan2(x[1], cosine));
+    let minus = graph.neg(z[1]);
+    let pitch = graph.atan2(minus, y[1]);
+    [e_x, e_y, e_z, spin, roll, pitch]
 }

@@ -5,7 +5,7 @@ use super::elastic::{Element, Loads};
 use super::walk::transform;
 use crate::expr::{Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::{Cause, Class, Component, Effect, Source, Spec};
+use crate::spec::{Cause, ChainNumber, Class, Component, Effect, Source, Spec};
 
 /// One generalized error that a source causes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,29 +27,68 @@ impl EffectNode {
     }
 }
 
-/// The effects of every enabled source, source by source, without those that are always zero.
-pub(super) fn effects(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> Vec<EffectNode> {
+/// What the enabled sources cause where they cause it: for the exact chain.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Causes {
+    /// Errors at frames and at places on their links, in the order of the file.
+    pub(super) errors: Vec<PlacedErrors>,
+    /// Numbers of the chain that are off.
+    pub(super) deviations: Vec<DeviationNode>,
+}
+
+/// Six errors at a place.
+#[derive(Clone, Debug)]
+pub(super) struct PlacedErrors {
+    /// The source, among those that are switched on.
+    pub(super) source: usize,
+    /// The frame, from 0.
+    pub(super) frame: usize,
+    /// The place L on its link; none if it is the frame itself.
+    pub(super) place: Option<Frame>,
+    /// In the axes of the place.
+    pub(super) errors: [Node; 6],
+}
+
+/// How much more a number of the chain is.
+#[derive(Clone, Debug)]
+pub(super) struct DeviationNode {
+    /// The source, among those that are switched on.
+    pub(super) source: usize,
+    /// Which number.
+    pub(super) number: ChainNumber,
+    /// How much more.
+    pub(super) error: Node,
+}
+
+/// The effects of every enabled source, source by source, without those that are always zero, and what causes them.
+pub(super) fn effects(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (Vec<EffectNode>, Causes) {
     let loads = Loads::new(graph, spec, frames);
     let zero = graph.zero();
     let mut nodes = Vec::new();
+    let mut causes = Causes::default();
     for (source, declared) in spec.enabled_sources().enumerate() {
         // Several effects of one source on one error of one frame are one effect.
         let mut sums = vec![[zero; 6]; frames.len()];
+        let times = graph.constant(declared.magnitude.map_or(1.0, |magnitude| magnitude.value));
         for effect in &declared.effects {
-            let errors = at_frame(graph, effect, &loads);
+            let place = transform(graph, &effect.at);
+            let there = at_place(graph, effect, &place, &loads);
+            let place = (!effect.at.is_empty()).then_some(place);
+            let errors = place.as_ref().map_or(there, |place| at_frame(graph, place, there));
             add(graph, &mut sums[effect.frame], errors);
+            let errors = there.map(|error| graph.mul(times, error));
+            causes.errors.push(PlacedErrors { source, frame: effect.frame, place, errors });
         }
         for deviation in &declared.deviations {
             let error = graph.lower(&deviation.error);
+            let whole = graph.mul(times, error);
+            causes.deviations.push(DeviationNode { source, number: deviation.number, error: whole });
             for twist in frame_twists(graph, spec, deviation.number) {
                 let (shift, turn) = (graph.scale(error, twist.velocity), graph.scale(error, twist.rotation));
                 add(graph, &mut sums[twist.frame], six(shift, turn));
             }
         }
-        if let Some(magnitude) = declared.magnitude {
-            let times = graph.constant(magnitude.value);
-            sums.as_flattened_mut().iter_mut().for_each(|sum| *sum = graph.mul(times, *sum));
-        }
+        sums.as_flattened_mut().iter_mut().for_each(|sum| *sum = graph.mul(times, *sum));
         for (frame, sums) in sums.into_iter().enumerate() {
             for (component, value) in Component::ALL.into_iter().zip(sums) {
                 if value != zero {
@@ -58,7 +97,7 @@ pub(super) fn effects(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> Vec<E
             }
         }
     }
-    nodes
+    (nodes, causes)
 }
 
 fn add(graph: &mut Graph, sums: &mut [Node; 6], errors: [Node; 6]) {
@@ -78,17 +117,12 @@ pub(super) fn generalized_errors(graph: &mut Graph, spec: &Spec, effects: &[Effe
     sums
 }
 
-/// The six errors of an effect at its frame: `E_i = L E_M L⁻¹`, to first order
+/// Six errors at a place as errors of its frame: `E_i = L E_M L⁻¹`, to first order
 ///
 /// ```text
 /// θ_i = R_L θ_M        d_i = R_L d_M + p_L × θ_i
 /// ```
-fn at_frame(graph: &mut Graph, effect: &Effect, loads: &Loads) -> [Node; 6] {
-    let place = transform(graph, &effect.at);
-    let there = at_place(graph, effect, &place, loads);
-    if effect.at.is_empty() {
-        return there;
-    }
+fn at_frame(graph: &mut Graph, place: &Frame, there: [Node; 6]) -> [Node; 6] {
     let (shift, turn) = vectors(there);
     let turn = graph.turn(&place.axes, turn);
     let lever = graph.cross(place.position, turn);

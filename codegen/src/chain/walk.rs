@@ -1,6 +1,6 @@
 //! Along the chain, one factor after the other: equation (2).
 
-use crate::expr::{Elementary, Motion, Symbol};
+use crate::expr::{Elementary, Expression, Motion, Symbol};
 use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::Factor;
 
@@ -57,19 +57,29 @@ pub fn transform(graph: &mut Graph, factors: &[Factor]) -> Frame {
 }
 
 fn apply(graph: &mut Graph, frame: Frame, factor: &Factor) -> (Frame, Step) {
+    apply_with(graph, frame, factor, &|graph, amount| graph.lower(amount))
+}
+
+/// Extends a pose by a factor whose numbers are what `lower` makes of its expressions.
+pub(super) fn apply_with(
+    graph: &mut Graph,
+    frame: Frame,
+    factor: &Factor,
+    lower: &dyn Fn(&mut Graph, &Expression) -> Node,
+) -> (Frame, Step) {
     match factor {
         Factor::Elementary(Elementary { motion: Motion::Translation, axis, amount }) => {
-            let amount = graph.lower(amount);
+            let amount = lower(graph, amount);
             let step = Step::Translation { direction: frame.axes[*axis], amount };
             (graph.moved(&frame, *axis, amount), step)
         }
         Factor::Elementary(Elementary { motion: Motion::Rotation, axis, amount }) => {
-            let amount = graph.lower(amount);
+            let amount = lower(graph, amount);
             let step = Step::Rotation { axis: frame.axes[*axis], at: frame.position, amount };
             (graph.turned(&frame, *axis, amount), step)
         }
         Factor::About { motion, axis, amount } => {
-            let amount = graph.lower(amount);
+            let amount = lower(graph, amount);
             let local = axis.map(|component| graph.constant(component));
             let direction = graph.turn(&frame.axes, local);
             match motion {
@@ -87,7 +97,7 @@ fn apply(graph: &mut Graph, frame: Frame, factor: &Factor) -> (Frame, Step) {
         }
         Factor::Matrix(matrix) => {
             let entry = |graph: &mut Graph, column: usize| {
-                [0, 1, 2].map(|row| graph.lower(&matrix.rows[row][column]))
+                [0, 1, 2].map(|row| lower(graph, &matrix.rows[row][column]))
             };
             let local =
                 Frame { axes: [0, 1, 2].map(|column| entry(graph, column)), position: entry(graph, 3) };

@@ -16,6 +16,8 @@ pub enum Symbol {
     Input(usize),
     /// A generalized error ε: never in a spec, but in the proof that `J_e` is its derivative.
     Error(usize),
+    /// What the errors of a source are multiplied with: never in a spec, but in the exact chain.
+    Magnitude(usize),
     /// One of the numbers that the body of a loop reads: never in a spec.
     Local(usize),
 }

@@ -1,16 +1,25 @@
 //! Brings a checked expression into the graph.
 
 use super::{Graph, Node};
-use crate::expr::{Binary, Expression, Kind};
+use crate::expr::{Binary, Expression, Kind, Symbol};
 
 impl Graph {
     /// The node of an expression.
     pub fn lower(&mut self, expression: &Expression) -> Node {
+        self.lower_with(expression, &|graph, symbol| graph.symbol(symbol))
+    }
+
+    /// The node of an expression in which each name stands for a node.
+    pub(crate) fn lower_with(
+        &mut self,
+        expression: &Expression,
+        value: &dyn Fn(&mut Self, Symbol) -> Node,
+    ) -> Node {
         let mut nodes: Vec<Node> = Vec::with_capacity(expression.terms().len());
         for term in expression.terms() {
             let node = match term.kind {
                 Kind::Number(value) => self.constant(value),
-                Kind::Symbol(symbol) => self.symbol(symbol),
+                Kind::Symbol(symbol) => value(self, symbol),
                 Kind::Neg(a) => self.neg(nodes[a]),
                 Kind::Call(function, a) => self.call(function, nodes[a]),
                 Kind::Binary(operator, a, b) => {

@@ -73,6 +73,13 @@ impl Graph {
         }
     }
 
+    /// The motion back: `Rᵀ`, `−Rᵀ p`.
+    pub fn inverse(&mut self, frame: &Frame) -> Frame {
+        let axes = [0, 1, 2].map(|i: usize| frame.axes.map(|axis| axis[i]));
+        let back = frame.axes.map(|axis| self.dot(axis, frame.position));
+        Frame { axes, position: self.neg_vector(back) }
+    }
+
     /// A motion turned about its own axis 0, 1 or 2: two columns change.
     pub fn turned(&mut self, frame: &Frame, axis: usize, angle: Node) -> Frame {
         let (sine, cosine) = (self.sin(angle), self.cos(angle));

@@ -19,6 +19,7 @@ pub(super) struct Names<'s> {
     inputs: Vec<String>,
     /// Six per frame.
     errors: Vec<String>,
+    magnitudes: Vec<String>,
     /// What the body of a loop reads.
     locals: Vec<String>,
 }
@@ -31,8 +32,10 @@ impl<'s> Names<'s> {
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
         let arrays = arrays.map(|array| array.name).chain(routine.arrays.iter().map(|array| array.name));
         let used = reserved.split_whitespace().chain(arrays).map(str::to_owned).collect();
-        let (variables, parameters, inputs, errors, locals) = (vec![], vec![], vec![], vec![], vec![]);
-        let mut names = Self { spec, used, counter: 0, variables, parameters, inputs, errors, locals };
+        let (variables, parameters, inputs) = (vec![], vec![], vec![]);
+        let (errors, magnitudes, locals) = (vec![], vec![], vec![]);
+        let mut names =
+            Self { spec, used, counter: 0, variables, parameters, inputs, errors, magnitudes, locals };
         names.variables = spec.variables.iter().map(|variable| names.free(&variable.name)).collect();
         names.parameters = spec.parameters.iter().map(|parameter| names.free(&parameter.name)).collect();
         names.inputs = spec.inputs.iter().map(|input| names.free(&input.name)).collect();
@@ -50,6 +53,11 @@ impl<'s> Names<'s> {
                 self.errors.push(name);
             }
         }
+    }
+
+    /// Names the magnitudes of the sources, counted from 1: `m1`.
+    pub(super) fn name_magnitudes(&mut self, count: usize) {
+        self.magnitudes = (1..=count).map(|source| self.free(&format!("m{source}"))).collect();
     }
 
     /// Another block begins, which reads other numbers.
@@ -104,6 +112,7 @@ impl<'s> Names<'s> {
             Symbol::Input(i) => &self.inputs[i],
             // Named before the body is written, in the functions that have them.
             Symbol::Error(i) => &self.errors[i],
+            Symbol::Magnitude(i) => &self.magnitudes[i],
             Symbol::Local(i) => &self.locals[i],
         }
     }

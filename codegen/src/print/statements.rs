@@ -89,6 +89,10 @@ impl Writer<'_> {
                 (Role::Argument, "q") => Symbol::Variable,
                 (Role::Argument, "s") => Symbol::Parameter,
                 (Role::Argument, "u") => Symbol::Input,
+                (Role::Argument, "magnitudes") => {
+                    self.names.name_magnitudes(argument.len(self.description));
+                    Symbol::Magnitude
+                }
                 (Role::Argument, "errors" | "variances") => {
                     if used.iter().any(|symbol| matches!(symbol, Symbol::Error(_))) {
                         self.names.name_errors(argument.name);
@@ -183,7 +187,9 @@ impl Writer<'_> {
     /// Whether an array that is not seen from outside begins with what a block writes.
     fn is_filled_at_once(&self, block: &Block, array: usize) -> bool {
         let place = Place { array, row: Row::All };
-        self.routine.arrays[array].role == Role::Zeros
+        let declared = &self.routine.arrays[array];
+        declared.role == Role::Zeros
+            && declared.shape.len() == declared.row_rank()
             && block.repeated.is_none()
             && block.writes.contains(&place)
     }
@@ -323,6 +329,7 @@ fn uses(routine: &Routine, symbols: &HashSet<Symbol>, description: &Description,
             Symbol::Parameter(_) => "s",
             Symbol::Input(_) => "u",
             Symbol::Error(_) => return matches!(routine.arrays[array].name, "errors" | "variances"),
+            Symbol::Magnitude(_) => "magnitudes",
             Symbol::Local(_) => return false,
         };
         name == routine.arrays[array].name

@@ -59,6 +59,7 @@ pub(super) fn ways(function: Function, model: &Model) -> Vec<Outputs> {
             model.source_displacements.iter().map(|way| rows(None, way)).collect()
         }
         Function::RealPose => plain(vec![pose(&model.real_pose)]),
+        Function::DrawnPose => plain(vec![pose(&model.drawn_pose)]),
         Function::CompensatorStep => plain(vec![pose(&model.real_pose), model.joint_twists.concat()]),
     }
 }

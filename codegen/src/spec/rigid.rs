@@ -42,7 +42,7 @@ pub(super) fn check_rigid(
         let values = graph.evaluate(&nodes, |symbol| match symbol {
             Symbol::Variable(i) => q[i],
             Symbol::Parameter(i) => parameters[i],
-            Symbol::Input(_) | Symbol::Error(_) | Symbol::Local(_) => f64::NAN,
+            Symbol::Input(_) | Symbol::Error(_) | Symbol::Magnitude(_) | Symbol::Local(_) => f64::NAN,
         });
         for (law, value) in laws.iter().zip(values) {
             let fulfilled = (value - law.expected).abs() <= TOLERANCE;

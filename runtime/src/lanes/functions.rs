@@ -27,6 +27,7 @@ macro_rules! lane_functions {
             PredictedDisplacement predicted_displacement(q, s, u; displacement)
             SourceDisplacements source_displacements(q, s, u; displacements)
             RealPose real_pose(q, s, u; pose)
+            DrawnPose drawn_pose(q, s, u, magnitudes; pose)
             CompensatorStep compensator_step(q, s, u; pose, columns)
         }
     };

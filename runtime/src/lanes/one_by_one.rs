@@ -2,7 +2,7 @@
 
 use super::{Batches, Tiles, check};
 use crate::twist::{roll_cosine, twist};
-use crate::{Description, Error, Function, Manipulator, Pose, distinct, real_pose};
+use crate::{Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, repeatable_magnitudes};
 
 /// Any manipulator, with batches: each configuration is evaluated by itself, by the methods of [`Manipulator`].
 ///
@@ -48,6 +48,10 @@ impl<M: Manipulator> Manipulator for OneByOne<M> {
     ) -> Result<(), Error> {
         self.0.generalized_errors(q, s, u, errors)
     }
+
+    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
+        self.0.drawn_pose(q, s, u, magnitudes)
+    }
 }
 
 impl<M: Manipulator> Batches for OneByOne<M> {
@@ -74,8 +78,8 @@ pub(crate) fn one_by_one(
             rest = others;
             values
         });
-        let [q, s, third] = core::array::from_fn(|_| arrays.next().unwrap_or_default());
-        let values = Configuration { manipulator, description, q, s }.values(function, third);
+        let [q, s, third, magnitudes] = core::array::from_fn(|_| arrays.next().unwrap_or_default());
+        let values = Configuration { manipulator, description, q, s }.values(function, third, magnitudes);
         let values = values.unwrap_or_else(|_| vec![f64::NAN; results.rows()]);
         for (row, value) in values.into_iter().enumerate() {
             results.set_value(row, configuration, value);
@@ -94,8 +98,8 @@ struct Configuration<'a, M: ?Sized> {
 }
 
 impl<M: Manipulator + ?Sized> Configuration<'_, M> {
-    /// What a function gives, the margin last. Its third argument is u, ε, or variances.
-    fn values(&self, function: Function, third: &[f64]) -> Result<Vec<f64>, Error> {
+    /// What a function gives, the margin last. Its third argument is u, ε, or variances, its fourth magnitudes.
+    fn values(&self, function: Function, third: &[f64], magnitudes: &[f64]) -> Result<Vec<f64>, Error> {
         let Self { manipulator, description, q, s } = *self;
         let mut values = match function {
             Function::Transforms => flat(&self.transforms()?),
@@ -123,6 +127,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
             }
             Function::SourceDisplacements => self.source_displacements(third)?.concat(),
             Function::RealPose => flat(&[self.real_pose(third)?]),
+            Function::DrawnPose => flat(&[drawn_pose(self.manipulator, q, s, third, magnitudes)?]),
             Function::CompensatorStep => {
                 let (pose, columns) = self.joint_jacobian()?;
                 let twists = columns.iter().flat_map(|column| twist(description.orientation, &pose, column));
@@ -209,7 +214,7 @@ impl<M: Manipulator + ?Sized> Configuration<'_, M> {
     }
 
     fn real_pose(&self, u: &[f64]) -> Result<Pose, Error> {
-        Ok(real_pose(&self.transforms()?, &self.generalized_errors(u)?))
+        drawn_pose(self.manipulator, self.q, self.s, u, &repeatable_magnitudes(self.description))
     }
 }
 

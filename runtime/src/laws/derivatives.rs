@@ -3,7 +3,9 @@
 use super::differences::derivative;
 use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
-use crate::{Component, Error, Manipulator, Orientation, Pose, VariableKind, chain, deviation, real_pose};
+use crate::{
+    Component, Error, Manipulator, Orientation, Pose, VariableKind, chain, deviation, drawn_pose, real_pose,
+};
 
 /// The first step of the differences: rad, or arm lengths.
 const STEP: f64 = 0.1;
@@ -72,6 +74,39 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
                 (unit, differences(subject, description.orientation, at, changed))
             })
             .collect())
+    })
+}
+
+/// `ΔX = J_e ε` of every source by itself against the derivative of the exact chain by its magnitude.
+pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
+    let description = manipulator.description();
+    let sources = description.sources.len();
+    compare(manipulator, samples, sources, |subject, at, columns| {
+        let mut by_error = vec![[0.0; 6]; 6 * description.frames.len()];
+        let mut effects = vec![0.0; description.effects.len()];
+        manipulator.error_jacobian(&at.q, &subject.s, &mut by_error)?;
+        manipulator.effects(&at.q, &subject.s, &subject.u, &mut effects)?;
+        columns.fill([0.0; 6]);
+        // The largest error of a source, in rad and arm lengths: steps make it of order 1.
+        let mut sizes = vec![0.0_f64; sources];
+        for (effect, value) in description.effects.iter().zip(effects) {
+            let unit = if effect.component.is_rotation() { 1.0 } else { subject.arm };
+            sizes[effect.source] = sizes[effect.source].max(value.abs() / unit);
+            let column = by_error[6 * effect.frame + effect.component.index()];
+            for (sum, entry) in columns[effect.source].iter_mut().zip(column) {
+                *sum += entry * value;
+            }
+        }
+        let expected = sizes.iter().enumerate().map(|(source, size)| {
+            let unit = if *size > 0.0 { 1.0 / size } else { 1.0 };
+            let real = |step: f64| {
+                let mut magnitudes = vec![0.0; sources];
+                magnitudes[source] = step * unit;
+                drawn_pose(manipulator, &at.q, &subject.s, &subject.u, &magnitudes).ok()
+            };
+            (unit, differences(subject, description.orientation, at, real))
+        });
+        Ok(expected.collect())
     })
 }
 

@@ -77,7 +77,14 @@ impl<'m> Loops<'m> {
                 draft.accumulate::<Covariance>(variances, "covariance");
             }
             Function::SourceDisplacements => draft.by_source(),
-            Function::RealPose => draft.real_pose(),
+            Function::RealPose => {
+                let model = draft.loops.model;
+                draft.real_pose(model.real_errors.as_deref());
+            }
+            Function::DrawnPose => {
+                let model = draft.loops.model;
+                draft.real_pose(Some(&model.drawn_errors));
+            }
             Function::CompensatorStep => draft.compensator_step(),
         }
         Some(draft.stages)

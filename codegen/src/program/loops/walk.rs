@@ -6,6 +6,7 @@ use super::Loops;
 use super::body::Body;
 use super::draft::{Draft, POSE};
 use crate::chain::displaced;
+use crate::graph::Node;
 use crate::program::routine::{Array, Block, Place, Role, Routine, Row, Stage};
 use crate::program::{Operations, Program};
 
@@ -102,8 +103,12 @@ impl Draft<'_, '_> {
     }
 
     /// From the base to the tip, equation (6): `X ← X A_i E_i`; the tool has no error.
-    pub(super) fn real_pose(&mut self) {
-        let errors = self.generalized_errors();
+    /// The errors are those that are given, or ε.
+    pub(super) fn real_pose(&mut self, errors: Option<&[[Node; 6]]>) {
+        let errors = match errors {
+            Some(errors) => self.errors(errors),
+            None => self.generalized_errors(),
+        };
         let links = self.links();
         let pose = self.array("pose");
         self.copy(links, Row::First, pose);
@@ -119,6 +124,15 @@ impl Draft<'_, '_> {
         let next = body.graph.then(&at, &tool);
         body.write_frame(pose, Row::All, &next);
         self.once(body);
+    }
+
+    /// Six errors of every frame, one by one.
+    fn errors(&mut self, errors: &[[Node; 6]]) -> usize {
+        let array = self.zeros("errors", &[Count::Frames, Count::Exactly(6)]);
+        let program = Program::new(&self.loops.model.graph, errors.as_flattened());
+        let writes = vec![Place { array, row: Row::All }];
+        self.stages.push(Stage::Block(Block { reads: vec![], program, writes, repeated: None }));
+        array
     }
 
     /// ε of the repeatable sources.

@@ -5,7 +5,7 @@ use crate::analysis::sampling::{draw, norm, stream};
 use crate::analysis::sweep::in_order;
 use crate::analysis::workspace::One;
 use crate::analysis::{Configuration, Ellipsoid, Measurand, Sweepable, Unevaluated, covariance, sweep};
-use crate::{Class, Description, Error, Pose, deviation, real_pose};
+use crate::{Class, Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
 
 /// How many draws come from one stream of random numbers, and are made at once.
 const DRAWS: usize = 4096;
@@ -36,7 +36,7 @@ pub struct MonteCarlo {
 /// Draws all sources at a configuration, `draws` times. The result follows from the seed alone,
 /// not from the number of threads.
 ///
-/// Eight bytes are held for every draw. Errors as for [`sweep`] and [`Manipulator::transforms`](crate::Manipulator::transforms).
+/// Eight bytes are held for every draw. Errors as for [`sweep`] and [`drawn_pose`].
 pub fn monte_carlo(
     manipulator: &dyn Sweepable,
     configuration: &Configuration,
@@ -51,13 +51,12 @@ pub fn monte_carlo(
         ideal = row.pose;
     })
     .map_err(|Unevaluated { error, .. }| error)?;
-    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
-    manipulator.transforms(&configuration.q, &configuration.s, &mut transforms)?;
-    let mut effects = vec![0.0; description.effects.len()];
-    manipulator.effects(&configuration.q, &configuration.s, &configuration.u, &mut effects)?;
-    let chain = Chain { description, transforms, effects, ideal };
-
-    let without_random = chain.error(&mut vec![[0.0; 6]; description.frames.len()], |_| 0.0);
+    let error = |magnitudes: &[f64]| {
+        let Configuration { q, s, u } = configuration;
+        let real = drawn_pose(manipulator, q, s, u, magnitudes)?;
+        Ok::<_, Error>(Measurand::Position.rows(&deviation(description.orientation, &ideal, &real)))
+    };
+    let without_random = error(&repeatable_magnitudes(description))?;
     let ellipsoid = Ellipsoid::new(first_order, 0);
     let flat = ellipsoid.rank() < 3;
     let mut sums = Sums::default();
@@ -67,7 +66,6 @@ pub fn monte_carlo(
         |block| {
             let mut random = stream(seed, block);
             let mut magnitudes = vec![0.0; description.sources.len()];
-            let mut errors = vec![[0.0; 6]; description.frames.len()];
             let (mut sums, mut norms) = (Sums::default(), Vec::with_capacity(DRAWS));
             for _ in block * DRAWS..draws.min((block + 1) * DRAWS) {
                 for (source, magnitude) in description.sources.iter().zip(&mut magnitudes) {
@@ -76,7 +74,7 @@ pub fn monte_carlo(
                         Class::Random(distribution) => draw(distribution, &mut random),
                     };
                 }
-                let error = chain.error(&mut errors, |source| magnitudes[source]);
+                let error = error(&magnitudes)?;
                 norms.push(norm(error));
                 let d = core::array::from_fn(|i| error[i] - without_random[i]);
                 sums.add(d, inside(&ellipsoid, d));
@@ -100,30 +98,6 @@ pub fn monte_carlo(
         first_order,
         inside_ellipsoid: (!flat && draws > 0).then(|| sums.inside as f64 / draws as f64),
     })
-}
-
-/// One configuration of the exact chain.
-struct Chain<'a> {
-    description: &'a Description,
-    transforms: Vec<Pose>,
-    effects: Vec<f64>,
-    ideal: Pose,
-}
-
-impl Chain<'_> {
-    /// The position error with these magnitudes of the random sources, equation (6). Repeatable ones have 1.
-    fn error(&self, errors: &mut [[f64; 6]], magnitude: impl Fn(usize) -> f64) -> [f64; 3] {
-        errors.fill([0.0; 6]);
-        for (effect, value) in self.description.effects.iter().zip(&self.effects) {
-            let factor = match self.description.sources[effect.source].class {
-                Class::Repeatable => 1.0,
-                Class::Random(_) => magnitude(effect.source),
-            };
-            errors[effect.frame][effect.component.index()] += value * factor;
-        }
-        let real = real_pose(&self.transforms, errors);
-        Measurand::Position.rows(&deviation(self.description.orientation, &self.ideal, &real))
-    }
 }
 
 /// `Σ_i (a_i · d / l_i)² ≤ 1` with the semi-axes l and their directions a.

@@ -2,7 +2,7 @@
 
 use crate::compensator::{Compensated, compensate};
 use crate::twist::twist;
-use crate::{Error, Manipulator, Pose, Quantity, checks, real_pose};
+use crate::{Error, Manipulator, Pose, drawn_pose, repeatable_magnitudes};
 
 /// Commands that bring the real tool to `target`, from `q` on, or to where the ideal tool is at `q` if none is given.
 ///
@@ -16,16 +16,11 @@ pub fn compensated(
 ) -> Result<Compensated<Vec<f64>>, Error> {
     let description = manipulator.description();
     let ideal = manipulator.pose(q, s)?;
-    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
-    let mut errors = vec![[0.0; 6]; description.frames.len()];
+    let magnitudes = repeatable_magnitudes(description);
     let room = vec![[0.0; 6]; q.len()];
     compensate(description, target.unwrap_or(&ideal), &q.to_vec(), room, |q, columns| {
-        manipulator.generalized_errors(q, s, u, &mut errors)?;
-        manipulator.transforms(q, s, &mut transforms)?;
         let pose = manipulator.joint_jacobian(q, s, columns)?;
         columns.iter_mut().for_each(|column| *column = twist(description.orientation, &pose, column));
-        let real = real_pose(&transforms, &errors);
-        checks::finite(Quantity::Pose, real.0.as_flattened())?;
-        Ok(real)
+        drawn_pose(manipulator, q, s, u, &magnitudes)
     })
 }

@@ -1,0 +1,45 @@
+//! The exact chain with the errors of all sources.
+
+use std::vec;
+use std::vec::Vec;
+
+use crate::{Class, Description, Error, Manipulator, Pose, Quantity, checks, real_pose};
+
+/// The pose of the tool point with the errors of every source times its magnitude, exactly, equation (6).
+///
+/// One magnitude for each source: 1 of a repeatable one, of a random one what was drawn, 0 where it takes no part. Numbers of
+/// `A_i` that are off come first, `A_i(q + δq, s + δs)`, then errors elsewhere on its link in the order of the file, `L E_M L⁻¹`,
+/// then the sum of those of the frame itself. Errors as for [`Manipulator::effects`].
+pub fn drawn_pose<M: Manipulator + ?Sized>(
+    manipulator: &M,
+    q: &[f64],
+    s: &[f64],
+    u: &[f64],
+    magnitudes: &[f64],
+) -> Result<Pose, Error> {
+    if let Some(pose) = manipulator.drawn_pose(q, s, u, magnitudes)? {
+        return Ok(pose);
+    }
+    let description = manipulator.description();
+    let (expected, found) = (description.sources.len(), magnitudes.len());
+    if expected != found {
+        return Err(Error::Count { quantity: Quantity::Magnitudes, expected, found });
+    }
+    let mut effects = vec![0.0; description.effects.len()];
+    let mut errors = vec![[0.0; 6]; description.frames.len()];
+    let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
+    manipulator.transforms(q, s, &mut transforms)?;
+    manipulator.effects(q, s, u, &mut effects)?;
+    for (effect, value) in description.effects.iter().zip(effects) {
+        errors[effect.frame][effect.component.index()] += value * magnitudes[effect.source];
+    }
+    let pose = real_pose(&transforms, &errors);
+    checks::finite(Quantity::Pose, pose.0.as_flattened())?;
+    Ok(pose)
+}
+
+/// The magnitudes of the repeatable sources alone: 1 of each, 0 of random ones.
+pub fn repeatable_magnitudes(description: &Description) -> Vec<f64> {
+    let one = |class| if class == Class::Repeatable { 1.0 } else { 0.0 };
+    description.sources.iter().map(|source| one(source.class)).collect()
+}
