@@ -6,20 +6,24 @@ import random
 import re
 
 # Forms that the command does not have yet.
-MISSING = {
-    "triangular", "arcsine", "new functions", "new units", "table", "linear", "cubic",
-}  # fmt: skip
+NEW = set("min max sign exp log nm cm inch urad arcmin arcsec lb t mN kPa min h ppm %".split())
+MISSING = {"triangular", "arcsine", "table", "linear", "cubic", *NEW}
 SOURCES = [
     "repeatable", "uniform", "normal", "triangular", "arcsine", "effects", "random effects", "at", "disabled", "magnitude",
     "beam", "beam at", "beam without EA", "compliance", "compliance matrix", "compliance at", "joint", "parameter", "dh source",
     "joint effects",
+]  # fmt: skip
+FUNCTIONS = ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "abs", "min", "max", "sign", "exp", "log"]
+UNITS = [
+    "m", "mm", "um", "nm", "cm", "inch", "rad", "deg", "mrad", "urad", "arcmin", "arcsec", "kg", "g", "lb", "t", "N", "kN", "mN",
+    "Pa", "kPa", "MPa", "GPa", "s", "min", "h", "K", "ppm", "%",
 ]  # fmt: skip
 # What 30 specs use together.
 FORMS = {
     *SOURCES, "product", "matrix", "dh", "mdh", "origin", "fixed", "fixed origin", "coupled to another",
     "axis x", "axis z", "axis given", "revolute", "prismatic", "home", "no home", "rotation-vector", "euler-yzx",
     "no tool", "tool product", "tool matrix", "beam x", "beam y", "beam z", "beam default", "weightless", "mass per length",
-    "mass", "force", "force and moment", "load at a point", "load at the tool", "path", "grid", "inputs set", "inputs crossed", "inputs at both ends", "inputs beside", "new functions", "new units",
+    "mass", "force", "force and moment", "load at a point", "load at the tool", "path", "grid", "inputs set", "inputs crossed", "inputs at both ends", "inputs beside", *FUNCTIONS, *UNITS,
     "linear", "cubic", "errors of dh", "errors of mdh",
 } - MISSING  # fmt: skip
 
@@ -51,17 +55,19 @@ class Writer:
     def long(self, low=-0.6, high=0.6):
         """A length in metres, in a unit of the spec's choice."""
         metres = self.random.uniform(low, high)
-        units = ["m", "mm", "um"] + ([] if "new units" in MISSING else ["nm", "cm", "inch"])
-        unit = self.random.choice(units)
-        size = {"m": 1, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "inch": 0.0254}[unit]
-        return f"{metres / size:.9g} {unit}"
+        return self.of_size(metres, {"m": 1, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "inch": 0.0254})
+
+    def of_size(self, size, units):
+        """A number with one of these units, each with its size."""
+        unit = self.pick(*(unit for unit in units if not NEW & set(re.findall(r"\w+", unit))))
+        return f"{size / units[unit]:.9g} {unit}"
 
     # Expressions over the variables that may stand there.
 
     def angle(self, names, depth=1):
         turns = [name for name in names if name.startswith("q")]
         options = [f"{self.number(-180, 180)} deg", f"{self.number(-900, 900)} mrad", self.number(), "pi/4"]
-        if "new units" not in MISSING:
+        if not NEW:
             options += [f"{self.number(-9e5, 9e5)} urad", f"{self.number(-900, 900)} arcmin", f"{self.number(-9e4, 9e4)} arcsec"]
         options += turns * 3
         if depth:
@@ -97,10 +103,10 @@ class Writer:
                 f"sqrt(1 + ({x})^2)",
                 f"abs({x})",
                 *self.tabulated(x, length),
-                f"exp(-({length}/({self.long(0.4, 0.9)}))^2)" if "new functions" not in MISSING else x,
-                f"max({x}, {y})" if "new functions" not in MISSING else y,
-                f"min({x}, sin({angle}))" if "new functions" not in MISSING else y,
-                f"sign({x})*log(2 + ({y})^2)" if "new functions" not in MISSING else y,
+                f"exp(-({length}/({self.long(0.4, 0.9)}))^2)" if not NEW else x,
+                f"max({x}, {y})" if not NEW else y,
+                f"min({x}, sin({angle}))" if not NEW else y,
+                f"sign({x})*log(2 + ({y})^2)" if not NEW else y,
             ]
         )
 
@@ -129,12 +135,14 @@ class Writer:
         self.add("[manipulator]", f'name = "random{self.seed}"', f'length = "{self.length}"')
         if orientation == "euler-yzx" or turn.random() < 0.5:
             self.add(f'orientation = "{orientation}"')
-        self.add('gravity = ["0.3 m/s^2", "-1.1 m/s^2", "-9.7 m/s^2"]')
+        self.add(f'gravity = ["0.3 m/s^2", "-1100 mm/s^2", "{self.of_size(-9.7, {"m/s^2": 1, "m/min^2": 1 / 3600, "m/h^2": 1 / 3600**2})}"]')
         self.add("[parameters]")
         for k in range(3):
             self.parameters[f"s{k}"] = self.random.uniform(0.1, 0.6)
             self.add(f's{k} = {{ value = "{self.parameters[f"s{k}"] * 1000:.9g} mm" }}')
-        self.add(f'EI = {{ value = "{self.number(1e4, 9e4)} N*m^2" }}', f'GJ = {{ value = "{self.number(1e4, 9e4)} N*m^2" }}')
+        stiff = {"N*m^2": 1, "kN*m^2": 1e3, "mN*m^2": 1e-3, "Pa*m^4": 1, "kPa*m^4": 1e3, "MPa*m^4": 1e6, "GPa*cm^4": 10}
+        for name in ("EI", "GJ"):
+            self.add(f'{name} = {{ value = "{self.of_size(self.random.uniform(1e4, 9e4), stiff)}" }}')
         self.add("[inputs]", 'payload = { value = "2.5 kg", range = ["0 kg", "7500 g"] }')
         self.add('warmth = { value = "3 K", range = ["-10 K", "10 K"] }', "approach = { value = 1, range = [-1, 1] }")
         if "table" not in MISSING:
@@ -179,8 +187,6 @@ class Writer:
             low, high = round(self.random.uniform(-0.5, 0.05), 4), round(self.random.uniform(300, 900), 3)
             limits = f'"{low} m", "{high} mm"'
             low, high = low * self.scale, high * self.scale / 1000
-        # Not the limits to the last digit, which is rounded.
-        low, high = low + 1e-9 * abs(low), high - 1e-9 * abs(high)
         home = low + 0.3 * (high - low)
         # Without a home it is 0, which must lie inside.
         shown = f", home = {home:.6g}" if low > 0 or self.pick("home", "no home") == "home" else ""
@@ -233,7 +239,8 @@ class Writer:
         self.add(f'frame = "{frame}"', f"point = [{', '.join(f'{self.quoted(self.long(-0.4, 0.2))}' for _ in range(3))}]")
         form = self.pick("mass", "force", "force and moment")
         if form == "mass":
-            self.add('mass = "2*payload + 1.5 kg"')
+            mass = self.of_size(1.5, {"kg": 1, "g": 1e-3, "lb": 0.45359237, "t": 1000})
+            self.add(f'mass = "2*payload + {mass}"')
             return
         self.add(f'force = ["{self.number(-30, 30)} N", "{self.number()} kN", "10 N * approach"]')
         if form == "force and moment":
@@ -314,7 +321,8 @@ class Writer:
     def errors(self):
         for component in self.random.sample(["e_x", "e_y", "e_z", "e_s", "e_r", "e_p"], self.random.randint(1, 4)):
             size = f"{self.number()} mm" if component in ("e_x", "e_y", "e_z") else f"{self.number()} mrad"
-            factor = self.random.choice(["", f" * {self.plain(self.names())}", " * approach", " * warmth * 0.1/K"])
+            factors = ["", f" * {self.plain(self.names())}", " * approach", " * warmth * 0.1/K", " * 60 %", " * warmth * 8e4 ppm/K"]
+            factor = self.random.choice(factors[:4] if NEW else factors)
             self.add(f'{component} = "{size}{factor}"')
 
     def elastic(self, form):
@@ -347,6 +355,7 @@ class Writer:
     def everything(self, folder):
         """The spec, some configurations, and a study's workspace with what that means."""
         text = self.spec(folder)
+        self.used |= {form for form in (*FUNCTIONS, *UNITS) if re.search(rf"(?<![\w.]){re.escape(form)}(?!\w)", text)}
         places = self.configurations(25)
         return text, places, *self.workspace([dict(place) for place in places], folder)
 

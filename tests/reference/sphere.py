@@ -48,9 +48,10 @@ def smallest(points):
 def enclosing(points):
     """Centre and radius: the farthest point joins those that the sphere stands on until none is outside."""
     radius, centre, support = smallest(points[:1])
+    rounding = 1e-15 * max(abs(x) for p in points for x in p)
     for _ in range(1000):
         far = max(points, key=lambda p: distance(p, centre))
-        if distance(far, centre) <= radius * (1 + 1e-13) or far in support:
+        if distance(far, centre) <= radius * (1 + 1e-13) + rounding or far in support:
             return centre, distance(far, centre)
         radius, centre, support = smallest([*support, far])
     raise ArithmeticError("no enclosing sphere")

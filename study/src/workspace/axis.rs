@@ -101,7 +101,8 @@ impl<'a> Candidates<'a> {
         for item in section.items() {
             let Some(index) = self.find(document, item.key_span.clone(), &item.key) else { continue };
             let candidate = &self.list[index];
-            if let Some(values) = values(&item, document, spec, candidate.dimension) {
+            if let Some(mut values) = values(&item, document, spec, candidate.dimension) {
+                candidate.round_to_ends(&mut values);
                 candidate.require_within(&values, &item, document);
                 axes.push(Axis { index, values });
             }
@@ -130,6 +131,17 @@ impl<'a> Candidates<'a> {
 }
 
 impl Candidate<'_> {
+    /// Takes what is an end but for rounding as that end: `-0.0908884 m` is not `-90.8884 mm` to the last digit.
+    fn round_to_ends(&self, values: &mut [f64]) {
+        for value in values {
+            for end in self.within.1 {
+                if (*value - end).abs() <= 1e-12 * value.abs() {
+                    *value = end;
+                }
+            }
+        }
+    }
+
     /// A mistake if a value is outside the limits or the range: that is not where the machine works.
     fn require_within(&self, values: &[f64], item: &Item<'_>, document: &mut Document) {
         let (what, [lower, upper]) = self.within;
