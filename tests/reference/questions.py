@@ -9,7 +9,7 @@ from uncertainty import DEVIATION, K, norm
 
 DRAWS = 20_000
 # What the command does not do yet.
-MISSING = {"exact chain", "uncertainty", "README"}
+MISSING = {"exact chain", "README"}
 
 
 def jacobian(comparison, place, file, spec, configuration, changes):
@@ -59,8 +59,6 @@ def budget(comparison, place, sweep, report):
     if "exact chain" not in MISSING:
         exact = report["first_order"]["largest_difference"]
         comparison.numbers(f"{place}.first_order", sweep.largest_remainder(), exact, combined["radius"])
-    if "uncertainty" in MISSING:
-        return
     turned = sweep.combined(3)
     alone(comparison, f"{place}.orientation", sweep, 3, report["orientation"]["sources"], turned["radius"])
     del turned["rms"], turned["worst_case"]
@@ -74,8 +72,6 @@ def alone(comparison, place, sweep, first, theirs, radius):
         return
     for k, source in enumerate(sweep.sources):
         ours = sweep.alone(k, first)
-        if "uncertainty" in MISSING:
-            del ours["half_peak_to_peak"]["norm"]
         # What is zero but for rounding is so beside all the others.
         size = max(ours["plain_max"]["norm"], 1e-6 * radius)
         comparison.numbers(f"{place}.{source.name}", ours, theirs[source.name], size)
@@ -83,8 +79,6 @@ def alone(comparison, place, sweep, first, theirs, radius):
 
 def covered(comparison, place, sweep, report):
     """What figures cover: the budget of the GUM and the verdict, of the position and of the orientation."""
-    if "uncertainty" in MISSING:
-        return
     asked = report["verdict"]["probability_asked"]
     for name, first, there in (("position", 0, report), ("orientation", 3, report["orientation"])):
         budgets = [sweep.uncertainty(moves, first) for moves in sweep.moves]

@@ -7,7 +7,7 @@ import re
 
 # Forms that the command does not have yet.
 NEW = set("min max sign exp log nm cm inch urad arcmin arcsec lb t mN kPa min h ppm %".split())
-MISSING = {"triangular", "arcsine", "table", "linear", "cubic", *NEW}
+MISSING = {"table", "linear", "cubic", *NEW}
 SOURCES = [
     "repeatable", "uniform", "normal", "triangular", "arcsine", "effects", "random effects", "at", "disabled", "magnitude",
     "beam", "beam at", "beam without EA", "compliance", "compliance matrix", "compliance at", "joint", "parameter", "dh source",
@@ -22,7 +22,7 @@ UNITS = [
 FORMS = {
     *SOURCES, "product", "matrix", "dh", "mdh", "origin", "fixed", "fixed origin", "coupled to another",
     "axis x", "axis z", "axis given", "revolute", "prismatic", "home", "no home", "rotation-vector", "euler-yzx",
-    "no tool", "tool product", "tool matrix", "beam x", "beam y", "beam z", "beam default", "weightless", "mass per length",
+    "no tool", "tool product", "tool matrix", "tool dh", "tool origin", "beam x", "beam y", "beam z", "beam default", "weightless", "mass per length",
     "mass", "force", "force and moment", "load at a point", "load at the tool", "path", "grid", "inputs set", "inputs crossed", "inputs at both ends", "inputs beside", *FUNCTIONS, *UNITS,
     "linear", "cubic", "errors of dh", "errors of mdh",
 } - MISSING  # fmt: skip
@@ -112,7 +112,7 @@ class Writer:
 
     def tabulated(self, x, length):
         """Tables of a plain number (linear, here) and of a length (cubic, in a file), held beyond their ends."""
-        return [] if "table" in MISSING else [f"profile({x})", f"rail({length})/(1 mm)"]
+        return [] if "table" in MISSING else [f"profile({x})", f"rail({length})/(1 mm)", f"bow({length})"]
 
     def tables(self, folder):
         rows = ["place,height"]
@@ -123,6 +123,8 @@ class Writer:
         self.add(f'interpolation = "{self.pick("linear", "cubic")}"', 'outside = "hold"')
         self.add("[tables.rail]", f'file = "rail{self.seed}.csv"', 'interpolation = "cubic"', 'outside = "hold"')
         self.add('x = { column = "place", unit = "mm" }', 'y = { column = "height", unit = "um" }')
+        self.add("[tables.bow]", 'x = { values = [-40, -8, 3, 25, 60], unit = "cm" }', "y = [0.1, -0.4, 0.3, 0.35, -0.2]")
+        self.add('interpolation = "linear"', 'outside = "hold"')
 
     # The file.
 
@@ -140,7 +142,7 @@ class Writer:
         for k in range(3):
             self.parameters[f"s{k}"] = self.random.uniform(0.1, 0.6)
             self.add(f's{k} = {{ value = "{self.parameters[f"s{k}"] * 1000:.9g} mm" }}')
-        stiff = {"N*m^2": 1, "kN*m^2": 1e3, "mN*m^2": 1e-3, "Pa*m^4": 1, "kPa*m^4": 1e3, "MPa*m^4": 1e6, "GPa*cm^4": 10}
+        stiff = {"N*m^2": 1, "kN*m^2": 1e3, "mN*m^2": 1e-3, "Pa*m^4": 1, "kPa*m^4": 1e3, "MPa*m^4": 1e6, "GPa*cm^4": 10, "GPa*mm^4": 1e-3}
         for name in ("EI", "GJ"):
             self.add(f'{name} = {{ value = "{self.of_size(self.random.uniform(1e4, 9e4), stiff)}" }}')
         self.add("[inputs]", 'payload = { value = "2.5 kg", range = ["0 kg", "7500 g"] }')
@@ -151,11 +153,15 @@ class Writer:
         moving = turn.sample(range(count), turn.randint(2, count))
         for i in range(count):
             self.frame(i, i in moving)
-        tool = self.pick("no tool", "tool product", "tool matrix")
+        tool = self.pick("no tool", "tool product", "tool matrix", "tool dh", "tool origin")
         if tool == "tool product":
             self.add("[tool]", f'transform = "Tx({self.long()}) Ry({self.angle([], 0)}) Tz(s1) Ty({self.long()})"')
         elif tool == "tool matrix":
             self.add("[tool]", f'matrix = [[0, -1, 0, "{self.long()}"], [1, 0, 0, "s2"], [0, 0, 1, 0.1], [0, 0, 0, 1]]')
+        elif tool == "tool dh":
+            self.add("[tool]", f'dh = {{ theta = 0.3, d = "s1", a = "{self.long()}", alpha = "{self.angle([], 0)}" }}')
+        elif tool == "tool origin":
+            self.add("[tool]", f'origin = {{ xyz = ["s1", "{self.long()}", 0], rpy = [0.1, "{self.angle([], 0)}", "3 deg"] }}')
         chain = "\n".join(self.lines[self.lines.index("[[frame]]") :])
         self.in_the_chain = [name for name in self.parameters if re.search(rf"\b{name}\b", chain)]
         for k in range(2):
@@ -261,8 +267,8 @@ class Writer:
             self.add('class = "random"', f'distribution = "{form}"')
         elif form == "random effects":
             self.add('class = "random"', f'distribution = "{self.pick("uniform", "normal", "triangular", "arcsine")}"')
-        elif form in ("joint", "parameter", "dh source", "joint effects") and self.random.random() < 0.5:
-            self.add('class = "random"', f'distribution = "{self.pick("uniform", "normal")}"')
+        elif form in ("joint", "parameter", "dh source", "joint effects", "at", "beam") and self.random.random() < 0.4:
+            self.add('class = "random"', f'distribution = "{self.pick("uniform", "normal", "triangular", "arcsine")}"')
         else:
             self.add('class = "repeatable"')
         if form == "magnitude":

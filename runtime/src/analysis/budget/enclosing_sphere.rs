@@ -16,7 +16,7 @@ pub struct Sphere {
 /// A point this much outside, in shares of the radius, is inside.
 const ROUNDING: f64 = 1e-12;
 /// Points inside but this near to the sphere are kept, in shares of the radius.
-const SHELL: f64 = 0.05;
+const SHELL: f64 = 0.1;
 /// The most of them that are kept: some 25 MB.
 const KEPT: usize = 1 << 20;
 
