@@ -11,6 +11,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
 use crate::expr::{Dimension, Entry, Expression, Place, Scope, parse_expression};
 use crate::keys::Keys;
+use crate::kind::not_toml;
 
 /// The largest file that is read; a chain of a hundred frames takes some 30 kB.
 const LARGEST: u64 = 4 << 20;
@@ -86,6 +87,9 @@ impl Document {
             let span = error.span().unwrap_or(end..end);
             self.found
                 .push(Diagnostic::new(span, message).help("the file is TOML: `key = value`, `[table]`"));
+        }
+        if let Some(mistake) = not_toml(text, &self.found) {
+            self.found = vec![mistake];
         }
         errors.is_empty().then_some(table)
     }

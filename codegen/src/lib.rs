@@ -24,5 +24,6 @@ pub mod program;
 pub mod spec;
 
 mod compile;
+mod kind;
 
 pub use compile::{CompileError, compile, compile_into};

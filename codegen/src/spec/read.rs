@@ -56,6 +56,9 @@ impl Spec {
 }
 
 fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
+    if !document.is_kind(root, "manipulator") {
+        return None;
+    }
     root.check_keys(&[&keys::FILE], document);
     let head = root.required("manipulator", document).and_then(|item| read_head(&item, document));
     // Without a length unit the rest could only be read by guessing.

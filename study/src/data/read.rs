@@ -41,6 +41,9 @@ impl Map {
 }
 
 fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Map> {
+    if !document.is_kind(root, "data") {
+        return None;
+    }
     root.check_keys(&[&keys::FILE, &keys::FORMS], document);
     let mut head = root.required("data", document).and_then(|item| document.section(&item))?;
     head.name = "[data]".to_owned();

@@ -134,6 +134,9 @@ impl Sets {
 }
 
 fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets> {
+    if !document.is_kind(root, "plan") {
+        return None;
+    }
     root.check_keys(&[&keys::FILE], document);
     let mut head = root.required("plan", document).and_then(|item| document.section(&item))?;
     head.name = "[plan]".to_owned();

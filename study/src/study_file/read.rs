@@ -41,6 +41,9 @@ impl Study {
 }
 
 fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Study> {
+    if !document.is_kind(root, "study") {
+        return None;
+    }
     root.check_keys(&[&keys::FILE], document);
     let head = root.required("study", document).and_then(|item| document.section(&item));
     let region = root.required("workspace", document).and_then(|item| read_region(&item, document, spec));
