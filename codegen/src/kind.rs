@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Section};
 
-/// The most mistakes of syntax that are shown: a file with more of them is something else.
+/// A file with more mistakes of syntax, and without the heading of a table, is something else.
 const MISTAKES: usize = 5;
 
 /// The files that are read: the table that only they have, what they are, and how they are given.
@@ -20,6 +20,7 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let start = lines().next()?;
     let separated = |line: &str| line.split([',', ';', '\t']).count() > 2 && !line.contains('=');
+    let heading = |line: &str| line.starts_with('[') && line.ends_with(']') && !line.contains(',');
     let (what, help) = if start.starts_with('<') {
         ("XML", "write the joints of a URDF file as [[frame]] tables with `origin` and `axis`")
     } else if start.starts_with('{') {
@@ -34,7 +35,7 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
         .all(|line| line.split_once(':').is_some_and(|(key, _)| !key.contains(['=', '"'])))
     {
         ("YAML", "in TOML, `key: value` is `key = value`, and a group is a `[table]`")
-    } else if found.len() > MISTAKES {
+    } else if found.len() > MISTAKES && !lines().any(heading) {
         ("something else", "the files of abbe are TOML: `key = value`, `[table]`")
     } else {
         return None;

@@ -15,9 +15,12 @@ use abbe_codegen::document::Document;
 use abbe_codegen::expr::{FUNCTION_NAMES, UNIT_NAMES};
 use abbe_codegen::keys::Keys;
 use abbe_codegen::spec::{self, Spec};
+use abbe_study::analyze::Analyze;
+use abbe_study::check::Check;
 use abbe_study::data::Map;
-use abbe_study::plan::Sets;
-use abbe_study::{Study, data, plan, study_file, workspace};
+use abbe_study::plan::{Choice, Plan, Sets};
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Machine, Study, data, plan, study_file, workspace};
 use example::{Use, uses};
 use page::Page;
 use tempfile::TempDir;
@@ -177,5 +180,46 @@ fn every_unit_and_function_is_listed() {
         let stale = listed.difference(&known).collect::<Vec<_>>();
         assert!(missing.is_empty(), "docs/reference/spec.md, {heading}: add {missing:?} to the table");
         assert!(stale.is_empty(), "docs/reference/spec.md, {heading}: there is no {stale:?}");
+    }
+}
+
+#[test]
+fn every_example_runs() {
+    for (name, text) in Page::read("spec.md").files() {
+        let machine = Machine::of_spec(Spec::parse(name, text).unwrap(), name);
+        assert!(Check { machine }.run(&mut ()).unwrap().passed(), "{name}: a law does not hold");
+    }
+    let machine = Machine::of_spec(cell(), "cell.toml");
+    let page = Page::read("study.md");
+    let folder = written(&page);
+    for (name, _) in page.files().into_iter().filter(|(name, _)| name.ends_with(".toml")) {
+        let document = Document::read(&folder.path().join(name)).unwrap();
+        let study = Study::read(document, &machine.spec).unwrap();
+        let report = Analyze::new(machine.clone(), study).run(&mut ()).unwrap();
+        assert!(report.budget.configurations > 0, "{name}: no configuration is reached");
+    }
+    let mut maps = Vec::new();
+    for (name, text) in Page::read("map.md").files() {
+        let map = Map::parse(name, text, &machine.spec).unwrap();
+        let at = Places::Samples(20);
+        let simulate = Simulate {
+            machine: machine.clone(),
+            map: map.clone(),
+            at,
+            noise: None,
+            outliers: 0.0,
+            random: false,
+            seed: 1,
+        };
+        assert_eq!(simulate.run(&mut ()).unwrap().observations.len(), 20, "{name}");
+        maps.push(map);
+    }
+    let page = Page::read("plan.md");
+    let folder = written(&page);
+    for (name, _) in page.files() {
+        let sets = Sets::find(&folder.path().join(name), &machine.spec).unwrap();
+        let study = Study::joint_samples(&machine.spec);
+        let plan = Plan { machine: machine.clone(), map: maps[0].clone(), choice: Choice::Sets(sets), study };
+        assert!(plan.run(&mut ()).unwrap().rows > 0, "{name}");
     }
 }
