@@ -41,7 +41,7 @@ class Configuration:
         return generalized_errors(self.spec, effect, self.names, self.nominal), place
 
     def groups(self, magnitudes):
-        """[A_1, E_1 …], … [A_n, E_n …], [T] of the real machine; `magnitudes` are pairs of a source and its number."""
+        """[A_1, … E_1], … [A_n, … E_n], [T] of the real machine; `magnitudes` are pairs of a source and its number."""
         spec = self.spec
         names, dh = dict(self.names), {}
         errors = [None] * len(spec.frames)
@@ -69,7 +69,8 @@ class Configuration:
         groups = []
         for i, frame in enumerate(spec.frames):
             real = frame.transform(names, dh.get(i)) if moved or i in dh else self.nominal[i]
-            groups.append([real, *([error(errors[i])] if errors[i] else []), *located[i]])
+            # Errors elsewhere on the link in the order of the file, then the sum of those of the frame itself.
+            groups.append([real, *located[i], *([error(errors[i])] if errors[i] else [])])
         return [*groups, [spec.tool(names) if moved else self.nominal[-1]]]
 
     def factors(self, magnitudes):

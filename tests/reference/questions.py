@@ -8,8 +8,6 @@ from kinematics import Configuration
 from uncertainty import DEVIATION, K, norm
 
 DRAWS = 20_000
-# What the command does not do yet.
-MISSING = {"exact chain", "README"}
 
 
 def jacobian(comparison, place, file, spec, configuration, changes):
@@ -56,9 +54,8 @@ def budget(comparison, place, sweep, report):
     _, radius = sweep.enclosing_sphere()
     within = min(max(radius, sphere["radius"]), sphere["radius"] + sphere["excess"])
     comparison.numbers(f"{place}.sphere", radius, within, combined["radius"])
-    if "exact chain" not in MISSING:
-        exact = report["first_order"]["largest_difference"]
-        comparison.numbers(f"{place}.first_order", sweep.largest_remainder(), exact, combined["radius"])
+    exact = report["first_order"]["largest_difference"]
+    comparison.numbers(f"{place}.first_order", sweep.largest_remainder(), exact, combined["radius"])
     turned = sweep.combined(3)
     alone(comparison, f"{place}.orientation", sweep, 3, report["orientation"]["sources"], turned["radius"])
     del turned["rms"], turned["worst_case"]
@@ -156,16 +153,10 @@ def verdict(comparison, place, sweep, first, budgets, theirs, asked):
 
 def drawn(comparison, place, sweep, report):
     """`abbe analyze --monte-carlo`: two independent samples, three standard errors of their difference apart at most."""
-    if "exact chain" in MISSING and any(inexact(effect) for source in sweep.sources for effect in source.effects):
-        return
     for where in ("worst", "home"):
         theirs = report["monte_carlo"][where]
         configuration = Configuration(sweep.spec, {**sweep.home_names, **theirs["at"]})
         drawn_there(comparison, f"{place}.monte_carlo.{where}", configuration, sweep.sources, theirs)
-
-
-def inexact(effect):
-    return effect.at or effect.dh or effect.joint or effect.parameter
 
 
 def drawn_there(comparison, place, configuration, sources, theirs):
