@@ -4,7 +4,7 @@ use abbe::analysis::Measurand;
 use abbe_codegen::document::Document;
 use abbe_codegen::spec::Spec;
 use abbe_study::analyze::figures::Gathered;
-use abbe_study::analyze::{Analyze, Report, Verdict};
+use abbe_study::analyze::{Analyze, Report, Verdict, contributions};
 use abbe_study::{Machine, Study};
 
 /// A slide with a repeatable error of 0.1 mm along x, and four random ones of this size and distribution in the same direction.
@@ -175,4 +175,40 @@ fn figures_of_the_orientation() {
     assert!((norm - largest).abs() < 1e-12 * largest, "{norm} {largest}");
     let json = serde_json::to_value(&report.figures).unwrap();
     assert_eq!(json["figures"][3]["asked"]["measurand"], "orientation");
+}
+
+/// An encoder at its joint: its value is the angle, its sensitivity the lever, here 100 mm.
+#[test]
+fn the_value_of_a_joint_is_its_angle() {
+    let text = r#"
+        [manipulator]
+        name = "arm"
+        length = "mm"
+        [[frame]]
+        name = "shoulder"
+        variable = { name = "q1", kind = "revolute", limits = ["-90 deg", "90 deg"] }
+        dh = { theta = "q1", d = 0, a = "60 mm", alpha = "90 deg" }
+        [tool]
+        transform = "Tx(40 mm)"
+        [[source]]
+        name = "encoder"
+        class = "random"
+        distribution = "triangular"
+        joint = "q1"
+        error = "0.3 mrad"
+    "#;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arm.toml");
+    std::fs::write(&path, text).unwrap();
+    let machine = Machine::find(path.to_str().unwrap()).unwrap();
+    let study = Study::joint_samples(&machine.spec);
+    let report = Analyze::new(machine, study).run(&mut ()).unwrap();
+    let json = serde_json::to_value(&report).unwrap();
+    let source = &json["uncertainty"]["sources"][0];
+    let close =
+        |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() / expected - 1.0).abs() < 1e-9;
+    assert!(close(&source["value"], 3e-4) && close(&source["sensitivity"][3], 100.0), "{source}");
+    assert!(close(&source["standard_uncertainty"][3], 0.03 / 6_f64.sqrt()));
+    let table = contributions(&report, &report.stated[0]);
+    assert_eq!(table.rows[0][1..5], ["0.3 mrad", "triangular", "√6", "0.1 mm/mrad"]);
 }

@@ -92,7 +92,9 @@ pub fn turns(report: &Report) -> Option<Listing> {
         header.insert(5, "of tolerance");
     }
     let row = |name: &str, rows: [Option<f64>; 3], norm: Extreme, rms: Option<f64>| {
-        let at = report.configuration(norm.configuration).filter(|_| norm.value > 0.0);
+        // What is the same everywhere is worst nowhere.
+        let varies = norm.value > rms.unwrap_or_default() * (1.0 + 1e-9);
+        let at = report.configuration(norm.configuration).filter(|_| varies);
         let mut cells = vec![name.to_owned()];
         cells.extend(rows.map(|row| row.map(show).unwrap_or_default()));
         cells.extend([show(norm.value), rms.map(show).unwrap_or_default()]);

@@ -14,6 +14,7 @@ mod job;
 mod json;
 mod ledger;
 mod report;
+mod source_value;
 mod uncertainty;
 pub mod unit;
 mod unreachable;

@@ -1,9 +1,10 @@
 //! The uncertainty budget as the GUM states it, in tables and sentences.
 
+use abbe::Distribution;
 use abbe::analysis::{COVERAGE, Contribution, Measurand, Statement};
-use abbe::{Component, Distribution};
 
 use super::report::Report;
+use super::source_value::{Kind, SourceValue};
 use super::unit;
 use crate::listing::Listing;
 use crate::number;
@@ -21,12 +22,13 @@ pub struct Stated {
 pub fn contributions(report: &Report, stated: &Stated) -> Listing {
     let measurand = stated.statement.measurand;
     let row = |one: &Contribution| {
+        let source = SourceValue::new(report, one);
         vec![
             report.source(one.source).name.clone(),
-            value(report, one),
+            value(report, source),
             one.distribution.name().to_owned(),
             divisor(one.distribution).to_owned(),
-            sensitivity(report, measurand, one),
+            sensitivity(report, measurand, source, one),
             unit::fixed(report, measurand, one.standard[3]),
             format!("{:.1} %", 100.0 * one.share),
         ]
@@ -107,25 +109,24 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
 
 const LINE_95: f64 = 1.959_963_984_540_054;
 
-fn value(report: &Report, one: &Contribution) -> String {
-    match one.value {
-        None => "1".to_owned(),
-        Some((Component::X | Component::Y | Component::Z, value)) => {
-            format!("{} {}", number::digits(value, 3), report.spec.length.symbol())
-        }
-        Some((_, value)) => format!("{} mrad", number::digits(1e3 * value, 3)),
+fn value(report: &Report, SourceValue { value, kind }: SourceValue) -> String {
+    match kind {
+        Kind::Multiple => "1".to_owned(),
+        Kind::Length => format!("{} {}", number::digits(value, 3), report.spec.length.symbol()),
+        Kind::Angle => format!("{} mrad", number::digits(1e3 * value, 3)),
+        Kind::Of(unit) => format!("{} {unit}", number::digits(value, 3)).trim_end().to_owned(),
     }
 }
 
-fn sensitivity(report: &Report, measurand: Measurand, one: &Contribution) -> String {
-    let length = report.spec.length.symbol();
+fn sensitivity(report: &Report, measurand: Measurand, source: SourceValue, one: &Contribution) -> String {
     let (factor, result) = unit::of(report, measurand);
-    let (per, unit) = match one.value {
-        None => (1.0, None),
-        Some((Component::X | Component::Y | Component::Z, _)) => (1.0, Some(length)),
-        Some(_) => (1e-3, Some("mrad")),
+    let (per, unit) = match source.kind {
+        Kind::Multiple | Kind::Of("") => (1.0, None),
+        Kind::Length => (1.0, Some(report.spec.length.symbol())),
+        Kind::Angle => (1e-3, Some("mrad")),
+        Kind::Of(unit) => (1.0, Some(unit)),
     };
-    let number = number::digits(one.sensitivity[3] * factor * per, 4);
+    let number = number::digits(source.sensitivity(one)[3] * factor * per, 4);
     match unit {
         Some(unit) if unit == result => number,
         Some(unit) => format!("{number} {result}/{unit}"),

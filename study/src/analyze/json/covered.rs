@@ -4,6 +4,7 @@ use abbe::analysis::{COVERAGE, Compliance, Measurand, Statement};
 use serde::Serialize;
 
 use super::super::report::Report;
+use super::super::source_value::{Kind, SourceValue};
 use super::super::uncertainty::Stated;
 use super::super::verdict::{Judged, Verdict};
 use crate::number::Named;
@@ -93,14 +94,17 @@ struct Contribution<'a> {
 pub(super) fn uncertainty<'a>(report: &'a Report, stated: &'a Stated) -> Uncertainty<'a> {
     let Statement { contributions, bias, standard, coverage_factors, coverage, .. } = &stated.statement;
     let configuration = report.configuration(stated.configuration);
-    let sources = contributions.iter().map(|one| Contribution {
-        source: &report.source(one.source).name,
-        distribution: one.distribution.name(),
-        value: one.value.map(|(_, value)| value),
-        divisor: one.distribution.divisor(),
-        sensitivity: one.sensitivity,
-        standard_uncertainty: one.standard,
-        share: one.share,
+    let sources = contributions.iter().map(|one| {
+        let source = SourceValue::new(report, one);
+        Contribution {
+            source: &report.source(one.source).name,
+            distribution: one.distribution.name(),
+            value: (source.kind != Kind::Multiple).then_some(source.value),
+            divisor: one.distribution.divisor(),
+            sensitivity: source.sensitivity(one),
+            standard_uncertainty: one.standard,
+            share: one.share,
+        }
     });
     Uncertainty {
         at: report.variables(configuration),
