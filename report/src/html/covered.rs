@@ -6,7 +6,7 @@ use abbe_study::number;
 
 use super::{escaped, ledger, section};
 
-fn paragraphs(sentences: Vec<String>) -> String {
+fn paragraphs(sentences: &[String]) -> String {
     sentences.iter().map(|said| format!("<p>{}</p>\n", escaped(said))).collect()
 }
 
@@ -14,7 +14,7 @@ fn paragraphs(sentences: Vec<String>) -> String {
 pub(super) fn verdict(report: &Report) -> String {
     let Some(line) = report.verdict_line() else { return String::new() };
     let class = if report.verdict() == Some(Verdict::NotMet) { "missed" } else { "met" };
-    let sentences = paragraphs(report.verdict_sentences());
+    let sentences = paragraphs(&report.verdict_sentences());
     format!(
         "<section class=\"verdict\">\n<h2 class=\"{class}\">{}</h2>\n{sentences}</section>\n",
         escaped(&line)
@@ -38,7 +38,7 @@ pub(super) fn uncertainty(report: &Report) -> String {
             "{}{}{}",
             ledger::listed(&analyze::contributions(report, stated)),
             ledger::listed(&analyze::totals(report, stated)),
-            paragraphs(analyze::sentences(report, stated)),
+            paragraphs(&analyze::sentences(report, stated)),
         );
         section(&format!("Uncertainty budget ({unit})"), &body)
     });
