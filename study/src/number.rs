@@ -2,6 +2,7 @@
 
 use abbe::analysis::Configuration;
 use abbe::{Class, LengthUnit, VariableKind};
+use abbe_codegen::expr::Symbol;
 use abbe_codegen::spec::{self, Spec};
 use serde::{Serialize, Serializer};
 
@@ -57,6 +58,16 @@ pub fn of_variable(value: f64, kind: VariableKind, unit: LengthUnit) -> String {
     match kind {
         VariableKind::Revolute => format!("{}°", trimmed(value.to_degrees(), 4)),
         VariableKind::Prismatic => length(value, unit),
+    }
+}
+
+/// The value of a variable, parameter or input, with its unit.
+pub fn of_symbol(value: f64, symbol: Symbol, spec: &Spec) -> String {
+    match symbol {
+        Symbol::Variable(i) => of_variable(value, spec.variables[i].kind, spec.length),
+        Symbol::Parameter(i) => quantity(value, &spec.parameters[i].unit),
+        Symbol::Input(i) => quantity(value, &spec.inputs[i].unit),
+        _ => short(value),
     }
 }
 

@@ -91,3 +91,106 @@ fn euler_rows_hide_nothing() {
     // With poses and a base frame 4 of the revolute and 2 of the prismatic joint, and 6.
     assert_eq!(found[1]["rank"], 12);
 }
+
+/// `A · B` of matrices in rows.
+fn product(a: &[[f64; 4]; 4], b: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+fn matrix(value: &serde_json::Value) -> [[f64; 4]; 4] {
+    std::array::from_fn(|i| std::array::from_fn(|j| value[i][j].as_f64().unwrap()))
+}
+
+fn near(a: &[[f64; 4]; 4], b: &[[f64; 4]; 4]) -> bool {
+    let scale = a.as_flattened().iter().fold(1.0_f64, |most, entry| most.max(entry.abs()));
+    a.as_flattened().iter().zip(b.as_flattened()).all(|(a, b)| (a - b).abs() <= 1e-9 * scale)
+}
+
+/// The numbers make the matrices, the matrices the pose; and that is the pose of `jacobian`.
+#[test]
+fn the_nominal_chain_at_home_is_shown() {
+    let about = |axis: usize, angle: f64| -> [[f64; 4]; 4] {
+        let (s, c) = angle.sin_cos();
+        match axis {
+            0 => [[1.0, 0.0, 0.0, 0.0], [0.0, c, -s, 0.0], [0.0, s, c, 0.0], [0.0, 0.0, 0.0, 1.0]],
+            _ => [[c, -s, 0.0, 0.0], [s, c, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]],
+        }
+    };
+    let along = |axis: usize, length: f64| {
+        let mut matrix = about(2, 0.0);
+        matrix[axis][3] = length;
+        matrix
+    };
+    let mut numbers = 0;
+    for shipped in SHIPPED {
+        let home = &json(&["check", shipped.name, "--json"])["home"];
+        let mut pose = about(2, 0.0);
+        for link in home["frames"].as_array().unwrap() {
+            let shown = matrix(&link["matrix"]);
+            if let Some(dh) = link.get("dh") {
+                let [theta, d, a, alpha] = ["theta", "d", "a", "alpha"].map(|key| dh[key].as_f64().unwrap());
+                let motions = match dh["convention"].as_str().unwrap() {
+                    "standard" => [about(2, theta), along(2, d), along(0, a), about(0, alpha)],
+                    _ => [about(0, alpha), along(0, a), about(2, theta), along(2, d)],
+                };
+                let made = motions.iter().skip(1).fold(motions[0], |made, motion| product(&made, motion));
+                assert!(near(&shown, &made), "{} {link}", shipped.name);
+                numbers += 1;
+            }
+            pose = product(&pose, &shown);
+        }
+        let pose = product(&pose, &matrix(&home["tool"]));
+        assert!(near(&matrix(&home["pose"]), &pose), "{}", shipped.name);
+        let jacobian = json(&["jacobian", shipped.name, "--json"]);
+        assert!(near(&matrix(&jacobian["pose"]), &pose), "{}", shipped.name);
+    }
+    assert!(numbers > 30, "{numbers} frames have Denavit-Hartenberg numbers");
+    let text = prints(&["check", "pps"]);
+    assert!(text.contains("Nominal chain at home") && text.contains("Axes and origins at home"), "{text}");
+    let slide = json(&["check", "pps", "--json"]);
+    assert!(slide["home"]["frames"].as_array().unwrap().iter().any(|link| link.get("dh").is_none()));
+}
+
+#[test]
+fn angles_beyond_a_turn_are_doubted() {
+    let spec = |alpha: &str, more: &str| {
+        format!(
+            "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[parameters]\ntwist = 90\n[[frame]]\nname = \"elbow\"\n\
+             variable = {{ name = \"q1\", kind = \"revolute\" {more} }}\n\
+             dh = {{ theta = \"q1\", d = 0, a = \"400 mm\", alpha = {alpha} }}\n\
+             [tool]\ntransform = \"Rx(twist)\"\n"
+        )
+    };
+    let folder = tempdir().unwrap();
+    let warned = |text: &str| {
+        let path = write(folder.path(), "arm.toml", text);
+        let run = abbe(&["check", path.to_str().unwrap()]);
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let report = json(&["check", path.to_str().unwrap(), "--json"]);
+        let warnings = report["warnings"].as_array().unwrap();
+        for warning in warnings {
+            assert!(run.stderr.contains(warning["message"].as_str().unwrap()), "{}", run.stderr);
+        }
+        warnings.clone()
+    };
+    let found = warned(&spec("90", ""));
+    assert_eq!(found.len(), 2);
+    let expected =
+        "an angle of the frame \"elbow\" is 90 rad, more than a turn; write 90deg if degrees are meant";
+    assert_eq!((found[0]["message"].as_str().unwrap(), &found[0]["line"]), (expected, &9.into()));
+    assert!(found[1]["message"].as_str().unwrap().starts_with("an angle of the tool is 90 rad"));
+    // With a unit it is meant, and less than a turn is no wonder.
+    let without = |text: &str| warned(&text.replace("Rx(twist)", "Rx(twist/90)"));
+    assert!(without(&spec("\"720 deg\"", "")).is_empty());
+    assert!(without(&spec("\"2*pi\"", "")).is_empty());
+    assert_eq!(without(&spec("0", ", limits = [-180, 180]")).len(), 2);
+    assert!(without(&spec("0", ", limits = [\"-720 deg\", \"720 deg\"]")).is_empty());
+    for shipped in SHIPPED {
+        assert_eq!(
+            json(&["check", shipped.name, "--json"])["warnings"],
+            serde_json::json!([]),
+            "{}",
+            shipped.name
+        );
+    }
+}

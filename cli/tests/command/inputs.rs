@@ -247,3 +247,64 @@ fn simulations_and_plans_have_a_column_for_them() {
     assert!(run.stderr.contains("`payload` stays at 0 kg: the map has no column for it"), "{}", run.stderr);
     assert!(run.stderr.contains("`payload = { column = \"payload\", unit = \"kg\" }`"), "{}", run.stderr);
 }
+
+/// The range of a name in the table `[fitted]` of a spec, without units.
+fn fitted(spec: &str, name: &str) -> [f64; 2] {
+    let table = spec.split("\n[fitted]\n").nth(1).unwrap();
+    let line = table.lines().find(|line| line.starts_with(&format!("{name} = "))).unwrap();
+    let ends = line.split('"').skip(1).step_by(2);
+    let ends: Vec<f64> = ends.map(|end| end.split(' ').next().unwrap().parse().unwrap()).collect();
+    [ends[0], ends[1]]
+}
+
+#[test]
+fn an_identified_spec_remembers_where_it_was_fitted() {
+    let folder = tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let map = map(folder.path(), "[inputs]\npayload = { column = \"load\", unit = \"kg\" }");
+    for (file, seed) in [("fit.csv", "1"), ("other.csv", "2")] {
+        let (file, noise) = (path(file), "0.001mm");
+        let samples = ["simulate", ARM, "--map", &map, "--samples", "60", "--noise", noise, "--seed", seed];
+        fs::write(&file, prints(&samples)).unwrap();
+    }
+    let (found, again) = (path("found.toml"), path("again.toml"));
+    prints(&["identify", ARM, &path("fit.csv"), "--map", &map, "--out", &found]);
+    let spec = fs::read_to_string(&found).unwrap();
+    let payload = fitted(&spec, "payload");
+    assert!(payload[0] >= 0.0 && payload[1] <= 5.0 && payload[0] < payload[1], "{payload:?}");
+
+    // Where it was fitted there is nothing to be said; elsewhere rows are counted, and rightly.
+    let inside = abbe(&["measure", &found, &path("fit.csv"), "--map", &map]);
+    assert!(inside.status == 0 && !inside.stderr.contains("extrapolated"), "{}", inside.stderr);
+    let ranges = ["d1", "q2", "q3", "payload"].map(|name| fitted(&spec, name));
+    let scales = [1.0, 1_f64.to_radians(), 1_f64.to_radians(), 1.0];
+    let mut reader = csv::Reader::from_path(path("other.csv")).unwrap();
+    let outside = |record: csv::StringRecord| {
+        (0..4).any(|i| {
+            let value = record[i].parse::<f64>().unwrap() * scales[i];
+            value < ranges[i][0] || value > ranges[i][1]
+        })
+    };
+    let count = reader.records().filter(|record| outside(record.as_ref().unwrap().clone())).count();
+    assert!(count > 0);
+    for command in ["measure", "compensate"] {
+        let data = path("other.csv");
+        let arguments: &[&str] = match command {
+            "measure" => &["measure", &found, &data, "--map", &map],
+            _ => &["compensate", &found, "--data", &data, "--map", &map],
+        };
+        let run = abbe(arguments);
+        let expected = format!("{count} of 60 rows are outside the ranges");
+        assert!(run.stderr.contains(&expected), "{command}: {expected}\n{}", run.stderr);
+        assert!(run.stderr.contains("what is said of them is extrapolated"), "{}", run.stderr);
+    }
+    let run = abbe(&["analyze", &found]);
+    assert!(run.stderr.contains("of 2000 configurations are outside the ranges"), "{}", run.stderr);
+    assert!(run.stderr.contains("payload beyond "), "{}", run.stderr);
+
+    // Identified anew it remembers the new rows.
+    prints(&["identify", &found, &path("other.csv"), "--map", &map, "--out", &again]);
+    let spec = fs::read_to_string(&again).unwrap();
+    assert_eq!(spec.matches("[fitted]").count(), 1);
+    assert_ne!(fitted(&spec, "payload"), payload);
+}

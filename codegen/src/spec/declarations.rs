@@ -148,7 +148,12 @@ impl Declarations {
     }
 
     /// Two ends of an interval, the lower one first.
-    fn interval(&self, item: &Item<'_>, dimension: Dimension, document: &mut Document) -> Option<[f64; 2]> {
+    pub(super) fn interval(
+        &self,
+        item: &Item<'_>,
+        dimension: Dimension,
+        document: &mut Document,
+    ) -> Option<[f64; 2]> {
         let what = format!("an end of `{}`", item.key);
         let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
         let ends: [Item<'_>; 2] = document.entries(item, "two numbers, lower and upper")?;

@@ -2,7 +2,7 @@
 
 crate::tables! {
     FILE: ["the file"],
-        ["manipulator", "parameters", "inputs", "frame", "tool", "source", "load", "gravity"];
+        ["manipulator", "parameters", "inputs", "frame", "tool", "source", "load", "gravity", "fitted"];
     MANIPULATOR: ["[manipulator]"],
         ["name", "title", "description", "reference", "length", "orientation", "gravity"];
     PARAMETER: ["[parameters.NAME]"], ["value", "description", "reference"];

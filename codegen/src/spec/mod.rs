@@ -9,6 +9,7 @@ mod describe;
 mod deviations;
 mod effects;
 mod elastic;
+mod fitted;
 mod frames;
 mod keys;
 mod loads;
@@ -20,6 +21,7 @@ mod sources;
 mod types;
 
 pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
+pub use fitted::Fitted;
 pub use keys::TABLES;
 pub use types::{
     Axes, Beam, Cause, ChainNumber, Compliance, Deviation, DhConvention, DhNumber, Effect, Factor, Frame,

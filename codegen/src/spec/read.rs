@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::declarations::Declarations;
 use super::deviations::Chain;
+use super::fitted::read_fitted;
 use super::frames::{OwnVariable, convention, read_factors};
 use super::keys;
 use super::loads::{check_loaded, read_gravity, read_loads};
@@ -96,6 +97,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     };
     check_loaded(root, &sources, &loads, gravity.is_some(), document);
     check_signs(&sources, &loads, &declarations, document);
+    let fitted = read_fitted(root, &declarations, document);
     raw_frames?;
     complete.then_some(())?;
     let Declarations { parameters, inputs, variables, .. } = declarations;
@@ -118,6 +120,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         sources,
         loads,
         gravity,
+        fitted,
         file,
         hash,
     })

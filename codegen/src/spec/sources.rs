@@ -4,10 +4,10 @@ use super::deviations::{Chain, read_deviations};
 use super::effects::read_effect;
 use super::keys;
 use super::names::title_of;
-use super::{Class, Deviation, Distribution, Effect, Magnitude, Source};
+use super::{Cause, Class, Deviation, Distribution, Effect, Magnitude, Source};
 use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry};
+use crate::expr::{Allowed, Dimension, Entry, Expression};
 use crate::keys::Keys;
 
 /// What a source may say: of itself, and of what it does.
@@ -87,7 +87,36 @@ fn read_source(
     let reference = section.optional_text("reference", document);
     let Acts { effects, deviations } = acts;
     let (class, enabled) = (class?, enabled?);
+    if let Class::Random(distribution) = class {
+        check_half_width(distribution, &effects, &deviations, document);
+    }
     Some(Source { name, class, enabled, description, reference, magnitude, effects, deviations })
+}
+
+/// A half-width or standard deviation has no sign. The effects of a random source share one magnitude, so that their
+/// signs matter against each other: what cannot be is that all are negative.
+fn check_half_width(
+    distribution: Distribution,
+    effects: &[Effect],
+    deviations: &[Deviation],
+    document: &mut Document,
+) {
+    let mut errors: Vec<&Expression> = deviations.iter().map(|deviation| &deviation.error).collect();
+    for effect in effects {
+        let Cause::Errors(list) = &effect.cause else { return };
+        errors.extend(list.iter().map(|(_, error)| error));
+    }
+    let negative = |error: &&Expression| error.constant().is_some_and(|value| value < 0.0);
+    let Some(first) = errors.first().filter(|_| errors.iter().all(negative)) else { return };
+    let message = match distribution {
+        Distribution::Normal => "a standard deviation cannot be negative",
+        _ => "a half-width cannot be negative",
+    };
+    document.mistake(
+        Diagnostic::new(first.span(), message)
+            .label(format!("this is {}", first.constant().unwrap_or_default()))
+            .help("a random error goes either way: leave the minus out"),
+    );
 }
 
 /// What a source does, and to what.

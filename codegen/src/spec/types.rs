@@ -2,6 +2,7 @@
 
 use abbe::{Class, Component, LengthUnit, Orientation, VariableKind};
 
+use super::Fitted;
 use crate::diagnostic::Span;
 use crate::expr::{Dimension, Elementary, Expression, Motion};
 
@@ -36,6 +37,8 @@ pub struct Spec {
     pub loads: Vec<Load>,
     /// The acceleration of gravity in `F_0`.
     pub gravity: Option<[Expression; 3]>,
+    /// Where the errors of an identified machine were fitted; nothing if they were not.
+    pub fitted: Vec<Fitted>,
     /// The file's name, without its folder.
     pub file: String,
     /// SHA-256 of the file's text, in hexadecimal.

@@ -2,8 +2,8 @@
 
 use abbe::Description;
 use abbe::analysis::{
-    Admissible, Budget, Measurand, Row, Statement, Unevaluated, Watch, Workspace, compliance, error_budget,
-    errors_at, monte_carlo,
+    Admissible, Budget, Measurand, Row, Statement, Subset, Unevaluated, Watch, Workspace, compliance,
+    error_budget, errors_at, monte_carlo,
 };
 use abbe_codegen::diagnostic::Diagnostics;
 
@@ -17,7 +17,10 @@ use crate::changes::Changes;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::study_file::Study;
-use crate::{mistake, number};
+use crate::{data, mistake, number};
+
+/// At how many configurations it is looked whether errors are extrapolated.
+const EXTRAPOLATED: usize = 2000;
 
 /// The draws of verdicts and budgets are always the same: they are to be as good as integrals.
 const SEED: u64 = 0;
@@ -158,7 +161,18 @@ impl Analyze {
             figures: gathered,
         };
         report.warn_of_first_order(notes);
+        self.warn_of_extrapolation(workspace, notes);
         Ok(report)
+    }
+
+    /// Looks at some configurations of a large workspace.
+    fn warn_of_extrapolation(&self, workspace: &dyn Workspace, notes: &mut dyn Notes) {
+        if self.machine.spec.fitted.is_empty() {
+            return;
+        }
+        let seen = Subset { workspace, count: EXTRAPOLATED }.reached();
+        let places = seen.iter().map(|place| (&place.q[..], &place.u[..]));
+        data::warn_of_extrapolation(&self.machine.spec, "configurations", places, notes);
     }
 
     fn require_reached(&self, budget: &Budget) -> Result<(), Diagnostics> {

@@ -1,8 +1,10 @@
 //! Whether a spec is right, and what follows from it.
 //!
-//! `facts` is what the spec says, `identifiable` what measurements could tell, `laws` whether the closed form agrees
+//! `facts` is what the spec says, `chain` its matrices at home, `angles` which of its angles are hardly meant, `identifiable` what measurements could tell, `laws` whether the closed form agrees
 //! with the exact chain.
 
+mod angles;
+mod chain;
 mod facts;
 mod identifiable;
 mod laws;
@@ -17,6 +19,8 @@ use serde::Serialize;
 use crate::machine::Machine;
 use crate::notes::Notes;
 
+pub use angles::Warning;
+pub use chain::{Chain, Dh, Link};
 pub use facts::{Facts, Frame, Function, Source, Value, Variable};
 pub use identifiable::Identifiable;
 pub use laws::{Law, laws};
@@ -34,6 +38,10 @@ pub struct Report {
     /// What the spec says.
     #[serde(flatten)]
     pub facts: Facts,
+    /// The nominal chain at home; none if it has no finite pose there.
+    pub home: Option<Chain>,
+    /// Numbers that are hardly meant as they stand.
+    pub warnings: Vec<Warning>,
     /// What measurements could tell: poses, then tool points; each without and with an unknown base frame.
     pub identifiable: Vec<Identifiable>,
     /// At how many configurations the laws were checked.
@@ -53,15 +61,18 @@ impl Check {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let spec = &self.machine.spec;
         let facts = Facts::new(spec, &self.machine.origin);
+        let interpreter = Interpreter::new(Arc::clone(spec));
         notes.go_on()?;
         let identifiable = identifiable::count(spec);
         notes.go_on()?;
         let configurations = laws::configurations(spec);
         Ok(Report {
             facts,
+            home: Chain::at_home(spec, &interpreter),
+            warnings: angles::warnings(spec, &self.machine.text()?),
             identifiable,
             configurations,
-            laws: laws(&Interpreter::new(Arc::clone(spec)), configurations),
+            laws: laws(&interpreter, configurations),
             moved: identifiable::configurations(spec.frames.len()),
             spec: Arc::clone(spec),
         })

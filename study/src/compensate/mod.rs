@@ -6,7 +6,7 @@ use abbe::identify::Figures;
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use crate::data::{Base, Data, Map, Summary, Table, Unusable};
+use crate::data::{Base, Data, Map, Summary, Table, Unusable, warn_of_extrapolation};
 use crate::{Machine, Notes, mistake};
 
 pub use rows::{Norms, Row};
@@ -72,13 +72,15 @@ impl Size {
 
 impl Compensate {
     /// Corrects row by row.
-    pub fn run(&self, _notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, tolerance, .. } = self;
         if self.poses {
             check_poses(map)?;
         }
         let manipulator = machine.evaluator(true);
         let mut data = self.data.clone();
+        let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
+        warn_of_extrapolation(&machine.spec, "rows", places, notes);
         let rows = rows::rows(&*manipulator, &mut data, self.poses, *tolerance)?;
         Ok(Report {
             name: machine.spec.name.clone(),

@@ -2,7 +2,8 @@
 
 use abbe::Component;
 use abbe::identify::Unknown;
-use abbe_codegen::spec::Spec;
+use abbe_codegen::expr::Symbol;
+use abbe_codegen::spec::{Fitted, Spec};
 
 use super::solve::Solved;
 use super::terms::Term;
@@ -20,6 +21,8 @@ pub struct FoundModel {
     pub frames: Vec<Vec<FoundError>>,
     /// The richer terms.
     pub terms: Vec<FoundTerm>,
+    /// The ranges of joints and inputs on which all this was fitted.
+    pub fitted: Vec<Fitted>,
 }
 
 /// A constant generalized error.
@@ -68,6 +71,7 @@ impl FoundModel {
                 Some(FoundTerm { term: *term, magnitude: fit.x[k], standard_deviation: deviations[k]? })
             })
             .collect();
+        found.fitted = fitted(spec, data);
         let (unit, file) = (spec.length.symbol(), std::path::Path::new(&data.file));
         found.reference = format!(
             "Identified from {} rows of {} by abbe {}: rms {} {unit} left, {} {unit} on rows left out in turn",
@@ -79,4 +83,21 @@ impl FoundModel {
         );
         found
     }
+}
+
+/// The ranges that the rows cover.
+fn fitted(spec: &Spec, data: &Data) -> Vec<Fitted> {
+    let symbols = (0..spec.variables.len()).map(Symbol::Variable);
+    let symbols = symbols.chain((0..spec.inputs.len()).map(Symbol::Input));
+    let range = |symbol| {
+        let values = data.observations.iter().map(|row| match symbol {
+            Symbol::Input(i) => row.u[i],
+            Symbol::Variable(i) => row.q[i],
+            _ => 0.0,
+        });
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], value| {
+            [least.min(value), largest.max(value)]
+        })
+    };
+    symbols.map(|symbol| Fitted { symbol, range: range(symbol) }).collect()
 }

@@ -2,7 +2,8 @@
 
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::{Document, Section};
-use abbe_codegen::spec::Spec;
+use abbe_codegen::expr::Symbol;
+use abbe_codegen::spec::{Fitted, Spec, VariableKind};
 
 use super::found::{FoundError, FoundModel, FoundTerm};
 use super::terms::{Basis, Term};
@@ -28,9 +29,12 @@ impl FoundModel {
              name = {base:?}\norigin = {{ xyz = [0, 0, 0] }}\n\n"
         );
         let sources = self.sources(spec, &base);
+        let kept = without_fitted(text);
+        let text = kept.as_str();
+        let fitted = self.fitted_table(spec);
         let at = before_frames(text);
-        let mut new = format!("{}{frame}{}\n{sources}", &text[..at], text[at..].trim_end());
-        let mut added = format!("{frame}{}", sources.trim_start());
+        let mut new = format!("{}{frame}{}\n{sources}\n{fitted}", &text[..at], text[at..].trim_end());
+        let mut added = format!("{frame}{}\n{fitted}", sources.trim_start());
         if self.terms.iter().any(|found| found.term.basis == Basis::Moment) {
             let [load, gravity] = weight(spec);
             new = format!("{gravity}{}\n{load}", new.trim_end());
@@ -46,6 +50,22 @@ impl FoundModel {
         let constants = names.zip(errors).filter(|(_, errors)| !errors.is_empty());
         let constants = constants.map(|(frame, errors)| self.constant(spec, frame, errors));
         constants.chain(self.terms.iter().map(|found| self.term(spec, found))).collect()
+    }
+
+    /// Where all this was fitted.
+    fn fitted_table(&self, spec: &Spec) -> String {
+        let line = |fitted: &Fitted| {
+            let unit = match fitted.symbol {
+                Symbol::Variable(i) if spec.variables[i].kind == VariableKind::Revolute => "rad",
+                Symbol::Input(i) => &spec.inputs[i].unit,
+                _ => spec.length.symbol(),
+            };
+            let [lower, upper] =
+                fitted.range.map(|end| format!("{} {unit}", number(end)).trim_end().to_owned());
+            format!("{} = [{lower:?}, {upper:?}]\n", fitted.name(spec))
+        };
+        let lines = self.fitted.iter().map(line).collect::<String>();
+        format!("# The ranges of joints and inputs on which the errors were fitted.\n[fitted]\n{lines}")
     }
 
     fn constant(&self, spec: &Spec, frame: &str, errors: &[FoundError]) -> String {
@@ -111,6 +131,18 @@ fn weight(spec: &Spec) -> [String; 2] {
         if spec.loads.is_empty() { load } else { String::new() },
         if spec.gravity.is_none() { gravity } else { String::new() },
     ]
+}
+
+/// A spec without what an earlier identification says of its ranges.
+fn without_fitted(text: &str) -> String {
+    let mut inside = false;
+    let kept = text.split_inclusive('\n').filter(|line| {
+        if line.starts_with('[') {
+            inside = line.trim_end() == "[fitted]";
+        }
+        !inside && !line.starts_with("# The ranges of joints and inputs on which the errors were fitted.")
+    });
+    kept.collect()
 }
 
 /// Where the first frame begins, the comments above it included.

@@ -12,7 +12,7 @@ use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
-use crate::data::{Base, Data, Map, Summary, Table};
+use crate::data::{Base, Data, Map, Summary, Table, warn_of_extrapolation};
 use crate::identify::{Setup, check_readings};
 use crate::{Machine, Notes, mistake};
 
@@ -98,13 +98,15 @@ impl Size {
 
 impl Measure {
     /// Compares every row with the ideal machine and with the predicted one.
-    pub fn run(&self, _notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, data } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let setup = Setup::new(&interpreter, map, data, 0)?;
         check_readings(&setup, map, data)?;
         let mut data = data.clone();
         let rows = errors::row_errors(&setup, &mut data)?;
+        let places = rows.iter().map(|row| (&row.observation.q[..], &row.observation.u[..]));
+        warn_of_extrapolation(&machine.spec, "rows", places, notes);
         let unit = machine.spec.length.symbol();
         let along = |axis: usize| rows.iter().map(|row| row.error[axis]).collect::<Vec<_>>();
         let mut errors: Vec<Size> = ["x", "y", "z"]

@@ -1,9 +1,11 @@
 //! `abbe check`: whether a spec is right, and what follows from it.
 
+mod chain;
+
 use abbe_codegen::spec::{Spec, VariableKind};
-use abbe_study::Machine;
 use abbe_study::check::{self, Identifiable, Law, Report};
 use abbe_study::number::{quantity, short};
+use abbe_study::{Machine, Notes};
 
 use crate::arguments::Check;
 use crate::console::Console;
@@ -13,7 +15,12 @@ use crate::table::{Table, wrapped};
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let job = check::Check { machine: Machine::find(&arguments.spec)? };
-    let report = job.run(&mut Console::default())?;
+    let mut console = Console::default();
+    let report = job.run(&mut console)?;
+    for warning in &report.warnings {
+        let line = warning.line.map(|line| format!(":{line}")).unwrap_or_default();
+        console.warn(&format!("{}{line}: {}", report.facts.spec, warning.message));
+    }
     let shown = if arguments.json { json(&report)? } else { text(&report) };
     Ok(Outcome::checked(shown, report.passed()))
 }
@@ -27,6 +34,9 @@ fn text(report: &Report) -> String {
     }
     parts[0] += &format!("\nLengths in {length}, orientation {}\n", report.facts.orientation);
     parts.push(format!("Frames\n{}", frames(spec)));
+    if let Some(home) = &report.home {
+        parts.push(chain::text(home, length));
+    }
     if !spec.parameters.is_empty() {
         let rows = spec
             .parameters

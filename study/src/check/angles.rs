@@ -1,0 +1,102 @@
+//! Angles beyond a whole turn: degrees, most likely, to which nobody gave the unit.
+
+use std::f64::consts::TAU;
+
+use abbe_codegen::diagnostic::Span;
+use abbe_codegen::expr::{Expression, Motion, Symbol, motion};
+use abbe_codegen::graph::Graph;
+use abbe_codegen::spec::{Cause, ChainNumber, DhNumber, Factor, Spec, VariableKind};
+use serde::Serialize;
+
+use super::chain::value_at_home;
+use crate::number::short;
+
+/// A number that is hardly meant as it stands.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Warning {
+    /// The line of the spec, from 1; none where it is known by its name alone.
+    pub line: Option<usize>,
+    /// What is doubtful, and what to write instead.
+    pub message: String,
+}
+
+/// Those of a spec whose text is `text`, in the order of the chain, then of the sources.
+pub(super) fn warnings(spec: &Spec, text: &str) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut check = |what: String, value: f64, span: Option<Span>| {
+        if value.abs() > TAU {
+            let line = span.map(|span| {
+                1 + text.as_bytes()[..span.start.min(text.len())]
+                    .iter()
+                    .filter(|byte| **byte == b'\n')
+                    .count()
+            });
+            let value = short(value);
+            let message =
+                format!("{what} is {value} rad, more than a turn; write {value}deg if degrees are meant");
+            warnings.push(Warning { line, message });
+        }
+    };
+    for variable in spec.variables.iter().filter(|variable| variable.kind == VariableKind::Revolute) {
+        for limit in variable.limits.iter().filter(|limit| limit.is_finite() && limit.fract() == 0.0) {
+            check(format!("a limit of `{}`", variable.name), *limit, None);
+        }
+    }
+    let links =
+        spec.frames.iter().map(|frame| (format!("an angle of the frame \"{}\"", frame.name), &frame.factors));
+    for (what, factors) in links.chain([("an angle of the tool".to_owned(), &spec.tool)]) {
+        for angle in factors.iter().filter_map(rotation) {
+            let (value, span) = doubtful(angle, spec, text);
+            check(what.clone(), value, Some(span));
+        }
+    }
+    for source in &spec.sources {
+        let what = format!("an angle of the source \"{}\"", source.name);
+        let errors = source.effects.iter().flat_map(|effect| match &effect.cause {
+            Cause::Errors(errors) => &errors[..],
+            Cause::Beam(_) | Cause::Compliance(_) => &[],
+        });
+        let errors = errors.filter(|(component, _)| motion(*component).0 == Motion::Rotation);
+        let errors = errors.map(|(_, error)| error);
+        let deviations = source.deviations.iter().filter(|deviation| turns(deviation.number, spec));
+        for angle in errors.chain(deviations.map(|deviation| &deviation.error)) {
+            let (value, span) = doubtful(angle, spec, text);
+            check(what.clone(), value, Some(span));
+        }
+    }
+    warnings
+}
+
+/// The angle that a factor turns by.
+fn rotation(factor: &Factor) -> Option<&Expression> {
+    match factor {
+        Factor::Elementary(elementary) if elementary.motion == Motion::Rotation => Some(&elementary.amount),
+        Factor::About { motion: Motion::Rotation, amount, .. } => Some(amount),
+        _ => None,
+    }
+}
+
+/// Whether a number of the chain is an angle.
+fn turns(number: ChainNumber, spec: &Spec) -> bool {
+    match number {
+        ChainNumber::Joint(i) => spec.variables[i].kind == VariableKind::Revolute,
+        ChainNumber::Parameter(_) => false,
+        ChainNumber::DenavitHartenberg { number, .. } => {
+            matches!(number, DhNumber::Theta | DhNumber::Alpha)
+        }
+    }
+}
+
+/// The value of an angle at home and its place; nothing of one that is written with a unit.
+fn doubtful(angle: &Expression, spec: &Spec, text: &str) -> (f64, Span) {
+    let written = text.get(angle.span()).unwrap_or_default();
+    let meant = ["deg", "rad", "arc"].iter().any(|unit| written.contains(unit));
+    let named = angle.symbols().any(|symbol| matches!(symbol, Symbol::Parameter(_) | Symbol::Input(_)));
+    if meant && !named {
+        return (0.0, angle.span());
+    }
+    let mut graph = Graph::new();
+    let node = graph.lower(angle);
+    let value = graph.evaluate(&[node], |symbol| value_at_home(symbol, spec))[0];
+    (value, angle.span())
+}

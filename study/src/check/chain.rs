@@ -1,0 +1,121 @@
+//! The nominal chain at home: the matrices `A_i` as the spec gives them, and the pose that they make.
+
+use abbe::analysis::sampling;
+use abbe::{Manipulator, Pose};
+use abbe_codegen::expr::{Elementary, Symbol};
+use abbe_codegen::graph::Graph;
+use abbe_codegen::spec::{DhConvention, DhNumber, Factor, Spec};
+use serde::Serialize;
+
+/// `A_1 … A_n`, the tool and the tool point at home, with nominal parameters.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chain {
+    /// Base to tip.
+    pub frames: Vec<Link>,
+    /// `T`, from `F_n` to the tool point, row by row.
+    pub tool: [[f64; 4]; 4],
+    /// The tool point in `F_0`, row by row.
+    pub pose: [[f64; 4]; 4],
+}
+
+/// One `A_i` at home.
+#[derive(Clone, Debug, Serialize)]
+pub struct Link {
+    /// The frame's name.
+    pub name: String,
+    /// Its Denavit-Hartenberg numbers, if the spec gives it by them or as a product of motions in their order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dh: Option<Dh>,
+    /// The matrix, row by row: `F_i` coordinates to `F_{i-1}`.
+    pub matrix: [[f64; 4]; 4],
+}
+
+/// Denavit-Hartenberg numbers: lengths in the spec's unit, angles in rad.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Dh {
+    /// `standard`: `Rz(theta) Tz(d) Tx(a) Rx(alpha)`; `modified`: `Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
+    pub convention: &'static str,
+    /// The turn about z.
+    pub theta: f64,
+    /// The shift along z.
+    pub d: f64,
+    /// The shift along x.
+    pub a: f64,
+    /// The turn about x.
+    pub alpha: f64,
+}
+
+impl Chain {
+    /// None if there is no finite pose at home.
+    pub(super) fn at_home(spec: &Spec, manipulator: &dyn Manipulator) -> Option<Self> {
+        let description = manipulator.description();
+        let (q, s) = (sampling::home(description), sampling::nominal_parameters(description));
+        let mut transforms = vec![Pose::IDENTITY; spec.frames.len() + 1];
+        manipulator.transforms(&q, &s, &mut transforms).ok()?;
+        // Adding 0 makes −0 a plain 0.
+        let rows = |pose: &Pose| pose.rows().map(|row| row.map(|entry| entry + 0.0));
+        let frames = spec.frames.iter().zip(&transforms).map(|(frame, matrix)| Link {
+            name: frame.name.clone(),
+            dh: Dh::new(&frame.factors, frame.convention, spec),
+            matrix: rows(matrix),
+        });
+        Some(Self {
+            frames: frames.collect(),
+            tool: transforms.last().map(rows)?,
+            pose: rows(&manipulator.pose(&q, &s).ok()?),
+        })
+    }
+}
+
+impl Dh {
+    /// The numbers of a frame that the spec gives by them, or as elementary motions each of which is one of them, in the
+    /// order of either convention. What is not there is 0.
+    fn new(factors: &[Factor], convention: Option<DhConvention>, spec: &Spec) -> Option<Self> {
+        let all = [DhConvention::Standard, DhConvention::Modified];
+        let conventions = convention.as_ref().map_or(&all[..], std::slice::from_ref);
+        let (convention, numbers) =
+            conventions.iter().find_map(|convention| Some((convention, in_order(factors, *convention)?)))?;
+        let value = |wanted: DhNumber| {
+            let found = numbers.iter().find(|(number, _)| *number == wanted);
+            found.map_or(0.0, |(_, factor)| at_home(factor, spec))
+        };
+        Some(Self {
+            convention: match convention {
+                DhConvention::Standard => "standard",
+                DhConvention::Modified => "modified",
+            },
+            theta: value(DhNumber::Theta),
+            d: value(DhNumber::D),
+            a: value(DhNumber::A),
+            alpha: value(DhNumber::Alpha),
+        })
+    }
+}
+
+/// Which number each factor is, if they are some of the four in the convention's order.
+fn in_order(factors: &[Factor], convention: DhConvention) -> Option<Vec<(DhNumber, &Elementary)>> {
+    let mut left = convention.order().into_iter();
+    let mut numbers = Vec::new();
+    for factor in factors {
+        let Factor::Elementary(elementary) = factor else { return None };
+        let number = left.find(|number| number.motion() == (elementary.motion, elementary.axis))?;
+        numbers.push((number, elementary));
+    }
+    Some(numbers)
+}
+
+fn at_home(factor: &Elementary, spec: &Spec) -> f64 {
+    let mut graph = Graph::new();
+    let node = graph.lower(&factor.amount);
+    graph.evaluate(&[node], |symbol| value_at_home(symbol, spec))[0] + 0.0
+}
+
+/// What a name stands for at home.
+pub(super) fn value_at_home(symbol: Symbol, spec: &Spec) -> f64 {
+    match symbol {
+        Symbol::Variable(i) => spec.variables[i].home,
+        Symbol::Parameter(i) => spec.parameters[i].value,
+        Symbol::Input(i) => spec.inputs[i].value,
+        Symbol::Magnitude(_) | Symbol::Error(_) | Symbol::Local(_) => 0.0,
+    }
+}
