@@ -38,7 +38,7 @@ pub(crate) fn displacement(e: &[f64; 6]) -> Pose {
 /// The six errors of a frame from those at another place on its link, exactly: `E_i = L E_M L⁻¹` (Figure 5).
 ///
 /// `place` is `L`, the pose of that place as seen from the frame; `errors` are those at the place, in its axes.
-/// What generated code gives for a located source is this to first order.
+/// The effects of a located source are this to first order; the real pose of generated code is exact.
 pub fn located(place: &Pose, errors: &[f64; 6]) -> [f64; 6] {
     let displaced = place.then(&displacement(errors)).then(&place.inverse());
     let ([x, y, z], [spin, roll, pitch]) = (displaced.position(), euler_yzx(&displaced));

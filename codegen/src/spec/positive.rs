@@ -162,8 +162,9 @@ fn first_negative_pivot(mut rest: [[f64; 6]; 6]) -> Option<usize> {
                 continue;
             }
             let factor = rest[j][i] / rest[i][i];
-            for k in i + 1..6 {
-                rest[j][k] -= factor * rest[i][k];
+            let pivot_row = rest[i];
+            for (entry, above) in rest[j].iter_mut().zip(pivot_row).skip(i + 1) {
+                *entry -= factor * above;
             }
         }
     }
