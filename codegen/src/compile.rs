@@ -35,10 +35,10 @@ pub fn compile(specs: impl AsRef<Path>) {
 
 /// Generates a module for every `*.toml` in `specs`, and `abbe_manipulators.rs` that includes them, in `out`.
 ///
-/// Returns the specs read, in order of their names. Files whose contents stay the same are not touched. Nothing
+/// Returns the specs read, in order of their names, and the files of their tables. Files whose contents stay the same are not touched. Nothing
 /// is written if any spec has a mistake.
 pub fn compile_into(specs: &Path, out: &Path) -> Result<Vec<PathBuf>, CompileError> {
-    let files = spec_files(specs)?;
+    let mut files = spec_files(specs)?;
     let mut read: Vec<Spec> = Vec::new();
     let mut mistaken = Vec::new();
     for file in &files {
@@ -60,6 +60,7 @@ pub fn compile_into(specs: &Path, out: &Path) -> Result<Vec<PathBuf>, CompileErr
         return Err(CompileError::Specs(mistaken));
     }
     let mut index = String::new();
+    files.extend(read.iter().flat_map(|spec| spec.beside.iter().cloned()));
     for spec in &read {
         let file = format!("abbe_{}.rs", spec.name);
         write_if_changed(&out.join(&file), &print::rust(spec))?;

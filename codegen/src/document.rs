@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::Spanned;
@@ -25,12 +25,16 @@ pub struct Document {
     pub text: Arc<str>,
     /// The mistakes found so far.
     pub found: Vec<Diagnostic>,
+    /// The folder that it is in; none of a text that is in no file.
+    pub folder: Option<PathBuf>,
+    /// Further files that were read for it, and what is in them.
+    pub(crate) beside: Vec<(PathBuf, Vec<u8>)>,
 }
 
 impl Document {
     /// A text that has been read already.
     pub fn new(path: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
-        Self { path: path.into(), text: text.into(), found: Vec::new() }
+        Self { path: path.into(), text: text.into(), found: Vec::new(), folder: None, beside: Vec::new() }
     }
 
     /// Reads a file. Missing, unreadable, too large and not UTF-8 are [`Diagnostics`] like any other mistake.
@@ -59,7 +63,10 @@ impl Document {
             return Err(fail(first, mistake));
         }
         let bytes = match String::from_utf8(bytes) {
-            Ok(text) => return Ok(Self::new(name, text)),
+            Ok(text) => {
+                let folder = path.parent().map(Path::to_owned);
+                return Ok(Self { folder, ..Self::new(name, text) });
+            }
             Err(error) => error,
         };
         let valid = bytes.utf8_error().valid_up_to();

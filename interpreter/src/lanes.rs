@@ -2,10 +2,11 @@
 //! the operation costs next to nothing.
 
 use std::cell::Cell;
+use std::sync::Arc;
 
 use abbe::Scalar;
 use abbe::lanes::{Kernel, Lanes, Register, Tiles};
-use abbe_codegen::expr::Function;
+use abbe_codegen::expr::{Function, Lookup, Table};
 use abbe_codegen::program::Action;
 
 use crate::tape::{Instruction, Part, Slot, Tape};
@@ -63,7 +64,7 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
                 Part::Program { turns, body } => {
                     for turn in turns {
                         self.moves(&turn.reads);
-                        self.instructions(body);
+                        self.instructions(body, &tape.tables);
                         self.moves(&turn.writes);
                     }
                 }
@@ -79,7 +80,7 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
     }
 
     #[inline(always)]
-    fn instructions(&mut self, instructions: &[Instruction]) {
+    fn instructions(&mut self, instructions: &[Instruction], tables: &[Arc<Table>]) {
         for instruction in instructions {
             match instruction.action {
                 Action::Neg(_) => self.map(instruction, |a, _, _| -a),
@@ -97,12 +98,24 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
                     Function::Sqrt => self.map(instruction, |a, _, _| a.sqrt()),
                     Function::Abs => self.map(instruction, |a, _, _| a.abs()),
                     // What goes number by number anyway: nothing is lost by a call.
+                    Function::Exp => self.by_call(instruction, |a, _, _| a.exp()),
+                    Function::Log => self.by_call(instruction, |a, _, _| a.ln()),
+                    Function::Side => self.by_call(instruction, |a, _, _| a.side()),
                     Function::Sign => self.by_call(instruction, |a, _, _| a.sign()),
                     Function::Tan => self.by_call(instruction, |a, _, _| a.tan()),
                     Function::Asin => self.by_call(instruction, |a, _, _| a.asin()),
                     Function::Acos => self.by_call(instruction, |a, _, _| a.acos()),
                     Function::Atan => self.by_call(instruction, |a, _, _| a.atan()),
                 },
+                Action::Min(..) => self.map(instruction, |a, b, _| a.min(b)),
+                Action::Max(..) => self.map(instruction, |a, b, _| a.max(b)),
+                Action::Lookup(Lookup { table, order }, _) => {
+                    let table = tables[usize::from(table)].lookup();
+                    match order {
+                        0 => self.map(instruction, |x, _, _| table.value(x)),
+                        order => self.map(instruction, |x, _, _| table.derivative(order.into(), x)),
+                    }
+                }
                 Action::Pow(..) => self.by_call(instruction, |a, b, _| a.powf(b)),
                 Action::Atan2(..) => self.by_call(instruction, |a, b, _| a.atan2(b)),
             }

@@ -1,7 +1,9 @@
 //! A function ready to run: every operand a slot of one array, slots used again once their value is done with.
 
+use std::sync::Arc;
+
 use abbe::Function;
-use abbe_codegen::expr::Symbol;
+use abbe_codegen::expr::{Symbol, Table};
 use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
 
 /// A place among the values of a block.
@@ -45,6 +47,7 @@ pub(crate) struct Turn {
 pub(crate) struct Tape {
     pub(crate) parts: Vec<Part>,
     pub(crate) constants: Vec<f64>,
+    pub(crate) tables: Vec<Arc<Table>>,
     pub(crate) outputs: Vec<Slot>,
     pub(crate) slots: usize,
     /// How many slots the arguments take.
@@ -71,7 +74,8 @@ impl Tape {
         }
         let outputs = packer.routine(routine, places).concat();
         let Packer { parts, constants, slots, .. } = packer;
-        Self { parts, constants, outputs, slots, arguments }
+        let tables = routines.lookup_tables.clone();
+        Self { parts, constants, tables, outputs, slots, arguments }
     }
 }
 

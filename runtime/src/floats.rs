@@ -1,11 +1,11 @@
 //! `f64` and `f32` as scalars.
 
-use crate::Scalar;
 use crate::sin_cos;
 #[cfg(not(target_arch = "x86_64"))]
 use crate::sin_cos::array::Array as Pair;
 #[cfg(target_arch = "x86_64")]
 use crate::x86::Sse2 as Pair;
+use crate::{LookupTable, Scalar};
 
 macro_rules! scalar {
     ($float:ident, $sin_cos:expr $(, $each:ident)?; $($function:ident: $libm:ident),+; $atan2:ident, $pow:ident) => {
@@ -45,6 +45,23 @@ macro_rules! scalar {
                 if self > 0.0 { 1.0 } else if self < 0.0 { -1.0 } else { self * 0.0 }
             }
             #[inline]
+            fn side(self) -> Self {
+                if self >= 0.0 { 1.0 } else if self < 0.0 { -1.0 } else { self }
+            }
+            #[inline]
+            fn min(self, other: Self) -> Self {
+                if self < other || self.is_nan() { self } else { other }
+            }
+            #[inline]
+            fn max(self, other: Self) -> Self {
+                if self > other || self.is_nan() { self } else { other }
+            }
+            #[inline]
+            fn piece(self, table: &LookupTable<'_>) -> (Self, [Self; 4]) {
+                let (t, coefficients) = table.find(f64::from(self));
+                (t as $float, coefficients.map(|coefficient| coefficient as $float))
+            }
+            #[inline]
             fn powf(self, exponent: Self) -> Self {
                 #[cfg(feature = "std")]
                 { $float::powf(self, exponent) }
@@ -55,10 +72,10 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f64, sin_cos::scalar, each; tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs;
+scalar!(f64, sin_cos::scalar, each; tan: tan, asin: asin, acos: acos, atan: atan, sqrt: sqrt, abs: fabs, exp: exp, ln: log;
     atan2, pow);
 #[cfg(feature = "std")]
-scalar!(f32, f32::sin_cos; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf; atan2f, powf);
+scalar!(f32, f32::sin_cos; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf, exp: expf, ln: logf; atan2f, powf);
 #[cfg(not(feature = "std"))]
-scalar!(f32, libm::sincosf; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf;
+scalar!(f32, libm::sincosf; tan: tanf, asin: asinf, acos: acosf, atan: atanf, sqrt: sqrtf, abs: fabsf, exp: expf, ln: logf;
     atan2f, powf);

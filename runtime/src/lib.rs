@@ -39,6 +39,7 @@ mod drawn_pose;
 mod error;
 mod floats;
 pub mod function;
+mod lookup_table;
 mod manipulator;
 #[cfg(feature = "nalgebra")]
 mod nalgebra_views;
@@ -76,6 +77,7 @@ pub use description::{
 pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
 pub use error::{Error, MINIMUM_MARGIN, Quantity};
 pub use function::Function;
+pub use lookup_table::LookupTable;
 pub use manipulator::Manipulator;
 #[cfg(feature = "nalgebra")]
 pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};

@@ -2,6 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::LookupTable;
+
 /// A number type for generated code: `f64` and `f32` here, dual numbers or lanes where you need them.
 ///
 /// Angles are radians. `sin_cos` is what generated code calls wherever both are needed.
@@ -54,8 +56,22 @@ pub trait Scalar:
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
-    /// −1, 0 or 1: the derivative of the absolute value, 0 where it has none.
+    /// Exponential function.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// −1, 0 or 1.
     fn sign(self) -> Self;
+    /// −1 below 0, else 1: the derivative of the absolute value, at 0 that to the right.
+    fn side(self) -> Self;
+    /// The smaller of two numbers; not a number if one of them is not.
+    fn min(self, other: Self) -> Self;
+    /// The larger of two numbers; not a number if one of them is not.
+    fn max(self, other: Self) -> Self;
     /// A power with any exponent.
     fn powf(self, exponent: Self) -> Self;
+    /// Of the polynomial that a table is at this x: its argument t, and its coefficients, the lowest power first.
+    ///
+    /// A type with derivatives gives t its own: `dt/dx` is [`LookupTable::unit`].
+    fn piece(self, table: &LookupTable<'_>) -> (Self, [Self; 4]);
 }

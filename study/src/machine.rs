@@ -119,7 +119,7 @@ fn unknown(argument: &str) -> Diagnostics {
     let mut document = Document::new("SPEC", argument);
     let names = SHIPPED.iter().map(|shipped| shipped.name).collect::<Vec<_>>();
     find_name(&mut document, 0..argument.len(), argument, &names, "shipped manipulator");
-    let Document { path, text, found } = document;
+    let Document { path, text, found, .. } = document;
     let list = found.into_iter().map(|mistake| mistake.label("and no such file")).collect();
     Diagnostics { path, text, list }
 }

@@ -9,6 +9,9 @@
 /// - Rows: x, y, z of the tool point; small rotation about x, y, z of `F_0`.
 /// - Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).
 ///
+/// Derivatives are one-sided, and that of `sign` is 0, in frame 2: where the argument of `abs` is
+/// 0.
+///
 /// | frame | name | variable |
 /// |---|---|---|
 /// | 1 | first \| \`frame\` | Some |
@@ -492,7 +495,7 @@ pub mod self_ {
             let t18 = -sin_2.mul_add(ERRORS_, p2_y);
             let t19 = cos_2.mul_add(ERRORS_, p2_x);
             let t20 = T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002));
-            let t21 = Some_.sign() * t20;
+            let t21 = Some_.side() * t20;
             let t22 = r2_11 * t21;
             let t23 = r2_21 * t21;
             let t24 = r2_31.mul_add(t21, T::constant(1.0));

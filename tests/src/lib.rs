@@ -6,9 +6,20 @@ pub mod chains;
 pub mod frame_loop;
 pub mod needs;
 
+/// The specs in `specs/`.
+pub mod specs {
+    use std::path::PathBuf;
+
+    /// The path of one of them.
+    pub fn path(name: &str) -> PathBuf {
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("specs").join(format!("{name}.toml"))
+    }
+}
+
 /// Generated code.
 pub mod golden {
     include!("../golden/long.rs");
+    include!("../golden/measured.rs");
     include!("../golden/pps.rs");
     include!("../golden/puma560.rs");
     include!("../golden/self_.rs");

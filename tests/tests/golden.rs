@@ -4,12 +4,12 @@
 
 use std::path::Path;
 
-use abbe::{Manipulator, Scalar};
+use abbe::{LookupTable, Manipulator, Scalar};
 use abbe_codegen::spec::Spec;
 use abbe_codegen::{CompileError, compile_into, print};
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::long_chain;
-use abbe_tests::golden;
+use abbe_tests::{golden, specs};
 use expect_test::expect_file;
 
 /// The smallest spec there is: everything optional is missing.
@@ -62,6 +62,9 @@ e_p = "columns * 1e-6 + 1e-6/s*pose + asin(_s/2)/tan(T)^2"
 "#;
 
 fn spec(name: &str) -> Spec {
+    if name == "measured" {
+        return Spec::read(specs::path(name)).unwrap();
+    }
     let long = long_chain();
     let own = [("long", &*long), ("slide", SLIDE), ("self_", NAMES)];
     let shipped = SHIPPED.iter().map(|shipped| (shipped.name, shipped.spec));
@@ -71,7 +74,7 @@ fn spec(name: &str) -> Spec {
 
 #[test]
 fn generated_code_is_what_is_checked_in() {
-    for name in ["long", "pps", "puma560", "self_", "slide"] {
+    for name in ["long", "measured", "pps", "puma560", "self_", "slide"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{name}.rs"));
         expect_file![path].assert_eq(&print::rust(&spec(name)));
     }
@@ -250,8 +253,27 @@ impl Scalar for Dual {
     fn abs(self) -> Self {
         self.chain(self.0.abs(), self.0.signum())
     }
+    fn exp(self) -> Self {
+        self.chain(self.0.exp(), self.0.exp())
+    }
+    fn ln(self) -> Self {
+        self.chain(self.0.ln(), 1.0 / self.0)
+    }
     fn sign(self) -> Self {
         Self::constant(self.0.signum())
+    }
+    fn side(self) -> Self {
+        Self::constant(Scalar::side(self.0))
+    }
+    fn min(self, other: Self) -> Self {
+        if self.0 < other.0 { self } else { other }
+    }
+    fn max(self, other: Self) -> Self {
+        if self.0 > other.0 { self } else { other }
+    }
+    fn piece(self, table: &LookupTable<'_>) -> (Self, [Self; 4]) {
+        let (t, coefficients) = self.0.piece(table);
+        (self.chain(t, table.unit()), coefficients.map(Self::constant))
     }
     fn powf(self, exponent: Self) -> Self {
         self.chain(self.0.powf(exponent.0), exponent.0 * self.0.powf(exponent.0 - 1.0))

@@ -13,6 +13,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::{coupled_joints, long_chain};
 use abbe_tests::needs::{Missing, run, tool};
+use abbe_tests::specs;
 
 /// Words of JavaScript, and names that its functions use.
 const NAMES: &str = r#"
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
     run([
         ("shipped_robots", shipped_robots as _),
         ("long_chains", long_chains as _),
+        ("tables_and_functions", tables_and_functions as _),
         ("names_that_mean_something", names_that_mean_something as _),
     ])
 }
@@ -65,6 +67,12 @@ fn long_chains() -> Result<(), Missing> {
     tool("node", "")?;
     assert_equal(Spec::parse("long.toml", &long_chain()).unwrap(), 50);
     assert_equal(Spec::parse("coupled.toml", coupled_joints()).unwrap(), 50);
+    Ok(())
+}
+
+fn tables_and_functions() -> Result<(), Missing> {
+    tool("node", "")?;
+    assert_equal(Spec::read(specs::path("measured")).unwrap(), 1000);
     Ok(())
 }
 

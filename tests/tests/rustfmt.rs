@@ -27,8 +27,11 @@ fn rustfmt_changes_nothing() -> Result<(), Missing> {
     let generated = specs
         .chain([("long", &*long), ("coupled", coupled)])
         .map(|(name, text)| write(name, &print::rust(&Spec::parse(name, text).unwrap())));
-    let checked_in =
-        [("self_", include_str!("../golden/self_.rs")), ("slide", include_str!("../golden/slide.rs"))];
+    let checked_in = [
+        ("measured", include_str!("../golden/measured.rs")),
+        ("self_", include_str!("../golden/self_.rs")),
+        ("slide", include_str!("../golden/slide.rs")),
+    ];
     let checked_in = checked_in.map(|(name, text)| write(name, text));
     let arguments = ["--check", "--edition", "2024"];
     let output = Command::new("rustfmt").args(arguments).args(generated.chain(checked_in)).output().unwrap();

@@ -33,11 +33,11 @@ fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
     match abbe_codegen::spec::Spec::read(&path) {
         Ok(spec) => {
             let module: proc_macro2::TokenStream = abbe_codegen::print::rust(&spec).parse()?;
-            let path = path.to_string_lossy();
+            let files = [&path].into_iter().chain(&spec.beside).map(|path| path.to_string_lossy());
             // The compiler watches files that are included.
             Ok(quote! {
                 #module
-                const _: &str = include_str!(#path);
+                #(const _: &[u8] = include_bytes!(#files);)*
             })
         }
         Err(mut diagnostics) => {
@@ -66,7 +66,7 @@ mod tests {
         let written: proc_macro2::TokenStream = print::rust(&spec).parse().unwrap();
         let expanded = expanded(file).unwrap().to_string();
         let watched = expanded.strip_prefix(&written.to_string()).unwrap();
-        assert!(watched.contains("include_str"));
+        assert!(watched.contains("include_bytes"));
     }
 
     #[test]

@@ -80,7 +80,7 @@ pub(super) const LONGEST_WITHOUT_LOOPS: usize = 30;
 impl Model {
     /// Builds all nodes. A checked spec cannot fail.
     pub fn new(spec: &Spec) -> Self {
-        let mut graph = Graph::new();
+        let mut graph = Graph::with_tables(&spec.tables);
         let g = &mut graph;
         let mut steps: Vec<Step> = Vec::new();
         let mut frames = Vec::with_capacity(spec.frames.len());

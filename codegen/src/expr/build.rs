@@ -1,8 +1,9 @@
 //! Makes the terms of an expression: names and dimensions are checked and constants folded as each is made.
 
 use super::function::FUNCTION_NAMES;
+use super::reach::reaches_beyond;
 use super::scope::Allowed;
-use super::{Binary, Dimension, Entry, Expression, Function, Kind, Scope, Term, UNIT_NAMES, Unit};
+use super::{Binary, Dimension, Entry, Expression, Function, Kind, Lookup, Scope, Term, UNIT_NAMES, Unit};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 
 /// Terms under construction. Mistakes of meaning go to `found` and do not stop the construction.
@@ -16,6 +17,15 @@ pub(super) struct Builder<'b> {
 impl<'b> Builder<'b> {
     pub(super) fn new(scope: &'b Scope, found: &'b mut Vec<Diagnostic>) -> Self {
         Self { scope, found, terms: Vec::new(), allowed: Allowed::Nothing }
+    }
+
+    pub(super) fn scope(&self) -> &'b Scope {
+        self.scope
+    }
+
+    /// How many terms there are.
+    pub(super) fn len(&self) -> usize {
+        self.terms.len()
     }
 
     /// Begins an entry that may use the given names.
@@ -73,7 +83,7 @@ impl<'b> Builder<'b> {
             let mistake = if Unit::named(name).is_some() {
                 Diagnostic::new(span, format!("the unit `{name}` must follow a number"))
                     .help(format!("write `1 {name}`"))
-            } else if FUNCTION_NAMES.contains(&name) {
+            } else if FUNCTION_NAMES.contains(&name) || self.scope.table(name).is_some() {
                 Diagnostic::new(span, format!("the function `{name}` needs its argument in parentheses"))
                     .help(format!("write `{name}(…)`"))
             } else if self.allowed == Allowed::Nothing {
@@ -104,6 +114,7 @@ impl<'b> Builder<'b> {
         let found = self.terms[operand].dimension;
         let dimension = found.and_then(|found| match function {
             Function::Abs => Some(found),
+            Function::Sign => Some(Dimension::NONE),
             Function::Sqrt => found.power(0.5).or_else(|| {
                 self.mistake(
                     operand,
@@ -123,11 +134,46 @@ impl<'b> Builder<'b> {
         self.push_folded(Kind::Call(function, operand), dimension, value, span)
     }
 
-    pub(super) fn atan2(&mut self, y: usize, x: usize, span: Span) -> usize {
-        let dimension =
-            self.equal(y, x, "the two arguments of `atan2` must be of one kind").map(|_| Dimension::NONE);
-        let value = self.both(y, x).map(|(y, x)| y.atan2(x));
-        self.push_folded(Kind::Binary(Binary::Atan2, y, x), dimension, value, span)
+    /// `atan2`, `min` or `max`.
+    pub(super) fn function_of_two(&mut self, operator: Binary, a: usize, b: usize, span: Span) -> usize {
+        let dimension = match operator {
+            Binary::Atan2 => {
+                self.equal(a, b, "the two arguments of `atan2` must be of one kind").map(|_| Dimension::NONE)
+            }
+            Binary::Min => self.equal(a, b, "the arguments of `min` must be of one kind"),
+            _ => self.equal(a, b, "the arguments of `max` must be of one kind"),
+        };
+        let value = self.both(a, b).map(|(a, b)| operator.of(a, b));
+        self.push_folded(Kind::Binary(operator, a, b), dimension, value, span)
+    }
+
+    /// The same term, which reaches as far as its closing parenthesis.
+    pub(super) fn respan(&mut self, term: usize, span: Span) -> usize {
+        self.terms[term].span = span;
+        term
+    }
+
+    /// The value of a table, whose argument are the terms from `begin` on.
+    pub(super) fn look_up(&mut self, name: &str, begin: usize, span: Span) -> usize {
+        let argument = self.terms.len() - 1;
+        let (index, table) = self.scope.table(name).expect("the parser has found it");
+        let [expected, dimension] = table.dimensions;
+        let own: Vec<Term> = self.terms[begin..]
+            .iter()
+            .map(|term| Term { kind: term.kind.map(|operand| operand - begin), ..term.clone() })
+            .collect();
+        let found = self.terms[argument].dimension;
+        if let Some(found) = found.filter(|found| *found != expected) {
+            let message = format!("`{name}` takes {expected}, not {found}");
+            let help = "the unit of its x says what it takes; divide or multiply to get there";
+            self.mistake(argument, message, help);
+        }
+        let beyond = reaches_beyond(&own, table, self.scope);
+        let value = self.terms[argument].value.filter(|_| beyond.is_none()).map(|x| table.derivative(0, x));
+        self.found.extend(beyond);
+        let kind = Kind::Lookup(Lookup { table: index, order: 0 }, argument);
+        let dimension = found.filter(|found| *found == expected).map(|_| dimension);
+        self.push(Term { kind, dimension, value, span, bare: false })
     }
 
     pub(super) fn binary(&mut self, operator: Binary, left: usize, right: usize) -> usize {
@@ -140,16 +186,9 @@ impl<'b> Builder<'b> {
             Binary::Mul => both.and_then(|(l, r)| self.or_absurd(l.times(r), &span)),
             Binary::Div => both.and_then(|(l, r)| self.or_absurd(l.over(r), &span)),
             Binary::Pow => self.power(left, right),
-            Binary::Atan2 => l,
+            Binary::Atan2 | Binary::Min | Binary::Max => l,
         };
-        let value = self.both(left, right).map(|(l, r)| match operator {
-            Binary::Add => l + r,
-            Binary::Sub => l - r,
-            Binary::Mul => l * r,
-            Binary::Div => l / r,
-            Binary::Pow => l.powf(r),
-            Binary::Atan2 => l.atan2(r),
-        });
+        let value = self.both(left, right).map(|(l, r)| operator.of(l, r));
         if operator == Binary::Div && self.terms[right].value == Some(0.0) {
             self.mistake(
                 right,
@@ -240,6 +279,9 @@ impl<'b> Builder<'b> {
                 (true, Kind::Call(Function::Asin | Function::Acos, _)) => {
                     ("has no real value", "the argument must be between -1 and 1")
                 }
+                (_, Kind::Call(Function::Log, _)) => {
+                    ("has no real value", "a logarithm needs more than zero")
+                }
                 (true, _) => ("has no real value", "roots and powers need a base that is not negative"),
                 (false, _) => ("is too large for a number", "the largest number is about 1.8e308"),
             };
@@ -258,7 +300,8 @@ impl<'b> Builder<'b> {
 fn unknown(name: &str, span: Span, scope: &Scope) -> Diagnostic {
     let names = scope.names.keys().map(String::as_str);
     let mistake = Diagnostic::new(span, format!("there is no variable, parameter or input `{name}`"));
-    let candidates = names.clone().chain(FUNCTION_NAMES).chain(UNIT_NAMES);
+    let tables = scope.tables.iter().map(|table| table.name.as_str());
+    let candidates = names.clone().chain(tables).chain(FUNCTION_NAMES).chain(UNIT_NAMES);
     match nearest(name, candidates) {
         Some(near) => mistake.help(format!("did you mean `{near}`?")),
         None if scope.names.is_empty() => mistake.help("this spec declares no names"),

@@ -48,7 +48,10 @@ impl Expression {
         let place = left + right.terms().len();
         let mut terms = self.into_terms();
         terms.extend(
-            right.into_terms().into_iter().map(|term| Term { kind: behind(term.kind, left), ..term }),
+            right
+                .into_terms()
+                .into_iter()
+                .map(|term| Term { kind: term.kind.map(|operand| operand + left), ..term }),
         );
         Self::new(terms).with(Kind::Binary(operator, left - 1, place - 1), dimension, value)
     }
@@ -57,16 +60,6 @@ impl Expression {
         let mut terms = self.into_terms();
         terms.push(Term { kind, dimension, value, span: 0..0, bare: false });
         Self::new(terms)
-    }
-}
-
-/// What a term is when so many others stand before it.
-fn behind(kind: Kind, others: usize) -> Kind {
-    match kind {
-        Kind::Number(_) | Kind::Symbol(_) => kind,
-        Kind::Neg(a) => Kind::Neg(a + others),
-        Kind::Binary(operator, a, b) => Kind::Binary(operator, a + others, b + others),
-        Kind::Call(function, a) => Kind::Call(function, a + others),
     }
 }
 

@@ -1,6 +1,10 @@
 //! A checked expression.
 
-use super::{Dimension, Function, Symbol};
+use std::sync::Arc;
+
+use abbe::Scalar;
+
+use super::{Dimension, Function, Symbol, Table};
 use crate::diagnostic::Span;
 
 /// An operator of two operands.
@@ -18,6 +22,35 @@ pub enum Binary {
     Pow,
     /// `atan2(y, x)`.
     Atan2,
+    /// The smaller.
+    Min,
+    /// The larger.
+    Max,
+}
+
+impl Binary {
+    /// Its value.
+    pub fn of(self, left: f64, right: f64) -> f64 {
+        match self {
+            Self::Add => left + right,
+            Self::Sub => left - right,
+            Self::Mul => left * right,
+            Self::Div => left / right,
+            Self::Pow => left.powf(right),
+            Self::Atan2 => left.atan2(right),
+            Self::Min => Scalar::min(left, right),
+            Self::Max => Scalar::max(left, right),
+        }
+    }
+}
+
+/// A table, or a derivative of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Lookup {
+    /// Which of the spec's tables.
+    pub table: u16,
+    /// The order of the derivative, 0 for the table itself.
+    pub order: u16,
 }
 
 /// What a term is. Operands are indices of earlier terms.
@@ -33,6 +66,21 @@ pub enum Kind {
     Binary(Binary, usize, usize),
     /// A function.
     Call(Function, usize),
+    /// A table.
+    Lookup(Lookup, usize),
+}
+
+impl Kind {
+    /// The same with other operands.
+    pub(super) fn map(self, f: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Number(_) | Self::Symbol(_) => self,
+            Self::Neg(a) => Self::Neg(f(a)),
+            Self::Binary(operator, a, b) => Self::Binary(operator, f(a), f(b)),
+            Self::Call(function, a) => Self::Call(function, f(a)),
+            Self::Lookup(lookup, a) => Self::Lookup(lookup, f(a)),
+        }
+    }
 }
 
 /// A term of an expression.
@@ -116,4 +164,22 @@ impl Expression {
             _ => None,
         })
     }
+}
+
+/// The value of each term.
+pub(super) fn values(terms: &[Term], tables: &[Arc<Table>], symbol: impl Fn(Symbol) -> f64) -> Vec<f64> {
+    let mut values: Vec<f64> = Vec::with_capacity(terms.len());
+    for term in terms {
+        values.push(match term.kind {
+            Kind::Number(value) => value,
+            Kind::Symbol(name) => symbol(name),
+            Kind::Neg(a) => -values[a],
+            Kind::Binary(operator, a, b) => operator.of(values[a], values[b]),
+            Kind::Call(function, a) => function.of(values[a]),
+            Kind::Lookup(lookup, a) => {
+                tables[usize::from(lookup.table)].derivative(u32::from(lookup.order), values[a])
+            }
+        });
+    }
+    values
 }

@@ -1,6 +1,8 @@
 //! The functions that an expression may call.
 
-/// A function of one argument; `atan2`, the only one of two, is an operator of its own.
+use abbe::Scalar;
+
+/// A function of one argument; `atan2`, `min` and `max` are operators of two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
     /// Sine.
@@ -19,12 +21,19 @@ pub enum Function {
     Sqrt,
     /// Absolute value.
     Abs,
-    /// −1, 0 or 1: the derivative of the absolute value. Not for spec files.
+    /// Exponential function.
+    Exp,
+    /// Natural logarithm.
+    Log,
+    /// −1, 0 or 1.
     Sign,
+    /// −1 below 0, else 1: the derivative of the absolute value. Not for spec files.
+    Side,
 }
 
-/// The functions a spec may name, `atan2` among them.
-pub const FUNCTION_NAMES: [&str; 9] = ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "abs"];
+/// The functions a spec may name, those of several arguments among them.
+pub const FUNCTION_NAMES: [&str; 14] =
+    ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sqrt", "abs", "min", "max", "sign", "exp", "log"];
 
 impl Function {
     /// The function of that name in a spec file.
@@ -38,11 +47,14 @@ impl Function {
             "atan" => Self::Atan,
             "sqrt" => Self::Sqrt,
             "abs" => Self::Abs,
+            "exp" => Self::Exp,
+            "log" => Self::Log,
+            "sign" => Self::Sign,
             _ => return None,
         })
     }
 
-    /// Its name in spec files and in generated code.
+    /// Its name in spec files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sin => "sin",
@@ -53,7 +65,10 @@ impl Function {
             Self::Atan => "atan",
             Self::Sqrt => "sqrt",
             Self::Abs => "abs",
+            Self::Exp => "exp",
+            Self::Log => "log",
             Self::Sign => "sign",
+            Self::Side => "side",
         }
     }
 
@@ -68,8 +83,10 @@ impl Function {
             Self::Atan => x.atan(),
             Self::Sqrt => x.sqrt(),
             Self::Abs => x.abs(),
-            Self::Sign if x == 0.0 => 0.0,
-            Self::Sign => x.signum(),
+            Self::Exp => x.exp(),
+            Self::Log => x.ln(),
+            Self::Sign => x.sign(),
+            Self::Side => x.side(),
         }
     }
 }

@@ -6,11 +6,14 @@
 
 mod build;
 mod construct;
+mod cubic;
 mod dimension;
 mod expression;
 mod function;
 mod parse;
+mod reach;
 mod scope;
+mod table;
 mod tokens;
 mod transform;
 mod unit;
@@ -18,13 +21,14 @@ mod value;
 
 pub use abbe::LengthUnit;
 pub use dimension::Dimension;
-pub use expression::{Binary, Expression, Kind, Term};
+pub use expression::{Binary, Expression, Kind, Lookup, Term};
 pub use function::{FUNCTION_NAMES, Function};
 pub use scope::{Allowed, Entry, Name, Scope, Symbol};
+pub use table::{Interpolation, Outside, Table};
 pub use transform::{Elementary, Motion, motion};
 pub use unit::{UNIT_NAMES, Unit};
 pub use value::{find_name, parse_value};
 
-pub(crate) use parse::parse_expression;
+pub(crate) use parse::{parse_expression, parse_unit};
 pub(crate) use tokens::Place;
 pub(crate) use transform::parse_transform;

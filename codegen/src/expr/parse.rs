@@ -5,7 +5,7 @@
 //! product = signed { ("*" | "/") signed }
 //! signed  = ("+" | "-") signed | power
 //! power   = atom [ "^" signed ]
-//! atom    = number [unit] | name | "pi" | function "(" sum { "," sum } ")" | "(" sum ")"
+//! atom    = number [unit] | name | "pi" | (function | table) "(" sum { "," sum } ")" | "(" sum ")"
 //! unit    = [factor] { ("*" | "/") factor }      factor = unit-name ["^" ["-"] digits] | "(" unit ")"
 //! ```
 
@@ -13,7 +13,7 @@ use super::build::Builder;
 use super::function::FUNCTION_NAMES;
 use super::tokens::{Token, tokens};
 use super::{Binary, Entry, Expression, Function, Place, Scope, Unit};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, nearest};
 
 /// How deep parentheses, functions, signs and powers may nest.
 const DEPTH: usize = 100;
@@ -39,6 +39,25 @@ pub(crate) fn parse_expression(
             None
         }
     }
+}
+
+/// Parses a text that is a unit, or nothing for none. A mistake goes to `found` and gives none.
+pub(crate) fn parse_unit(
+    text: &str,
+    place: &Place,
+    scope: &Scope,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Unit> {
+    let unit = Parser::new(text, place, scope, &mut Vec::new()).and_then(|mut parser| {
+        let mut span = parser.here();
+        let unit = parser.unit(&mut span)?;
+        match parser.peek() {
+            Token::End => Ok(unit.unwrap_or(Unit::NONE)),
+            Token::Word(word) => Err(unknown_unit(word, parser.here())),
+            _ => Err(parser.unexpected("a unit")),
+        }
+    });
+    unit.map_err(|mistake| found.push(mistake)).ok()
 }
 
 /// A place in the tokens of a text, and the terms of the expression being read.
@@ -188,7 +207,12 @@ impl<'p> Parser<'p> {
             Token::Number(value) => {
                 let (_, mut span) = self.advance();
                 let unit = self.unit(&mut span)?;
-                Ok(self.builder.number(value, unit, span))
+                match self.peek() {
+                    Token::Word(word) if unit.is_none() && !self.is_known(word) => {
+                        Err(unknown_unit(word, self.here()))
+                    }
+                    _ => Ok(self.builder.number(value, unit, span)),
+                }
             }
             Token::Word(word) => {
                 let (_, span) = self.advance();
@@ -209,24 +233,48 @@ impl<'p> Parser<'p> {
     }
 
     fn call(&mut self, word: &str, start: Span) -> Parsed<usize> {
-        if word != "atan2" && Function::named(word).is_none() {
+        let two = match word {
+            "atan2" => Some(Binary::Atan2),
+            "min" => Some(Binary::Min),
+            "max" => Some(Binary::Max),
+            _ => None,
+        };
+        let function = Function::named(word);
+        let is_table = self.builder.scope().table(word).is_some();
+        if two.is_none() && function.is_none() && !is_table {
+            let tables = self.builder.scope().tables.iter().map(|table| table.name.as_str());
+            let known: Vec<&str> = FUNCTION_NAMES.into_iter().chain(tables).collect();
             return Err(Diagnostic::new(start, format!("there is no function `{word}`"))
-                .help(crate::diagnostic::suggestion(word, &FUNCTION_NAMES, "functions")));
+                .help(crate::diagnostic::suggestion(word, &known, "functions")));
         }
         self.expect('(')?;
+        let begin = self.builder.len();
         let first = self.nested(Self::sum)?;
-        let second = if word == "atan2" {
-            self.expect(',')?;
-            Some(self.nested(Self::sum)?)
-        } else {
-            None
-        };
+        let mut whole = first;
+        if let Some(operator) = two {
+            let mut more = true;
+            while more {
+                self.expect(',')?;
+                let next = self.nested(Self::sum)?;
+                whole = self.builder.function_of_two(operator, whole, next, start.start..self.here().end);
+                // Of several numbers one is the smallest, but a point has two coordinates.
+                more = operator != Binary::Atan2 && self.peek() == Token::Sign(',');
+            }
+        }
         let end = self.expect(')')?;
         let span = start.start..end.end;
-        Ok(match (Function::named(word), second) {
-            (Some(function), _) => self.builder.call(function, first, span),
-            (None, second) => self.builder.atan2(first, second.unwrap_or(first), span),
+        Ok(match function {
+            Some(function) => self.builder.call(function, first, span),
+            None if is_table => self.builder.look_up(word, begin, span),
+            None => self.builder.respan(whole, span),
         })
+    }
+
+    /// Whether a word after a number is known, so that what is missing is an operator.
+    fn is_known(&self, word: &str) -> bool {
+        let scope = self.builder.scope();
+        let is_name = scope.names.contains_key(word) || scope.table(word).is_some() || word == "pi";
+        is_name || FUNCTION_NAMES.contains(&word) || Unit::named(word).is_some()
     }
 
     /// The unit that follows a number, if one does; `span` grows over it.
@@ -246,7 +294,10 @@ impl<'p> Parser<'p> {
     fn unit_factor_ahead(&self, ahead: usize) -> bool {
         let mut tokens = self.tokens[self.at..].iter().skip(ahead).map(|token| token.0);
         let first = tokens.find(|token| *token != Token::Sign('(') || ahead == 0);
-        matches!(first, Some(Token::Word(name)) if Unit::named(name).is_some())
+        // `min(` is the function.
+        let mut is_function =
+            |name: &str| FUNCTION_NAMES.contains(&name) && tokens.next() == Some(Token::Sign('('));
+        matches!(first, Some(Token::Word(name)) if Unit::named(name).is_some() && !is_function(name))
     }
 
     fn unit_product(&mut self) -> Parsed<Unit> {
@@ -302,4 +353,13 @@ impl<'p> Parser<'p> {
 
 fn unit_help() -> String {
     format!("units: {}", super::UNIT_NAMES.join(" "))
+}
+
+fn unknown_unit(word: &str, span: Span) -> Diagnostic {
+    let mistake =
+        Diagnostic::new(span, format!("`{}` is no unit", word.escape_debug())).label("unknown unit");
+    mistake.help(match nearest(word, super::UNIT_NAMES) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => unit_help(),
+    })
 }

@@ -1,8 +1,10 @@
 //! What a name in an expression can be.
 
+use std::sync::Arc;
+
 use indexmap::IndexMap;
 
-use super::{Dimension, LengthUnit};
+use super::{Dimension, LengthUnit, Table};
 use crate::diagnostic::Span;
 
 /// What a name stands for, with its index among its kind.
@@ -31,6 +33,8 @@ pub struct Name {
     pub dimension: Option<Dimension>,
     /// Where it is declared.
     pub span: Span,
+    /// Its least and its largest value, infinite without limits.
+    pub range: [f64; 2],
 }
 
 /// Every declared name of a spec, and its length unit.
@@ -40,6 +44,21 @@ pub struct Scope {
     pub length: LengthUnit,
     /// The names, in the order of their declaration.
     pub names: IndexMap<String, Name>,
+    /// The functions that are given by points.
+    pub tables: Vec<Arc<Table>>,
+}
+
+impl Scope {
+    /// No names yet.
+    pub fn new(length: LengthUnit) -> Self {
+        Self { length, names: IndexMap::new(), tables: Vec::new() }
+    }
+
+    /// The table of that name, and which it is.
+    pub(super) fn table(&self, name: &str) -> Option<(u16, &Arc<Table>)> {
+        let index = self.tables.iter().position(|table| table.name == name)?;
+        Some((u16::try_from(index).ok()?, &self.tables[index]))
+    }
 }
 
 /// What is expected of an expression that is a whole entry of a spec.

@@ -51,6 +51,7 @@ pub(crate) fn tokens<'t>(text: &'t str, place: &Place) -> Result<Vec<(Token<'t>,
         let token = match character {
             '0'..='9' | '.' => Token::Number(number(piece, || place.span(range.clone()))?),
             c if c.is_alphabetic() || c == '_' => Token::Word(piece),
+            '%' => Token::Word(piece),
             '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => Token::Sign(character),
             other => {
                 let help = match other {

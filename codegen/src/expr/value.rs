@@ -49,7 +49,7 @@ pub fn parse_value(
     if document.found.len() > mistakes {
         return None;
     }
-    let scope = Scope { length, names: Default::default() };
+    let scope = Scope::new(length);
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
     let value = parse_expression(text, &place, &scope, entry, &mut document.found)?.constant()?;
     if !value.is_finite() {

@@ -1,8 +1,10 @@
 //! The arena of nodes.
 
+use std::sync::Arc;
+
 use indexmap::{IndexMap, IndexSet};
 
-use crate::expr::{Function, Symbol};
+use crate::expr::{Function, Lookup, Symbol, Table};
 
 /// A handle to a node of a [`Graph`]. Operands have smaller handles than the node that uses them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -36,8 +38,14 @@ pub enum Op {
     Pow(Node, Node),
     /// The angle of the point (second, first).
     Atan2(Node, Node),
+    /// The smaller.
+    Min(Node, Node),
+    /// The larger.
+    Max(Node, Node),
     /// A function of one operand.
     Call(Function, Node),
+    /// A table.
+    Lookup(Lookup, Node),
 }
 
 impl Op {
@@ -45,13 +53,15 @@ impl Op {
     pub fn operands(self) -> impl Iterator<Item = Node> + Clone {
         let (first, second) = match self {
             Self::Constant(_) | Self::Symbol(_) => (None, None),
-            Self::Neg(a) | Self::Call(_, a) => (Some(a), None),
+            Self::Neg(a) | Self::Call(_, a) | Self::Lookup(_, a) => (Some(a), None),
             Self::Add(a, b)
             | Self::Sub(a, b)
             | Self::Mul(a, b)
             | Self::Div(a, b)
             | Self::Pow(a, b)
-            | Self::Atan2(a, b) => (Some(a), Some(b)),
+            | Self::Atan2(a, b)
+            | Self::Min(a, b)
+            | Self::Max(a, b) => (Some(a), Some(b)),
         };
         first.into_iter().chain(second)
     }
@@ -63,12 +73,23 @@ pub struct Graph {
     ops: IndexSet<Op>,
     names: IndexMap<Node, String>,
     numbers: IndexMap<u64, String>,
+    tables: Vec<Arc<Table>>,
 }
 
 impl Graph {
     /// An empty graph.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// An empty graph whose nodes may be values of these tables.
+    pub fn with_tables(tables: &[Arc<Table>]) -> Self {
+        Self { tables: tables.to_vec(), ..Self::default() }
+    }
+
+    /// The tables that nodes are values of.
+    pub fn tables(&self) -> &[Arc<Table>] {
+        &self.tables
     }
 
     /// What a node does.

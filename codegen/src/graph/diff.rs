@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Graph, Node, Op};
-use crate::expr::{Function, Symbol};
+use crate::expr::{Function, Lookup, Symbol};
 
 impl Graph {
     /// `∂f/∂x`.
@@ -92,11 +92,29 @@ impl Graph {
                 let (above, below) = (self.sub(first, second), self.add(xx, yy));
                 self.div(above, below)
             }
+            // min(a, b)' = a' where a < b, else b'; max(a, b)' the other way round
+            Op::Min(a, b) => self.derivative_of_smaller([a, b], of(a), of(b)),
+            Op::Max(a, b) => self.derivative_of_smaller([b, a], of(a), of(b)),
             Op::Call(function, a) => {
                 let slope = self.slope(function, a, node);
                 self.mul(slope, of(a))
             }
+            Op::Lookup(Lookup { table, order }, a) => {
+                let slope = self.look_up(Lookup { table, order: order + 1 }, a);
+                self.mul(slope, of(a))
+            }
         }
+    }
+
+    /// `x'` where `a < b`, else `y'`: `(x' + y' − side(a − b) (x' − y')) / 2`. Where a and b are equal that is the derivative
+    /// to one of the two sides.
+    fn derivative_of_smaller(&mut self, [a, b]: [Node; 2], x: Node, y: Node) -> Node {
+        let (sum, difference, distance) = (self.add(x, y), self.sub(x, y), self.sub(a, b));
+        let side = self.call(Function::Side, distance);
+        let turned = self.mul(side, difference);
+        let twice = self.sub(sum, turned);
+        let half = self.constant(0.5);
+        self.mul(half, twice)
     }
 
     /// `f'(a)`, where `value` is `f(a)`.
@@ -135,10 +153,14 @@ impl Graph {
                 let below = self.mul(two, value);
                 self.div(one, below)
             }
-            // |a|' = sign a
-            Function::Abs => self.call(Function::Sign, a),
-            // sign' = 0 but where it jumps
-            Function::Sign => self.zero(),
+            // exp' = exp
+            Function::Exp => value,
+            // log' = 1/a
+            Function::Log => self.div(one, a),
+            // |a|' = sign a, where a is 0 that to the right
+            Function::Abs => self.call(Function::Side, a),
+            // 0 on both sides of where they jump
+            Function::Sign | Function::Side => self.zero(),
         }
     }
 }

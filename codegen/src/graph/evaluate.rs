@@ -1,7 +1,7 @@
 //! The values of nodes at given values of the symbols: for checks, not for speed.
 
 use super::{Graph, Node, Op};
-use crate::expr::Symbol;
+use crate::expr::{Binary, Symbol};
 
 impl Graph {
     /// The values of some nodes.
@@ -20,7 +20,12 @@ impl Graph {
                 Op::Div(a, b) => of(a) / of(b),
                 Op::Pow(a, b) => of(a).powf(of(b)),
                 Op::Atan2(a, b) => of(a).atan2(of(b)),
+                Op::Min(a, b) => Binary::Min.of(of(a), of(b)),
+                Op::Max(a, b) => Binary::Max.of(of(a), of(b)),
                 Op::Call(function, a) => function.of(of(a)),
+                Op::Lookup(lookup, a) => {
+                    self.tables()[usize::from(lookup.table)].derivative(u32::from(lookup.order), of(a))
+                }
             });
         }
         nodes.iter().map(|node| values[node.index()]).collect()

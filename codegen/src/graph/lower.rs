@@ -22,6 +22,7 @@ impl Graph {
                 Kind::Symbol(symbol) => value(self, symbol),
                 Kind::Neg(a) => self.neg(nodes[a]),
                 Kind::Call(function, a) => self.call(function, nodes[a]),
+                Kind::Lookup(lookup, a) => self.look_up(lookup, nodes[a]),
                 Kind::Binary(operator, a, b) => {
                     let (a, b, exponent) = (nodes[a], nodes[b], expression.terms()[b].value);
                     match (operator, exponent) {
@@ -30,6 +31,8 @@ impl Graph {
                         (Binary::Mul, _) => self.mul(a, b),
                         (Binary::Div, _) => self.div(a, b),
                         (Binary::Atan2, _) => self.atan2(a, b),
+                        (Binary::Min, _) => self.min(a, b),
+                        (Binary::Max, _) => self.max(a, b),
                         // Checked: every exponent has a value.
                         (Binary::Pow, exponent) => self.power(a, exponent.unwrap_or(1.0)),
                     }

@@ -5,7 +5,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{Graph, Node, Op};
-use crate::expr::{Function, Symbol};
+use crate::expr::{Function, Lookup, Symbol};
 
 /// The largest whole exponent that is written out as multiplications.
 const LARGEST_WRITTEN_POWER: f64 = 16.0;
@@ -314,11 +314,142 @@ impl Graph {
         }
     }
 
+    /// The smaller of two: of equals one, operands are ordered, and of two negatives it is the negative of the larger.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # let mut g = Graph::new();
+    /// # let (a, b) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)));
+    /// assert_eq!(g.min(a, a), a);
+    /// assert_eq!(g.min(a, b), g.min(b, a));
+    /// let (minus_a, minus_b, larger) = (g.neg(a), g.neg(b), g.max(a, b));
+    /// assert_eq!(g.min(minus_a, minus_b), g.neg(larger));
+    /// let (two, three) = (g.constant(2.0), g.constant(3.0));
+    /// assert_eq!(g.min(three, two), two);
+    /// ```
+    pub fn min(&mut self, a: Node, b: Node) -> Node {
+        match self.both_negated(a, b) {
+            _ if a == b => a,
+            Some([x, y]) => {
+                let larger = self.max(x, y);
+                self.neg(larger)
+            }
+            None => match self.value(a).zip(self.value(b)) {
+                Some((x, y)) => self.constant(x.min(y)),
+                None => self.intern(Op::Min(a.min(b), a.max(b))),
+            },
+        }
+    }
+
+    /// The larger of two, by the same rules.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # let mut g = Graph::new();
+    /// # let (a, b) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)));
+    /// assert_eq!(g.max(a, a), a);
+    /// assert_eq!(g.max(a, b), g.max(b, a));
+    /// let (minus_a, minus_b, smaller) = (g.neg(a), g.neg(b), g.min(a, b));
+    /// assert_eq!(g.max(minus_a, minus_b), g.neg(smaller));
+    /// ```
+    pub fn max(&mut self, a: Node, b: Node) -> Node {
+        match self.both_negated(a, b) {
+            _ if a == b => a,
+            Some([x, y]) => {
+                let smaller = self.min(x, y);
+                self.neg(smaller)
+            }
+            None => match self.value(a).zip(self.value(b)) {
+                Some((x, y)) => self.constant(x.max(y)),
+                None => self.intern(Op::Max(a.min(b), a.max(b))),
+            },
+        }
+    }
+
+    /// `x` and `y` of two nodes that are `-x` and `-y` and no numbers.
+    fn both_negated(&self, a: Node, b: Node) -> Option<[Node; 2]> {
+        match (self.op(a), self.op(b)) {
+            (Op::Neg(x), Op::Neg(y)) => Some([x, y]),
+            _ => None,
+        }
+    }
+
+    /// Absolute value: of a negative that of the positive, of itself itself.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::{Function, Symbol}, graph::Graph};
+    /// # let mut g = Graph::new();
+    /// # let a = g.symbol(Symbol::Variable(0));
+    /// let (minus_a, size) = (g.neg(a), g.call(Function::Abs, a));
+    /// assert_eq!(g.call(Function::Abs, minus_a), size);
+    /// assert_eq!(g.call(Function::Abs, size), size);
+    /// ```
+    fn abs(&mut self, a: Node) -> Node {
+        match self.op(a) {
+            Op::Neg(inner) => self.abs(inner),
+            Op::Call(Function::Abs | Function::Exp | Function::Sqrt, _) => a,
+            _ => self.called(Function::Abs, a),
+        }
+    }
+
+    /// Sign: odd, and its own sign.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::{Function, Symbol}, graph::Graph};
+    /// # let mut g = Graph::new();
+    /// # let a = g.symbol(Symbol::Variable(0));
+    /// let (minus_a, sign) = (g.neg(a), g.call(Function::Sign, a));
+    /// assert_eq!(g.call(Function::Sign, minus_a), g.neg(sign));
+    /// assert_eq!(g.call(Function::Sign, sign), sign);
+    /// ```
+    fn sign(&mut self, a: Node) -> Node {
+        match self.op(a) {
+            Op::Neg(inner) => {
+                let sign = self.sign(inner);
+                self.neg(sign)
+            }
+            Op::Call(Function::Sign, _) => a,
+            _ => self.called(Function::Sign, a),
+        }
+    }
+
+    /// Logarithm: that of an exponential function is its argument.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::{Function, Symbol}, graph::Graph};
+    /// # let mut g = Graph::new();
+    /// # let a = g.symbol(Symbol::Variable(0));
+    /// let power = g.call(Function::Exp, a);
+    /// assert_eq!(g.call(Function::Log, power), a);
+    /// let logarithm = g.call(Function::Log, a);
+    /// assert_ne!(g.call(Function::Exp, logarithm), a); // a may be negative
+    /// ```
+    fn log(&mut self, a: Node) -> Node {
+        match self.op(a) {
+            Op::Call(Function::Exp, inner) => inner,
+            _ => self.called(Function::Log, a),
+        }
+    }
+
+    /// A table or a derivative of it: of a number a number, and 0 beyond the degree of its pieces.
+    pub fn look_up(&mut self, lookup: Lookup, a: Node) -> Node {
+        let table = self.tables()[usize::from(lookup.table)].clone();
+        let (order, op) = (u32::from(lookup.order), Op::Lookup(lookup, a));
+        match self.value(a) {
+            _ if order > table.degree() => self.zero(),
+            Some(x) => self.folded(table.derivative(order, x), op),
+            None => self.intern(op),
+        }
+    }
+
     /// Any function of one operand, by its own rules.
     pub fn call(&mut self, function: Function, a: Node) -> Node {
         match function {
             Function::Sin => self.sin(a),
             Function::Cos => self.cos(a),
+            Function::Abs => self.abs(a),
+            Function::Sign => self.sign(a),
+            Function::Log => self.log(a),
             _ => self.called(function, a),
         }
     }

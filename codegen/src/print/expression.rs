@@ -7,6 +7,7 @@ use crate::program::Action;
 /// How strongly the outermost operator of an expression binds.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 pub(super) enum Binding {
+    Choice,
     Sum,
     Product,
     Sign,

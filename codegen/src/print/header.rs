@@ -2,8 +2,9 @@
 
 use super::layout::Writer;
 use super::text::escaped;
+use crate::expr::{Binary, Expression, Function, Interpolation, Kind, Outside, Term};
 use crate::program::{Block, Routine, Routines, Stage};
-use crate::spec::{Orientation, Spec};
+use crate::spec::{Factor, Orientation, Spec};
 
 /// The names of rows 1–6.
 fn rows(orientation: Orientation) -> &'static str {
@@ -40,6 +41,11 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
     row("- Poses are in `F_0`, column-major: x, y, z axis, then position.");
     row(&format!("- Rows: {}.", rows(spec.orientation)));
     row("- Columns of `J_e`, per frame: `e_x e_y e_z` (along x, y, z) `e_s e_r e_p` (about **y, z, x**).");
+    if let Some(places) = one_sided(spec) {
+        writer.documentation_line("");
+        writer.documentation(&format!("Derivatives are one-sided, and that of `sign` is 0, in {places}."));
+    }
+    let mut row = |text: &str| writer.documentation_line(text);
     row("");
     row("| frame | name | variable |");
     row("|---|---|---|");
@@ -60,4 +66,43 @@ pub(super) fn operations(routine: &Routine) -> String {
     let is_loop = |stage: &Stage| matches!(stage, Stage::Block(Block { repeated: Some(_), .. }));
     let loops = if routine.stages.iter().any(is_loop) { ", in a loop over the frames" } else { "" };
     format!("{}{loops}", routine.operations)
+}
+
+/// Where transforms have no derivative, frame by frame.
+fn one_sided(spec: &Spec) -> Option<String> {
+    let frames =
+        spec.frames.iter().enumerate().map(|(i, frame)| (format!("frame {}", i + 1), &frame.factors));
+    let mut found = Vec::new();
+    for (name, factors) in frames.chain([("the tool".to_owned(), &spec.tool)]) {
+        let mut places: Vec<String> = Vec::new();
+        for term in factors.iter().flat_map(Factor::expressions).flat_map(Expression::terms) {
+            let place = place_without_derivative(spec, term).filter(|place| !places.contains(place));
+            places.extend(place);
+        }
+        if !places.is_empty() {
+            found.push(format!("{name}: {}", places.join(", ")));
+        }
+    }
+    (!found.is_empty()).then(|| found.join("; "))
+}
+
+fn place_without_derivative(spec: &Spec, term: &Term) -> Option<String> {
+    let place = match term.kind {
+        _ if term.value.is_some() => return None,
+        Kind::Call(function @ (Function::Abs | Function::Sign), _) => {
+            format!("where the argument of `{}` is 0", function.name())
+        }
+        Kind::Binary(Binary::Min, ..) => "where the arguments of `min` are equal".to_owned(),
+        Kind::Binary(Binary::Max, ..) => "where the arguments of `max` are equal".to_owned(),
+        Kind::Lookup(lookup, _) => {
+            let table = &spec.tables[usize::from(lookup.table)];
+            match (table.interpolation, table.outside) {
+                (Interpolation::Linear, _) => format!("at the points of `{}`", table.name),
+                (Interpolation::Cubic, Outside::Hold) => format!("at the ends of `{}`", table.name),
+                (Interpolation::Cubic, Outside::Nothing) => return None,
+            }
+        }
+        _ => return None,
+    };
+    Some(place)
 }

@@ -41,7 +41,12 @@ impl Program {
                 Action::Div(..) => &mut count.div,
                 Action::SinCos(_) | Action::Call(Function::Sin | Function::Cos, _) => &mut count.sincos,
                 Action::Call(Function::Sqrt, _) => &mut count.sqrt,
-                Action::Call(..) | Action::Pow(..) | Action::Atan2(..) => &mut count.other,
+                Action::Call(..)
+                | Action::Lookup(..)
+                | Action::Pow(..)
+                | Action::Atan2(..)
+                | Action::Min(..)
+                | Action::Max(..) => &mut count.other,
             };
             kind.add_assign(1);
         }

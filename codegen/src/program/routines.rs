@@ -1,5 +1,7 @@
 //! The functions of a manipulator as routines.
 
+use std::sync::Arc;
+
 use abbe::function::{Count, Signature};
 use abbe::{Description, Function};
 
@@ -8,6 +10,7 @@ use super::outputs::{Outputs, fewest, ways};
 use super::routine::{Array, Block, Place, Role, Routine, Row, Stage, Sums, Table};
 use super::{Operations, Program};
 use crate::chain::{EffectNode, Model};
+use crate::expr::Table as LookupTable;
 use crate::spec::{Orientation, Spec};
 
 /// All functions of a manipulator, and what they share.
@@ -21,6 +24,8 @@ pub struct Routines {
     pub tables: Vec<Table>,
     /// What is summed.
     pub sums: Vec<Sums>,
+    /// The functions given by points.
+    pub lookup_tables: Vec<Arc<LookupTable>>,
 }
 
 impl Routines {
@@ -72,7 +77,8 @@ impl Routines {
         }
         let (helpers, tables, sums) = loops.map_or_else(Default::default, Loops::finish);
         list.extend(helpers);
-        let mut routines = Self { description, list, tables, sums };
+        let lookup_tables = spec.tables.clone();
+        let mut routines = Self { description, list, tables, sums, lookup_tables };
         for index in 0..routines.list.len() {
             routines.list[index].operations = routines.operations(&routines.list[index]);
         }

@@ -2,7 +2,7 @@
 
 use indexmap::IndexMap;
 
-use crate::expr::{Function, Symbol};
+use crate::expr::{Function, Lookup, Symbol};
 use crate::graph::{Graph, Node, Op};
 
 /// Where a value comes from.
@@ -39,8 +39,14 @@ pub enum Action {
     Pow(Operand, Operand),
     /// The angle of the point (second, first).
     Atan2(Operand, Operand),
+    /// The smaller.
+    Min(Operand, Operand),
+    /// The larger.
+    Max(Operand, Operand),
     /// A function.
     Call(Function, Operand),
+    /// A table.
+    Lookup(Lookup, Operand),
     /// Sine, and in the next register cosine.
     SinCos(Operand),
 }
@@ -49,13 +55,15 @@ impl Action {
     /// The operands, one to three.
     pub fn operands(self) -> impl Iterator<Item = Operand> {
         let (first, second, third) = match self {
-            Self::Neg(a) | Self::Call(_, a) | Self::SinCos(a) => (a, None, None),
+            Self::Neg(a) | Self::Call(_, a) | Self::Lookup(_, a) | Self::SinCos(a) => (a, None, None),
             Self::Add(a, b)
             | Self::Sub(a, b)
             | Self::Mul(a, b)
             | Self::Div(a, b)
             | Self::Pow(a, b)
-            | Self::Atan2(a, b) => (a, Some(b), None),
+            | Self::Atan2(a, b)
+            | Self::Min(a, b)
+            | Self::Max(a, b) => (a, Some(b), None),
             Self::MulAdd(a, b, c) | Self::MulSub(a, b, c) | Self::NegMulAdd(a, b, c) => (a, Some(b), Some(c)),
         };
         [Some(first), second, third].into_iter().flatten()
@@ -160,6 +168,9 @@ impl Program {
             Op::Div(a, b) => Action::Div(of(a), of(b)),
             Op::Pow(a, b) => Action::Pow(of(a), of(b)),
             Op::Atan2(a, b) => Action::Atan2(of(a), of(b)),
+            Op::Min(a, b) => Action::Min(of(a), of(b)),
+            Op::Max(a, b) => Action::Max(of(a), of(b)),
+            Op::Lookup(lookup, a) => Action::Lookup(lookup, of(a)),
             Op::Call(_, a) if partner.is_some() => Action::SinCos(of(a)),
             Op::Call(function, a) => Action::Call(function, of(a)),
         };

@@ -1,7 +1,5 @@
 //! Parameters, inputs and variables: everything an expression can name.
 
-use indexmap::IndexMap;
-
 use super::keys;
 use super::names::check_identifier;
 use super::{Input, Parameter, Variable, VariableKind};
@@ -20,7 +18,7 @@ pub(super) struct Declarations {
 
 impl Declarations {
     pub(super) fn new(length: LengthUnit) -> Self {
-        let scope = Scope { length, names: IndexMap::new() };
+        let scope = Scope::new(length);
         Self { scope, parameters: Vec::new(), inputs: Vec::new(), variables: Vec::new() }
     }
 
@@ -34,6 +32,7 @@ impl Declarations {
             let symbol = Symbol::Parameter(self.parameters.len());
             self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
             let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
+            self.set_range(&item.key, [value; 2]);
             let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
             let unit = dimension.unit(self.scope.length.symbol());
             self.parameters.push(Parameter { name: item.key, value, dimension, unit, description });
@@ -65,6 +64,7 @@ impl Declarations {
                 }
             }
             let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
+            self.set_range(&item.key, range);
             let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
             let unit = dimension.unit(self.scope.length.symbol());
             self.inputs.push(Input { name: item.key, value, dimension, unit, range, description });
@@ -119,6 +119,7 @@ impl Declarations {
                 );
             }
         }
+        self.set_range(&name, limits);
         let kind = kind.unwrap_or(VariableKind::Revolute);
         let description = table.optional_text("description", document);
         self.variables.push(Variable { name, kind, limits, home, description, frame });
@@ -170,6 +171,12 @@ impl Declarations {
         Some([lower, upper])
     }
 
+    fn set_range(&mut self, name: &str, range: [f64; 2]) {
+        if let Some(name) = self.scope.names.get_mut(name) {
+            name.range = range;
+        }
+    }
+
     fn declare(
         &mut self,
         name: &str,
@@ -180,6 +187,11 @@ impl Declarations {
     ) {
         // A name that cannot be one is declared all the same: that it is used is not another mistake.
         check_identifier(name, span.clone(), document);
+        if self.scope.tables.iter().any(|table| table.name == name) {
+            let message = format!("`{name}` is the name of a table already");
+            document.mistake(Diagnostic::new(span, message).help("rename one of them"));
+            return;
+        }
         if let Some(first) = self.scope.names.get(name) {
             document.mistake(
                 Diagnostic::new(span, format!("the name `{name}` is used twice"))
@@ -189,6 +201,7 @@ impl Declarations {
             );
             return;
         }
-        self.scope.names.insert(name.to_owned(), Name { symbol, dimension, span });
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        self.scope.names.insert(name.to_owned(), Name { symbol, dimension, span, range });
     }
 }

@@ -2,11 +2,14 @@
 
 crate::tables! {
     FILE: ["the file"],
-        ["manipulator", "parameters", "inputs", "frame", "tool", "source", "load", "gravity", "fitted"];
+        ["manipulator", "parameters", "inputs", "tables", "frame", "tool", "source", "load", "gravity", "fitted"];
     MANIPULATOR: ["[manipulator]"],
         ["name", "title", "description", "reference", "length", "orientation", "gravity"];
     PARAMETER: ["[parameters.NAME]"], ["value", "description", "reference"];
     INPUT: ["[inputs.NAME]"], ["value", "range", "description", "reference"];
+
+    LOOKUP: ["[tables.NAME]"], ["file", "x", "y", "interpolation", "outside", "description", "reference"];
+    AXIS: ["[tables.NAME.x]", "[tables.NAME.y]"], ["column", "values", "unit"];
 
     FRAME: ["[[frame]]"], ["name", "variable"];
     DESCRIBED: ["[[frame]]", "[tool]"], ["description", "reference"];

@@ -14,10 +14,12 @@ mod frames;
 mod keys;
 mod loads;
 mod names;
+mod points;
 mod positive;
 mod read;
 mod rigid;
 mod sources;
+mod tables;
 mod types;
 
 pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};

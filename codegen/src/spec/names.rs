@@ -33,8 +33,9 @@ pub(super) fn check_identifier(name: &str, at: crate::diagnostic::Span, document
         let help = format!("write `{name}_`, or say more");
         (format!("`{shown}` is a word of the Rust language"), help)
     } else if UNIT_NAMES.contains(&name) {
-        let help = "unit names are reserved, so that `5 mm` can only be read in one way";
-        (format!("`{shown}` is a unit"), help.to_owned())
+        let help =
+            format!("unit names are reserved, so that `5 mm` can only be read in one way: write `{name}_`");
+        (format!("`{shown}` is a unit"), help)
     } else if FUNCTION_NAMES.contains(&name) || name == "pi" {
         (format!("`{shown}` is a function or constant"), format!("write `{name}_`, or say more"))
     } else {

@@ -18,7 +18,7 @@ use super::sources::read_sources;
 use super::{Factor, Frame, Orientation, Spec};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
-use crate::expr::{LengthUnit, Symbol};
+use crate::expr::{LengthUnit, Symbol, Table};
 use crate::graph::Graph;
 
 impl Spec {
@@ -28,7 +28,14 @@ impl Spec {
         Self::from_document(document)
     }
 
-    /// Reads and checks a spec's text; `path` is what mistakes are shown under.
+    /// Reads and checks a spec's text as if it were in a folder, where the files of its tables are; `path` is what
+    /// mistakes are shown under.
+    pub fn parse_in(folder: &Path, path: &str, text: &str) -> Result<Self, Diagnostics> {
+        Self::from_document(Document { folder: Some(folder.to_owned()), ..Document::new(path, text) })
+    }
+
+    /// Reads and checks a spec's text; `path` is what mistakes are shown under. It is in no folder: tables have their points in
+    /// it.
     ///
     /// ```
     /// # use abbe_codegen::spec::Spec;
@@ -65,6 +72,8 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     // Without a length unit the rest could only be read by guessing.
     let head = head?;
     let mut declarations = Declarations::new(head.length);
+    // What takes a function that is mistaken would be another mistake.
+    declarations.read_tables(root, document)?;
     declarations.read_parameters(root, document);
     declarations.read_inputs(root, document);
     let raw_frames = read_frames(root, &mut declarations, document);
@@ -100,11 +109,14 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     let fitted = read_fitted(root, &declarations, document);
     raw_frames?;
     complete.then_some(())?;
-    let Declarations { parameters, inputs, variables, .. } = declarations;
+    let Declarations { scope, parameters, inputs, variables } = declarations;
     let Head { name, title, description, reference, length, orientation } = head;
     let file =
         Path::new(&document.path).file_name().map_or_else(String::new, |f| f.to_string_lossy().into_owned());
-    let hash = Sha256::digest(document.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+    let mut hasher = Sha256::new_with_prefix(document.text.as_bytes());
+    document.beside.iter().for_each(|(_, bytes)| hasher.update(bytes));
+    let hash = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let beside = document.beside.iter().map(|(path, _)| path.clone()).collect();
     Some(Spec {
         name,
         title,
@@ -121,7 +133,9 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         loads,
         gravity,
         fitted,
+        tables: scope.tables,
         file,
+        beside,
         hash,
     })
 }
@@ -240,7 +254,7 @@ fn read_frame_factors(
     if let (Some((own, _)), Some(span)) = (frame.own, &frame.variable_span)
         && let name = &declarations.variables[own].name
         && declarations.scope.names.get(name).is_some_and(|name| name.symbol == Symbol::Variable(own))
-        && !moves(&factors, own)
+        && !moves(&factors, own, &declarations.scope.tables)
     {
         document.mistake(
             Diagnostic::new(span.clone(), format!("`{name}` does not move its own frame"))
@@ -283,8 +297,8 @@ fn check_matrices(
 }
 
 /// Whether a product of factors depends on a variable once everything that cancels has cancelled.
-fn moves(factors: &[Factor], variable: usize) -> bool {
-    let mut graph = Graph::new();
+fn moves(factors: &[Factor], variable: usize, tables: &[Arc<Table>]) -> bool {
+    let mut graph = Graph::with_tables(tables);
     factors.iter().flat_map(Factor::expressions).any(|expression| {
         let node = graph.lower(expression);
         graph.depends(node, |symbol| symbol == Symbol::Variable(variable))[node.index()]

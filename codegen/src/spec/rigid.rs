@@ -29,7 +29,7 @@ pub(super) fn check_rigid(
     variables: &[Variable],
     parameters: &[f64],
 ) -> Option<Diagnostic> {
-    let mut graph = Graph::new();
+    let mut graph = Graph::with_tables(&scope.tables);
     let laws = laws(&mut graph, matrix);
     let nodes: Vec<Node> = laws.iter().map(|law| law.value).collect();
     let proved =

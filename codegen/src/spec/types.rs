@@ -1,10 +1,13 @@
 //! What a checked spec holds. Numbers are in its coherent system: its length unit, kg, s, rad, K.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use abbe::{Class, Component, LengthUnit, Orientation, VariableKind};
 
 use super::Fitted;
 use crate::diagnostic::Span;
-use crate::expr::{Dimension, Elementary, Expression, Motion};
+use crate::expr::{Dimension, Elementary, Expression, Motion, Table};
 
 /// A manipulator as its file describes it.
 #[derive(Clone, Debug)]
@@ -39,9 +42,13 @@ pub struct Spec {
     pub gravity: Option<[Expression; 3]>,
     /// Where the errors of an identified machine were fitted; nothing if they were not.
     pub fitted: Vec<Fitted>,
+    /// Functions that are given by points.
+    pub tables: Vec<Arc<Table>>,
     /// The file's name, without its folder.
     pub file: String,
-    /// SHA-256 of the file's text, in hexadecimal.
+    /// Further files that were read: those of tables.
+    pub beside: Vec<PathBuf>,
+    /// SHA-256 of the file's text and of what is in the files of its tables, in hexadecimal.
     pub hash: String,
 }
 

@@ -6,8 +6,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::Scalar;
+use crate::lookup_table::ROUND;
 use crate::sin_cos::{self, Real};
+use crate::{LookupTable, Scalar};
 
 impl<R: Register> Real for Lanes<R> {
     const FUSED: bool = R::FUSED;
@@ -48,6 +49,9 @@ impl<R: Register> Real for Lanes<R> {
     }
 }
 
+/// The most lanes that a register has.
+const WIDEST: usize = 8;
+
 /// A register, and the instructions that lanes are computed with: those of [`InstructionSet`](super::InstructionSet).
 ///
 /// Each method does to every lane what its name says to a number; `mul_add` and its kin round once where
@@ -65,6 +69,8 @@ pub trait Register: Pod + Send + Sync {
     fn map(a: Self, b: Self, c: Self, f: impl Fn(f64, f64, f64) -> f64) -> Self;
     /// The values of the lanes.
     fn lanes(&self) -> &[f64];
+    /// Four registers from a row of four numbers for each lane.
+    fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4];
     /// `a + b`.
     fn add(a: Self, b: Self) -> Self;
     /// `a − b`.
@@ -122,6 +128,12 @@ macro_rules! by_array {
             let [a, b, c]: [[f64; $width]; 3] = [a, b, c].map(|register| bytemuck::cast(register));
             let result: [f64; $width] = core::array::from_fn(|lane| f(a[lane], b[lane], c[lane]));
             bytemuck::cast(result)
+        }
+
+        #[inline(always)]
+        fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
+            let rows: [&[f64; 4]; $width] = core::array::from_fn(row);
+            [0, 1, 2, 3].map(|column| Self::from_fn(|lane| rows[lane][column]))
         }
 
         #[inline(always)]
@@ -320,7 +332,52 @@ impl<R: Register> Scalar for Lanes<R> {
         self.map(Scalar::sign)
     }
 
+    fn exp(self) -> Self {
+        self.map(Scalar::exp)
+    }
+
+    fn ln(self) -> Self {
+        self.map(Scalar::ln)
+    }
+
+    #[inline(always)]
+    fn side(self) -> Self {
+        self.map(Scalar::side)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.zip(other, Scalar::min)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.zip(other, Scalar::max)
+    }
+
     fn powf(self, exponent: Self) -> Self {
         self.zip(exponent, Scalar::powf)
+    }
+
+    /// The steps of [`LookupTable::find`], of all lanes together where they are the same.
+    #[inline(always)]
+    fn piece(self, table: &LookupTable<'_>) -> (Self, [Self; 4]) {
+        let number = <Self as Scalar>::constant;
+        let u = (self - number(table.first)) * number(table.scale);
+        let bucket = Lanes::min(Lanes::max(u - number(0.5), number(-1.0)), number(table.buckets()));
+        let rounded = bucket + number(ROUND);
+        let buckets = rounded.to_slice();
+        if table.starts.is_empty() {
+            let coefficients = R::columns(|lane| table.coefficients(LookupTable::bucket_in(buckets[lane])));
+            return (u - (rounded - number(ROUND)), coefficients.map(Self));
+        }
+        let x = self.to_slice();
+        let piece = |lane: usize| table.piece_from(LookupTable::bucket_in(buckets[lane]), x[lane]);
+        let mut pieces = [0; WIDEST];
+        for lane in 0..R::WIDTH {
+            pieces[lane] = piece(lane);
+        }
+        let knots = Self::from_fn(|lane| table.knot(pieces[lane]));
+        (self - knots, R::columns(|lane| table.coefficients(pieces[lane])).map(Self))
     }
 }

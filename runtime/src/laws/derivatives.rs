@@ -10,14 +10,21 @@ use crate::{
 /// The first step of the differences: rad, or arm lengths.
 const STEP: f64 = 0.1;
 
+/// The same where that finds another derivative: what has kinks, such as a table, has one between them that long steps do
+/// not see; one that is wrong is so for short steps too.
+const SHORT_STEP: f64 = 1e-4;
+
+/// From which difference on, relative to the larger number, short steps are tried.
+const DIFFERENT: f64 = 1e-9;
+
 /// `J_e` against `∂(X_real − X_ideal)/∂ε`: central differences of equation (6) with true rotations.
 pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let orientation = manipulator.description().orientation;
     let frames = manipulator.description().frames.len();
     compare(manipulator, samples, 6 * frames, |subject, at, columns| {
         manipulator.error_jacobian(&at.q, &subject.s, columns)?;
-        let columns = (0..frames).flat_map(|frame| Component::ALL.map(|component| (frame, component)));
-        Ok(columns
+        let each = (0..frames).flat_map(|frame| Component::ALL.map(|component| (frame, component)));
+        Ok(each
             .map(|(frame, component)| {
                 let unit = if component.is_rotation() { 1.0 } else { subject.arm };
                 let real = |step: f64| {
@@ -25,7 +32,8 @@ pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
                     errors[frame][component.index()] = step * unit;
                     Some(real_pose(&at.transforms, &errors))
                 };
-                (unit, differences(subject, orientation, at, real))
+                let found = columns[6 * frame + component.index()].map(|entry| entry * unit);
+                (unit, differences(subject, orientation, at, found, real))
             })
             .collect())
     })
@@ -48,7 +56,8 @@ pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<D
                     q[i] += step * unit;
                     subject.transforms(&q, &subject.s).ok().map(|transforms| chain(&transforms))
                 };
-                (unit, differences(subject, description.orientation, at, moved))
+                let found = columns[i].map(|entry| entry * unit);
+                (unit, differences(subject, description.orientation, at, found, moved))
             })
             .collect())
     })
@@ -71,7 +80,8 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
                     s[i] += step * unit;
                     subject.transforms(&at.q, &s).ok().map(|transforms| chain(&transforms))
                 };
-                (unit, differences(subject, description.orientation, at, changed))
+                let found = columns[i].map(|entry| entry * unit);
+                (unit, differences(subject, description.orientation, at, found, changed))
             })
             .collect())
     })
@@ -104,22 +114,38 @@ pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Re
                 magnitudes[source] = step * unit;
                 drawn_pose(manipulator, &at.q, &subject.s, &subject.u, &magnitudes).ok()
             };
-            (unit, differences(subject, description.orientation, at, real))
+            let found = columns[source].map(|entry| entry * unit);
+            (unit, differences(subject, description.orientation, at, found, real))
         });
         Ok(expected.collect())
     })
 }
 
-/// The derivative of a pose, lengths in arm lengths.
+/// The derivative of a pose, lengths in arm lengths; if two are found, the one that is nearer to a column.
 fn differences(
     subject: &Subject,
     orientation: Orientation,
     at: &Sample,
+    column: [f64; 6],
     pose: impl Fn(f64) -> Option<Pose>,
 ) -> Option<[f64; 6]> {
-    derivative(STEP * at.margin, |step| {
-        pose(step).map(|pose| subject.scaled(deviation(orientation, &at.pose, &pose)))
-    })
+    let by = |step: f64| {
+        derivative(step * at.margin, |step| {
+            pose(step).map(|pose| subject.scaled(deviation(orientation, &at.pose, &pose)))
+        })
+    };
+    let column = subject.scaled(column);
+    let distance =
+        |found: &[f64; 6]| column.iter().zip(found).fold(0.0, |most, (a, b)| larger(most, (a - b).abs()));
+    let long = by(STEP);
+    let size = column.iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
+    match long {
+        Some(found) if distance(&found) <= DIFFERENT * size => long,
+        _ => match (long, by(SHORT_STEP)) {
+            (Some(long), Some(short)) if distance(&long) < distance(&short) => Some(long),
+            (long, short) => short.or(long),
+        },
+    }
 }
 
 /// The unit of each column's argument, and the column by differences.

@@ -90,7 +90,7 @@ fn positive(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Di
 }
 
 fn constant(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<f64> {
-    let scope = Scope { length: spec.length, names: Default::default() };
+    let scope = Scope::new(spec.length);
     let what = format!("`{}`", item.key);
     let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
     document.constant(item, &scope, entry).map(|(value, _)| value)

@@ -55,7 +55,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
 
 /// A share from 0 to 1, or a length.
 fn residual(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Residual> {
-    let scope = Scope { length: spec.length, names: Default::default() };
+    let scope = Scope::new(spec.length);
     let entry = Entry { dimension: None, what: "a residual", names: Allowed::Nothing };
     let (value, dimension) = document.constant(item, &scope, entry)?;
     match dimension {

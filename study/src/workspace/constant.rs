@@ -13,7 +13,7 @@ pub fn constant(
     dimension: Dimension,
     what: &str,
 ) -> Option<f64> {
-    let scope = Scope { length: spec.length, names: Default::default() };
+    let scope = Scope::new(spec.length);
     let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
     document.constant(item, &scope, entry).map(|(value, _)| value)
 }

@@ -10,7 +10,8 @@ use crate::spec::Spec;
 
 /// One function.
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let Statements { list, .. } = Statements::new(spec, &routines.description, routine, &JavaScript);
+    let Statements { list, .. } =
+        Statements::new(spec, &routines.description, routine, &JavaScript(&spec.tables));
     writer.blank();
     documentation(writer, routines, routine);
     let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);

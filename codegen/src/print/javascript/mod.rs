@@ -10,6 +10,7 @@ use self::functions::function;
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
+use crate::expr::Table;
 use crate::program::{Routines, Sums};
 use crate::spec::Spec;
 
@@ -33,6 +34,13 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         let rows: Vec<String> = factors.iter().map(row).collect();
         let what = "Entry, term, and the factor with which the term is added.";
         constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
+    }
+    for table in &spec.tables {
+        lookup_table(&mut writer, table);
+    }
+    if !spec.tables.is_empty() {
+        writer.blank();
+        writer.lines(LOOKUP.trim_end());
     }
     for routine in &routines.list {
         function(&mut writer, spec, routines, routine);
@@ -82,6 +90,57 @@ fn description(writer: &mut Writer, routines: &Routines) {
     list("sources", description.sources.iter().map(|source| quoted(&source.name)).collect());
     writer.close("};");
 }
+
+/// A function given by points.
+fn lookup_table(writer: &mut Writer, table: &Table) {
+    let lookup = table.lookup();
+    writer.blank();
+    comment(writer, &table.documentation());
+    writer.open(&format!("const {} =", table.constant_name()));
+    writer.lines(&format!(
+        "first: {}, scale: {}, steps: {},",
+        number(lookup.first),
+        number(lookup.scale),
+        lookup.steps
+    ));
+    let numbers = |values: &[f64]| values.iter().map(|value| number(*value)).collect::<Vec<_>>();
+    writer.array("starts: ", &lookup.starts.iter().map(u32::to_string).collect::<Vec<_>>(), ",");
+    writer.array("knots: ", &numbers(lookup.knots), ",");
+    let pieces: Vec<String> =
+        lookup.pieces.iter().map(|piece| format!("[{}]", numbers(piece).join(", "))).collect();
+    writer.array("pieces: ", &pieces, ",");
+    writer.close("};");
+}
+
+/// The value of a table or a derivative of it: as `LookupTable` of the crate `abbe`.
+const LOOKUP: &str = "\
+/** The derivative of that order of a table at x; the table itself if of order 0. */
+function lookup({ first, scale, steps, starts, knots, pieces }, order, x) {
+    const even = starts.length === 0;
+    const u = (x - first) * scale;
+    if (Number.isNaN(u)) return NaN;
+    // Adding 1.5 * 2^52 rounds to the nearest integer.
+    const nearest = Math.min(Math.max(u - 0.5, -1), (even ? pieces : starts).length - 2);
+    const bucket = nearest + 6755399441055744 - 6755399441055744;
+    let piece = bucket + 1;
+    let t = u - bucket;
+    if (!even) {
+        piece = starts[piece];
+        for (let step = 2 ** (steps - 1); step >= 1; step /= 2) {
+            if (x > knots[piece + step]) piece += step;
+        }
+        t = x - knots[piece];
+    }
+    const [a, b, c, d] = pieces[piece];
+    const unit = even ? scale : 1;
+    switch (order) {
+        case 0: return ((d * t + c) * t + b) * t + a;
+        case 1: return ((3 * d * t + 2 * c) * t + b) * unit;
+        case 2: return (6 * d * t + 2 * c) * unit ** 2;
+        default: return 6 * d * unit ** 3;
+    }
+}
+";
 
 fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {
     writer.blank();

@@ -1,16 +1,20 @@
 //! Operators and numbers.
 
+use std::sync::Arc;
+
+use crate::expr::{Function, Lookup, Table};
 use crate::print::expression::{Binding, Expression, Syntax, infix};
 use crate::program::Action;
 
-pub(super) struct JavaScript;
+/// With the spec's tables, which are constants.
+pub(super) struct JavaScript<'s>(pub(super) &'s [Arc<Table>]);
 
-impl Syntax for JavaScript {
+impl Syntax for JavaScript<'_> {
     /// The words of the language, and what the functions use.
     fn reserved(&self) -> &'static str {
         "Float64Array Infinity Math NaN arguments async await break case catch class const continue \
          debugger default delete do else enum eval export extends false finally for function get i if \
-         implements import in instanceof interface k let margin new null of package private protected \
+         implements import in instanceof interface k let lookup margin new null of package private protected \
          public return set static super switch this throw true try typeof undefined var void while \
          with yield"
     }
@@ -44,7 +48,18 @@ impl Syntax for JavaScript {
             Action::NegMulAdd(..) => infix(&operands[2], "-", &product()),
             Action::Pow(..) => call("pow"),
             Action::Atan2(..) => call("atan2"),
+            Action::Min(..) => call("min"),
+            Action::Max(..) => call("max"),
+            // Where Math.sign(-0) is -0, this is 1.
+            Action::Call(Function::Side, _) => {
+                let text = format!("{} >= 0 ? 1 : -1", operands[0].at_least(Binding::Atom));
+                Expression::new(text, Binding::Choice)
+            }
             Action::Call(function, _) => call(function.name()),
+            Action::Lookup(Lookup { table, order }, _) => {
+                let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
+                Expression::new(format!("lookup({name}, {order}, {x})"), Binding::Atom)
+            }
             Action::SinCos(_) => call("sin"),
         }
     }

@@ -13,7 +13,8 @@ use crate::spec::Spec;
 
 /// One function.
 pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let Statements { list, used, constants } = Statements::new(spec, &routines.description, routine, &Rust);
+    let Statements { list, used, constants } =
+        Statements::new(spec, &routines.description, routine, &Rust(&spec.tables));
     let has_margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
     documentation(writer, routine, has_margin);
     writer.lines("#[inline(always)]");

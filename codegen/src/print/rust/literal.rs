@@ -18,6 +18,9 @@ const NAMED: [(f64, &str); 10] = [
 
 /// A number by its name if it has one, else with the digits that give it back exactly.
 pub(super) fn number(value: f64) -> String {
+    if value.is_nan() {
+        return "f64::NAN".to_owned();
+    }
     if value.is_infinite() {
         return if value > 0.0 { "f64::INFINITY" } else { "f64::NEG_INFINITY" }.to_owned();
     }

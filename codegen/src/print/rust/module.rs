@@ -1,10 +1,13 @@
 //! The module of a manipulator.
 
+use std::sync::Arc;
+
 use super::face;
 use super::functions::raw_function;
 use super::literal::looks_like_named;
-use super::tables::tables;
+use super::tables::{lookup_table, tables};
 use crate::chain::Model;
+use crate::expr::Table;
 use crate::print::header::header;
 use crate::print::layout::Writer;
 use crate::program::{Operand, Program, Routines, Stage};
@@ -39,6 +42,7 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
         raw_function(&mut writer, spec, routines, routine);
     }
     tables(&mut writer, routines);
+    spec.tables.iter().for_each(|table| lookup_table(&mut writer, table));
     for routine in helpers {
         writer.blank();
         raw_function(&mut writer, spec, routines, routine);
@@ -70,6 +74,12 @@ fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
         Operand::Constant(value) => Some(*value),
         _ => None,
     });
+    let of_table = |table: &Arc<Table>| {
+        let lookup = table.lookup();
+        let pieces = lookup.pieces.iter().flatten().chain(lookup.knots).copied();
+        pieces.chain([lookup.first, lookup.scale]).collect::<Vec<_>>()
+    };
+    let outputs = outputs.chain(spec.tables.iter().flat_map(of_table));
     let sums = routines.sums.iter();
     let sums = sums.flat_map(|sums| sums.constants.iter().copied().chain(sums.factors.iter().map(|f| f.2)));
     if constants.chain(values).chain(limits).chain(ranges).chain(outputs).chain(sums).any(looks_like_named) {

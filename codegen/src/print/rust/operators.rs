@@ -1,12 +1,16 @@
 //! Operators and numbers of a generic scalar `T`.
 
+use std::sync::Arc;
+
 use super::literal::number;
+use crate::expr::{Function, Lookup, Table};
 use crate::print::expression::{Binding, Expression, Syntax, infix};
 use crate::program::{Action, Operand};
 
-pub(super) struct Rust;
+/// With the spec's tables, which are constants.
+pub(super) struct Rust<'s>(pub(super) &'s [Arc<Table>]);
 
-impl Syntax for Rust {
+impl Syntax for Rust<'_> {
     /// Constants of a module, and what is no name in a pattern.
     fn reserved(&self) -> &'static str {
         "zero one FRAMES ERRORS VARIABLES PARAMETERS INPUTS EFFECTS DISTINCT SOURCES None Some Ok Err"
@@ -44,7 +48,18 @@ impl Syntax for Rust {
             Action::NegMulAdd(a, ..) => fused("neg_mul_add", a),
             Action::Pow(..) => method("powf", &operands[0], &[&operands[1]]),
             Action::Atan2(..) => method("atan2", &operands[0], &[&operands[1]]),
+            Action::Min(..) => method("min", &operands[0], &[&operands[1]]),
+            Action::Max(..) => method("max", &operands[0], &[&operands[1]]),
+            Action::Call(Function::Log, _) => method("ln", &operands[0], &[]),
             Action::Call(function, _) => method(function.name(), &operands[0], &[]),
+            Action::Lookup(Lookup { table, order }, _) => {
+                let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
+                let text = match order {
+                    0 => format!("{name}.value({x})"),
+                    order => format!("{name}.derivative({order}, {x})"),
+                };
+                Expression::new(text, Binding::Atom)
+            }
             Action::SinCos(_) => method("sin_cos", &operands[0], &[]),
         }
     }

@@ -1,8 +1,28 @@
-//! What the loops of long chains go over.
+//! What the loops of long chains go over, and functions given by points.
 
 use super::literal::number;
-use crate::print::layout::Writer;
+use crate::expr::Table;
+use crate::print::layout::{Writer, array};
 use crate::program::{Routines, Sums};
+
+/// A function given by points, as a constant.
+pub(super) fn lookup_table(writer: &mut Writer, table: &Table) {
+    let (name, lookup) = (table.constant_name(), table.lookup());
+    writer.blank();
+    writer.documentation(&table.documentation());
+    writer.open(&format!("const {name}: ::abbe::LookupTable<'static> = ::abbe::LookupTable"));
+    writer.lines(&format!("first: {},", number(lookup.first)));
+    writer.lines(&format!("scale: {},", number(lookup.scale)));
+    let starts: Vec<String> = lookup.starts.iter().map(u32::to_string).collect();
+    writer.array("starts: &", &starts, ",");
+    let knots: Vec<String> = lookup.knots.iter().map(|knot| number(*knot)).collect();
+    writer.array("knots: &", &knots, ",");
+    let indent = writer.indent() + 4;
+    let piece = |piece: &[f64; 4]| array(indent, "", &piece.map(number), "");
+    writer.array("pieces: &", &lookup.pieces.iter().map(piece).collect::<Vec<_>>(), ",");
+    writer.lines(&format!("steps: {},", lookup.steps));
+    writer.close("};");
+}
 
 /// The tables and sums of a module, as constants.
 pub(super) fn tables(writer: &mut Writer, routines: &Routines) {

@@ -1,0 +1,221 @@
+//! Functions that a spec gives by points.
+
+use abbe::LookupTable;
+
+use super::Dimension;
+use super::cubic::slopes;
+
+/// What is between two points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight lines.
+    Linear,
+    /// Cubics with continuous slopes that stay between their points, see `cubic.rs`.
+    Cubic,
+}
+
+/// What is beyond the first and the last point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outside {
+    /// Nothing: the value there is not a number.
+    Nothing,
+    /// The value of the end.
+    Hold,
+}
+
+/// A function given by points, and how generated code finds its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// What expressions call it.
+    pub name: String,
+    /// What it is.
+    pub description: String,
+    /// The dimensions of its argument and of its value.
+    pub dimensions: [Dimension; 2],
+    /// The points: x ascending, and y.
+    pub points: Vec<[f64; 2]>,
+    /// What is between them.
+    pub interpolation: Interpolation,
+    /// What is beyond them.
+    pub outside: Outside,
+    scale: f64,
+    starts: Vec<u32>,
+    knots: Vec<f64>,
+    pieces: Vec<[f64; 4]>,
+    steps: u32,
+}
+
+impl Table {
+    /// At least two points, whose x ascend.
+    pub(crate) fn new(
+        name: String,
+        description: String,
+        dimensions: [Dimension; 2],
+        points: Vec<[f64; 2]>,
+        interpolation: Interpolation,
+        outside: Outside,
+    ) -> Self {
+        let intervals = points.len() - 1;
+        let [first, last] = [points[0][0], points[intervals][0]];
+        let mut table = Self {
+            name,
+            description,
+            dimensions,
+            points,
+            interpolation,
+            outside,
+            scale: 0.0,
+            starts: Vec::new(),
+            knots: Vec::new(),
+            pieces: Vec::new(),
+            steps: 0,
+        };
+        if table.is_even() {
+            table.scale = scale(first, last, intervals);
+            table.pieces = table.pieces_of(|_| (last - first) / intervals as f64, |_| 1.0);
+        } else {
+            let width = |k: usize| table.points[k + 1][0] - table.points[k][0];
+            table.pieces = table.pieces_of(width, width);
+            table.knots = [first].into_iter().chain(table.points.iter().map(|point| point[0])).collect();
+            table.fill_buckets();
+        }
+        table
+    }
+
+    /// How generated code has it.
+    pub fn lookup(&self) -> LookupTable<'_> {
+        LookupTable {
+            first: self.points[0][0],
+            scale: self.scale,
+            starts: &self.starts,
+            knots: &self.knots,
+            pieces: &self.pieces,
+            steps: self.steps,
+        }
+    }
+
+    /// The value of a derivative, the function itself if of order 0.
+    pub fn derivative(&self, order: u32, x: f64) -> f64 {
+        match order {
+            0 => self.lookup().value(x),
+            _ => self.lookup().derivative(order, x),
+        }
+    }
+
+    /// What generated code calls it.
+    pub fn constant_name(&self) -> String {
+        format!("{}_TABLE", self.name.to_ascii_uppercase())
+    }
+
+    /// What generated code says of it.
+    pub fn documentation(&self) -> String {
+        let kind = match self.interpolation {
+            Interpolation::Linear => "straight lines",
+            Interpolation::Cubic => "monotone cubics",
+        };
+        let beyond = match self.outside {
+            Outside::Nothing => "no number beyond",
+            Outside::Hold => "held beyond",
+        };
+        let ([first, last], count) = (self.ends(), self.points.len());
+        let description = self.description.trim_end_matches('.');
+        let before = if description.is_empty() { String::new() } else { format!("{description}. ") };
+        format!("{before}`{}`: {kind} through {count} points from {first} to {last}, {beyond}.", self.name)
+    }
+
+    /// Its first and last x.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.points[0][0], self.points[self.points.len() - 1][0]]
+    }
+
+    /// The highest derivative that is not zero everywhere.
+    pub fn degree(&self) -> u32 {
+        match self.interpolation {
+            Interpolation::Linear => 1,
+            Interpolation::Cubic => 3,
+        }
+    }
+
+    /// Whether every value between its ends is a number.
+    pub(crate) fn is_finite(&self) -> bool {
+        let inner = &self.pieces[1..self.pieces.len() - 1];
+        self.scale.is_finite() && inner.iter().flatten().all(|number| number.is_finite())
+    }
+
+    /// Whether the points are at equal distances, but for the rounding of their numbers.
+    fn is_even(&self) -> bool {
+        let [first, last] = self.ends();
+        let step = (last - first) / (self.points.len() - 1) as f64;
+        let rounding = 4.0 * f64::EPSILON * first.abs().max(last.abs());
+        let even = |(k, [x, _]): (usize, &[f64; 2])| (x - (first + k as f64 * step)).abs() <= rounding;
+        self.points.iter().enumerate().all(even)
+    }
+
+    /// The coefficients of every piece, for a t that goes from 0 to `length`, and of what is beyond the ends.
+    ///
+    /// With `τ = t/length`, `Δ = y₁ − y₀` and slopes `d = h m` by τ:
+    /// `y₀ + d₀ τ + (3Δ − 2d₀ − d₁) τ² + (d₀ + d₁ − 2Δ) τ³`.
+    fn pieces_of(&self, width: impl Fn(usize) -> f64, length: impl Fn(usize) -> f64) -> Vec<[f64; 4]> {
+        let intervals = self.points.len() - 1;
+        let widths: Vec<f64> = (0..intervals).map(width).collect();
+        let y = |k: usize| self.points[k][1];
+        let slopes = match self.interpolation {
+            Interpolation::Linear => Vec::new(),
+            Interpolation::Cubic => {
+                let secants: Vec<f64> = (0..intervals).map(|k| (y(k + 1) - y(k)) / widths[k]).collect();
+                slopes(&widths, &secants)
+            }
+        };
+        let piece = |k: usize| {
+            let (change, length) = (y(k + 1) - y(k), length(k));
+            let [first, second, third] = match self.interpolation {
+                Interpolation::Linear => [change, 0.0, 0.0],
+                Interpolation::Cubic => {
+                    let (from, to) = (widths[k] * slopes[k], widths[k] * slopes[k + 1]);
+                    [from, 3.0 * change - 2.0 * from - to, from + to - 2.0 * change]
+                }
+            };
+            [y(k), first / length, second / length.powi(2), third / length.powi(3)]
+        };
+        let end = |k: usize| match self.outside {
+            Outside::Nothing => [f64::NAN; 4],
+            Outside::Hold => [y(k), 0.0, 0.0, 0.0],
+        };
+        [end(0)].into_iter().chain((0..intervals).map(piece)).chain([end(intervals)]).collect()
+    }
+
+    /// Chooses as many buckets as leave one point in each, if up to eight times as many as there are points do.
+    fn fill_buckets(&mut self) {
+        let [first, last] = self.ends();
+        let intervals = self.points.len() - 1;
+        for factor in [1, 2, 4, 8] {
+            let buckets = factor * intervals;
+            self.scale = scale(first, last, buckets);
+            // Before the first bucket and behind the last there is one more.
+            self.starts = vec![0; buckets + 2];
+            let of_knot: Vec<usize> = self.knots.iter().map(|knot| self.lookup().bucket(*knot)).collect();
+            let mut piece = 0;
+            for bucket in 1..self.starts.len() {
+                while piece + 1 < of_knot.len() && (piece == 0 || of_knot[piece + 1] < bucket) {
+                    piece += 1;
+                }
+                self.starts[bucket] = piece as u32;
+            }
+            let inner = &of_knot[2..of_knot.len() - 1];
+            let crowded = inner.chunk_by(|a, b| a == b).map(<[usize]>::len).max().unwrap_or(0);
+            self.steps = usize::BITS - crowded.leading_zeros();
+            if self.steps <= 1 {
+                break;
+            }
+        }
+    }
+}
+
+/// Buckets per unit of x, with the last x still within the last bucket.
+fn scale(first: f64, last: f64, buckets: usize) -> f64 {
+    let mut scale = buckets as f64 / (last - first);
+    while (last - first) * scale >= buckets as f64 {
+        scale = scale.next_down();
+    }
+    scale
+}

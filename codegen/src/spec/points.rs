@@ -1,0 +1,162 @@
+//! The points of a table: where they come from, and whether a function can go through them.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::PathBuf;
+
+use crate::diagnostic::{Diagnostic, Span, suggestion};
+use crate::document::{Document, Item};
+
+/// The largest file of points that is read.
+const LARGEST: u64 = 16 << 20;
+
+/// The columns of a CSV file.
+pub(super) struct Columns {
+    /// The file, as the spec names it.
+    pub(super) file: String,
+    span: Span,
+    names: Vec<String>,
+    /// Each with its line.
+    rows: Vec<(u64, csv::StringRecord)>,
+}
+
+impl Columns {
+    /// Reads the file that an item names, relative to the spec. It is noted as one that the spec is made of.
+    pub(super) fn read(item: &Item<'_>, document: &mut Document) -> Option<Self> {
+        let (file, span) = (document.string(item)?, item.span());
+        let fail = |document: &mut Document, message: String, help: &str| {
+            document.mistake(Diagnostic::new(span.clone(), message).help(help));
+        };
+        let Some(folder) = &document.folder else {
+            let message = format!("`{file}` cannot be read: this spec is a text, and in no folder");
+            fail(
+                document,
+                message,
+                "read the spec from its file, or write the points here: `x = […]`, `y = […]`",
+            );
+            return None;
+        };
+        let path: PathBuf = folder.join(&file);
+        let mut bytes = Vec::new();
+        let read = File::open(&path).and_then(|opened| opened.take(LARGEST + 1).read_to_end(&mut bytes));
+        if let Err(error) = read {
+            let help = "the path is relative to the folder of the spec";
+            fail(document, format!("cannot read `{file}`: {error}"), help);
+            return None;
+        }
+        document.beside.push((path, bytes.clone()));
+        if bytes.len() as u64 > LARGEST {
+            let message = format!("`{file}` is larger than {} MiB", LARGEST >> 20);
+            fail(document, message, "a table needs no more points than the machine has marks");
+            return None;
+        }
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&bytes[..]);
+        let result =
+            reader.headers().map(|names| names.iter().map(str::to_owned).collect()).and_then(|names| {
+                let rows =
+                    reader.records().map(|row| row.map(|row| (row.position().map_or(0, |p| p.line()), row)));
+                Ok((names, rows.collect::<Result<Vec<_>, _>>()?))
+            });
+        match result {
+            Ok((names, rows)) => Some(Self { file, span, names, rows }),
+            Err(error) => {
+                fail(
+                    document,
+                    format!("`{file}` is not a table: {error}"),
+                    "a CSV file has a line of names, then rows",
+                );
+                None
+            }
+        }
+    }
+
+    /// The numbers of a column.
+    pub(super) fn numbers(&self, item: &Item<'_>, document: &mut Document) -> Option<Vec<f64>> {
+        let name = document.string(item)?;
+        let Some(index) = self.names.iter().position(|known| *known == name) else {
+            let known: Vec<&str> = self.names.iter().map(String::as_str).collect();
+            let message = format!("`{}` has no column `{}`", self.file, name.escape_debug());
+            document
+                .mistake(Diagnostic::new(item.span(), message).help(suggestion(&name, &known, "columns")));
+            return None;
+        };
+        let mut numbers = Vec::with_capacity(self.rows.len());
+        for (line, row) in &self.rows {
+            let cell = row.get(index).unwrap_or_default();
+            match cell.parse::<f64>() {
+                Ok(number) if number.is_finite() => numbers.push(number),
+                _ => {
+                    let message = format!("line {line} of `{}`: `{name}` is not a number", self.file);
+                    let label = format!("`{}` stands there", cell.escape_debug());
+                    let mistake = Diagnostic::new(item.span(), message).label(label);
+                    document.mistake(mistake.help("leave rows out that were not measured"));
+                    return None;
+                }
+            }
+        }
+        Some(numbers)
+    }
+}
+
+/// Numbers that are to be points.
+pub(super) struct Points<'c> {
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    /// Where each x stands; empty if in another file.
+    pub(super) places: Vec<Span>,
+    pub(super) columns: Option<&'c Columns>,
+}
+
+impl Points<'_> {
+    /// The points by ascending x, or a mistake with its row.
+    pub(super) fn check(self, table: &Item<'_>, document: &mut Document) -> Option<Vec<[f64; 2]>> {
+        let Self { x, y, .. } = &self;
+        if x.len() != y.len() {
+            let message = format!("`x` has {} numbers and `y` {}", x.len(), y.len());
+            let mistake = Diagnostic::new(table.key_span.clone(), message);
+            document.mistake(mistake.help("every point has an x and a y"));
+            return None;
+        }
+        if x.len() < 2 {
+            let message =
+                format!("`{}` has {}", table.key, if x.is_empty() { "no points" } else { "one point" });
+            let mistake = Diagnostic::new(table.key_span.clone(), message);
+            document
+                .mistake(mistake.label("at least two are needed").help("what never changes is a parameter"));
+            return None;
+        }
+        let falls = x[1] < x[0];
+        let sign = if falls { -1.0 } else { 1.0 };
+        if let Some(before) = x.windows(2).position(|pair| sign * pair[1] <= sign * pair[0]) {
+            let (row, first) = (self.place(before + 1, table), self.place(before, table));
+            let message = match x[before] == x[before + 1] {
+                true => format!("{}: x is the same as in the row before", row.1),
+                false => format!("{}: x turns back", row.1),
+            };
+            let mut mistake = Diagnostic::new(row.0, message).label(format!("x is {} here", x[before + 1]));
+            if self.columns.is_none() {
+                mistake = mistake.context(first.0, format!("and {} here", x[before]));
+            }
+            document.mistake(
+                mistake.help("x must rise from row to row, or fall; average what was measured twice"),
+            );
+            return None;
+        }
+        let mut points: Vec<[f64; 2]> = x.iter().zip(y).map(|(x, y)| [*x, *y]).collect();
+        if falls {
+            points.reverse();
+        }
+        Some(points)
+    }
+
+    /// Where a point stands, and what it is called.
+    fn place(&self, index: usize, table: &Item<'_>) -> (Span, String) {
+        match (self.columns, self.places.get(index)) {
+            (Some(columns), _) => {
+                (columns.span.clone(), format!("line {} of `{}`", columns.rows[index].0, columns.file))
+            }
+            (None, Some(span)) => (span.clone(), format!("point {} of `{}`", index + 1, table.key)),
+            (None, None) => (table.key_span.clone(), format!("point {}", index + 1)),
+        }
+    }
+}
