@@ -50,7 +50,8 @@ impl Columns {
             fail(document, message, "a table needs no more points than the machine has marks");
             return None;
         }
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&bytes[..]);
+        let mut reader =
+            csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(&bytes[..]);
         let result =
             reader.headers().map(|names| names.iter().map(str::to_owned).collect()).and_then(|names| {
                 let rows =

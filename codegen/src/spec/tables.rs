@@ -32,6 +32,8 @@ impl Declarations {
         let mut section = document.section(item)?;
         section.name = format!("[tables.{}]", item.key);
         section.check_keys(&[&keys::LOOKUP], document);
+        let description = section.optional_text("description", document);
+        section.optional_text("reference", document);
         let interpolation = section.required("interpolation", document).and_then(|item| {
             document.choice(&item, &[("linear", Interpolation::Linear), ("cubic", Interpolation::Cubic)])
         });
@@ -52,7 +54,6 @@ impl Declarations {
         let dimensions = [x.dimension, y.dimension];
         let points = Points { x: x.values, y: y.values, places: x.places, columns: columns.as_ref() };
         let points = points.check(item, document)?;
-        let description = section.optional_text("description", document);
         let table = Table::new(item.key.clone(), description, dimensions, points, interpolation?, outside?);
         if !table.is_finite() {
             let message = format!("the numbers of `{}` are too large to interpolate", item.key);
@@ -87,6 +88,14 @@ impl Declarations {
                 (columns.numbers(&column, document)?, Vec::new())
             }
             None => {
+                if let Some(column) = section.get("column") {
+                    let message = "`column` names a column of a file, and there is no `file`";
+                    let mistake = Diagnostic::new(column.span(), message);
+                    document.mistake(
+                        mistake.help("add `file = \"NAME.csv\"` to the table, or give `values = […]`"),
+                    );
+                    return None;
+                }
                 let values = section.required("values", document)?;
                 let list = self.read_list(&values, document)?;
                 if list.dimension != Dimension::NONE {

@@ -31,8 +31,8 @@ type Reader = fn(&Path, &str) -> Result<(), Diagnostics>;
 /// Every page, its keys, and the reader of its examples.
 fn pages() -> Vec<(Page, Vec<&'static Keys>, Reader)> {
     vec![
-        (Page::read("spec.md"), all(&[spec::TABLES]), |_, text| {
-            Spec::parse("example", text)?;
+        (Page::read("spec.md"), all(&[spec::TABLES]), |path, text| {
+            Spec::parse_in(path.parent().unwrap(), "example", text)?;
             Ok(())
         }),
         (Page::read("study.md"), all(&[study_file::TABLES, workspace::TABLES]), |path, text| {
