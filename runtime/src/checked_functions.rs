@@ -7,7 +7,7 @@
 /// `SOURCES`, `DESCRIPTION`, `Parameters`, `Inputs` and `raw` are defined. Arrays have the right size by their types;
 /// numbers that are not finite, inputs outside their range and Euler singularities are [`Error`](crate::Error)s.
 #[macro_export]
-macro_rules! checked_face {
+macro_rules! checked_functions {
     ($(#[$documentation:meta])* $name:ident) => {
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,14 +83,14 @@ macro_rules! checked_face {
             Ok(errors)
         }
 
-        $crate::checked_face! {
+        $crate::checked_functions! {
             /// `ΔX = J_e ε` for any ε: `e_x e_y e_z e_s e_r e_p` of each frame; rows as those of a Jacobian.
             ///
             /// An error where Euler rows are singular, or if a number is not finite.
             @given errors, displacement: [f64; 6]
         }
 
-        $crate::checked_face! {
+        $crate::checked_functions! {
             /// `J_e diag(σ²) J_eᵀ`, the covariance of ΔX, for independent errors of these variances, in the order of ε.
             ///
             /// Exact to rounding errors of the largest variance of its three axes: one that ought to be 0 can come out
@@ -98,14 +98,14 @@ macro_rules! checked_face {
             @given variances, covariance: [[f64; 6]; 6]
         }
 
-        $crate::checked_face! {
+        $crate::checked_functions! {
             /// `ΔX = J_e ε` of the repeatable sources; rows as those of a Jacobian.
             ///
             /// An error where Euler rows are singular, if an input is outside its range or a number is not finite.
             @sources predicted_displacement: [f64; 6]
         }
 
-        $crate::checked_face! {
+        $crate::checked_functions! {
             /// ΔX of each source by itself, of a random one for its magnitude; rows as those of a Jacobian.
             ///
             /// An error where Euler rows are singular, if an input is outside its range or a number is not finite.
@@ -214,9 +214,9 @@ macro_rules! checked_face {
                 Ok($crate::Pose(pose))
             }
 
-            $crate::checked_face!(@jacobian error_jacobian);
-            $crate::checked_face!(@jacobian joint_jacobian);
-            $crate::checked_face!(@jacobian parameter_jacobian);
+            $crate::checked_functions!(@jacobian error_jacobian);
+            $crate::checked_functions!(@jacobian joint_jacobian);
+            $crate::checked_functions!(@jacobian parameter_jacobian);
 
             fn effects(
                 &self,
@@ -296,9 +296,9 @@ macro_rules! checked_face {
             let s = &s.to_array();
             $crate::checks::configuration(q, s)?;
             $crate::checks::finite($crate::Quantity::Errors, $given.as_flattened())?;
-            let mut result = $crate::checked_face!(@zero $($result)*);
+            let mut result = $crate::checked_functions!(@zero $($result)*);
             let margin = raw::$function(q, s, $given, &mut result);
-            $crate::checks::displacement(margin, $crate::checked_face!(@flat result: $($result)*))?;
+            $crate::checks::displacement(margin, $crate::checked_functions!(@flat result: $($result)*))?;
             Ok(result)
         }
     };
@@ -311,9 +311,9 @@ macro_rules! checked_face {
         ) -> Result<[$($result)*], $crate::Error> {
             let (s, u) = (&s.to_array(), &u.to_array());
             $crate::checks::use_case(&DESCRIPTION.inputs, q, s, u)?;
-            let mut result = $crate::checked_face!(@zero $($result)*);
+            let mut result = $crate::checked_functions!(@zero $($result)*);
             let margin = raw::$function(q, s, u, &mut result);
-            $crate::checks::displacement(margin, $crate::checked_face!(@flat result: $($result)*))?;
+            $crate::checks::displacement(margin, $crate::checked_functions!(@flat result: $($result)*))?;
             Ok(result)
         }
     };

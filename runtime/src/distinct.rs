@@ -61,3 +61,53 @@ pub fn columns<T: Scalar, const D: usize>(distinct: &[[[T; 3]; D]], columns: &mu
         }
     }
 }
+
+/// What takes the columns of `J_e` one by one: all of their numbers, or those that are distinct.
+///
+/// Generated code gives every column once, in any order.
+pub trait ErrorColumns<T> {
+    /// Column `index` is that of a translation along an axis of its frame.
+    fn along(&mut self, index: usize, axis: [T; 3]);
+    /// Column `index` is that of a rotation: this is how the tool point moves.
+    fn moment(&mut self, index: usize, moment: [T; 3]);
+    /// And these are rows 4–6.
+    fn turn(&mut self, index: usize, rows: [T; 3]);
+}
+
+impl<T: Scalar, const COLUMNS: usize> ErrorColumns<T> for [[T; 6]; COLUMNS] {
+    #[inline(always)]
+    fn along(&mut self, index: usize, [x, y, z]: [T; 3]) {
+        let zero = T::constant(0.0);
+        self[index] = [x, y, z, zero, zero, zero];
+    }
+
+    #[inline(always)]
+    fn moment(&mut self, index: usize, [x, y, z]: [T; 3]) {
+        self[index][..3].copy_from_slice(&[x, y, z]);
+    }
+
+    #[inline(always)]
+    fn turn(&mut self, index: usize, [a, b, c]: [T; 3]) {
+        self[index][3..].copy_from_slice(&[a, b, c]);
+    }
+}
+
+impl<T: Scalar, const DISTINCT: usize, const FRAMES: usize> ErrorColumns<T> for [[[T; 3]; DISTINCT]; FRAMES] {
+    #[inline(always)]
+    fn along(&mut self, index: usize, axis: [T; 3]) {
+        self[index / 6][index % 6] = axis;
+    }
+
+    #[inline(always)]
+    fn moment(&mut self, index: usize, moment: [T; 3]) {
+        self[index / 6][index % 6] = moment;
+    }
+
+    /// Of rotation vectors rows 4–6 are an axis again.
+    #[inline(always)]
+    fn turn(&mut self, index: usize, rows: [T; 3]) {
+        if DISTINCT == 9 {
+            self[index / 6][index % 6 + 3] = rows;
+        }
+    }
+}

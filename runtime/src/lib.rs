@@ -73,6 +73,7 @@ pub use description::{
     Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
     Variable, VariableKind,
 };
+pub use distinct::ErrorColumns;
 #[cfg(feature = "std")]
 pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
 pub use error::{Error, MINIMUM_MARGIN, Quantity};

@@ -446,20 +446,20 @@ pub mod long {
         }
     }
 
-    ::abbe::checked_face! {
+    ::abbe::checked_functions! {
         /// long, as a [`Manipulator`](::abbe::Manipulator).
         Long
     }
 
     /// The same as functions of plain arrays, generic over the scalar and without checks: what is
     /// not finite stays so.
+    ///
+    /// What is returned is `cos ρ`; where that is 0, rows 4–6 are not finite.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
         use ::abbe::Scalar;
 
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
-        ///
-        /// 188 mul, 208 add, 2 div, 21 sincos.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -475,8 +475,6 @@ pub mod long {
         }
 
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
-        ///
-        /// 1628 mul, 1288 add, 2 div, 21 sincos, in a loop over the frames.
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let zero = T::constant(0.0);
@@ -515,10 +513,6 @@ pub mod long {
         }
 
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 2990 mul, 2156 add, 3 div, 21 sincos, 1 sqrt, in a loop over the frames.
         #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -581,10 +575,6 @@ pub mod long {
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 2860 mul, 2547 add, 3 div, 21 sincos, 1 sqrt, in a loop over the frames.
         #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -649,10 +639,6 @@ pub mod long {
         }
 
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 1728 mul, 1376 add, 3 div, 21 sincos, 1 sqrt, in a loop over the frames.
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -717,8 +703,6 @@ pub mod long {
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
-        ///
-        /// 4 mul, 0 add, 1 sincos.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
@@ -783,8 +767,6 @@ pub mod long {
         }
 
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
-        ///
-        /// 4 mul, 0 add, 1 sincos.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
@@ -924,10 +906,6 @@ pub mod long {
         /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
         /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
         /// 4–6. `abbe::distinct` makes the columns of it.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 2990 mul, 2156 add, 3 div, 21 sincos, 1 sqrt, in a loop over the frames.
         #[inline(always)]
         pub fn error_jacobian_distinct<T: Scalar>(
             q: &[T; VARIABLES],
@@ -994,10 +972,6 @@ pub mod long {
 
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
         /// Jacobian.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 1879 mul, 1772 add, 3 div, 21 sincos, 1 sqrt, in a loop over the frames.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1073,10 +1047,6 @@ pub mod long {
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
         /// order of ε.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 7313 mul, 5512 add, 3 div, 21 sincos, 1 sqrt, in a loop over the frames.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1279,10 +1249,6 @@ pub mod long {
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 1883 mul, 1772 add, 3 div, 22 sincos, 1 sqrt.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1298,10 +1264,6 @@ pub mod long {
 
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
         /// Jacobian.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 3030 mul, 2192 add, 3 div, 22 sincos, 1 sqrt, in a loop over the frames.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1341,8 +1303,6 @@ pub mod long {
 
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
         /// E_1 … A_n E_n T`.
-        ///
-        /// 3468 mul, 2395 add, 2 div, 142 sincos, in a loop over the frames.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1681,8 +1641,6 @@ pub mod long {
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
         /// variable.
-        ///
-        /// 6117 mul, 4818 add, 4 div, 163 sincos, in a loop over the frames.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
@@ -2518,8 +2476,6 @@ pub mod long {
         const PARAMETER_TWIST_FACTORS: [(usize, usize, f64); 0] = [];
 
         /// What the entries of all transforms are sums of.
-        ///
-        /// 0 mul, 20 add, 2 div, 21 sincos.
         #[inline(always)]
         fn chain_terms<T: Scalar>(q: &[T; VARIABLES], s: &[T; PARAMETERS], terms: &mut [T; 64]) {
             let [
@@ -2621,8 +2577,6 @@ pub mod long {
         }
 
         /// No motion, `A_1 … A_n` and the tool, each by itself.
-        ///
-        /// 188 mul, 188 add.
         #[inline(always)]
         fn chain_links<T: Scalar>(terms: &[T; 64], links: &mut [[[T; 3]; 4]; FRAMES + 2]) {
             let entries = links.as_flattened_mut().as_flattened_mut();
@@ -2635,8 +2589,6 @@ pub mod long {
         }
 
         /// `F_0 … F_n` and the tool, all in `F_0`.
-        ///
-        /// 1664 mul, 1295 add, in a loop over the frames.
         #[inline(always)]
         fn chain_frames<T: Scalar>(terms: &[T; 64], frames: &mut [[[T; 3]; 4]; FRAMES + 2]) {
             chain_links(terms, frames);

@@ -306,20 +306,20 @@ pub mod pps {
         }
     }
 
-    ::abbe::checked_face! {
+    ::abbe::checked_functions! {
         /// NPTC patient positioning system, as a [`Manipulator`](::abbe::Manipulator).
         Pps
     }
 
     /// The same as functions of plain arrays, generic over the scalar and without checks: what is
     /// not finite stays so.
+    ///
+    /// What is returned is `cos ρ`; where that is 0, rows 4–6 are not finite.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
-        use ::abbe::Scalar;
+        use ::abbe::{ErrorColumns, Scalar};
 
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
-        ///
-        /// 2 mul, 2 add, 3 sincos, 3 neg.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -397,8 +397,6 @@ pub mod pps {
         }
 
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
-        ///
-        /// 26 mul, 19 add, 3 sincos, 2 neg.
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [d1, d2, d3, q4, q5, q6] = *q;
@@ -448,16 +446,36 @@ pub mod pps {
         }
 
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
         #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
             s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; ERRORS],
+        ) -> T {
+            error_columns(q, s, pose, columns)
+        }
+
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
+        #[inline(always)]
+        pub fn error_jacobian_distinct<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
+        ) -> T {
+            error_columns(q, s, pose, distinct)
+        }
+
+        /// Both: a column is given as soon as it is known.
+        #[inline(always)]
+        fn error_columns<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            columns: &mut impl ErrorColumns<T>,
         ) -> T {
             let [d1, d2, d3, q4, q5, q6] = *q;
             let [
@@ -478,51 +496,60 @@ pub mod pps {
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
             // Frame 1: lateral
-            columns[0] = [one, zero, zero, zero, zero, zero];
-            columns[1] = [zero, one, zero, zero, zero, zero];
-            columns[2] = [zero, zero, one, zero, zero, zero];
+            columns.along(0, [one, zero, zero]);
+            columns.along(1, [zero, one, zero]);
+            columns.along(2, [zero, zero, one]);
+            columns.turn(3, [one, zero, zero]);
             // Frame 2: vertical
-            columns[6] = [one, zero, zero, zero, zero, zero];
-            columns[7] = [zero, one, zero, zero, zero, zero];
-            columns[8] = [zero, zero, one, zero, zero, zero];
+            columns.along(6, [one, zero, zero]);
+            columns.along(7, [zero, one, zero]);
+            columns.along(8, [zero, zero, one]);
+            columns.turn(9, [one, zero, zero]);
             // Frame 3: longitudinal
-            columns[12] = [one, zero, zero, zero, zero, zero];
-            columns[13] = [zero, one, zero, zero, zero, zero];
-            columns[14] = [zero, zero, one, zero, zero, zero];
+            columns.along(12, [one, zero, zero]);
+            columns.along(13, [zero, one, zero]);
+            columns.along(14, [zero, zero, one]);
+            columns.turn(15, [one, zero, zero]);
             // Frame 4: spin
-            columns[19] = [zero, one, zero, zero, zero, zero];
-            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
-            columns[20] = [s4, zero, c4, zero, zero, zero];
+            columns.along(19, [zero, one, zero]);
+            columns.turn(21, [one, zero, zero]);
             // Frame 5: roll
-            columns[26] = [s4, zero, c4, zero, zero, zero];
+            columns.turn(29, [zero, zero, one]);
+            // Frame 6: pitch
+            columns.turn(35, [zero, zero, one]);
+            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
+            // Frame 4: spin
+            columns.along(20, [s4, zero, c4]);
+            // Frame 5: roll
+            columns.along(26, [s4, zero, c4]);
             let p2_y = y_offset + d2;
             let p3_z = z_offset + d3;
             let r4_31 = -s4;
             // Frame 4: spin
-            columns[18] = [c4, zero, r4_31, zero, zero, zero];
+            columns.along(18, [c4, zero, r4_31]);
             let p5_y = p2_y + roll_offset;
             let r5_11 = c4 * c5;
             let t1 = s4 * c5;
             let r5_31 = -t1;
             // Frame 5: roll
-            columns[24] = [r5_11, s5, r5_31, zero, zero, zero];
+            columns.along(24, [r5_11, s5, r5_31]);
             // Frame 6: pitch
-            columns[30] = [r5_11, s5, r5_31, zero, zero, zero];
+            columns.along(30, [r5_11, s5, r5_31]);
             let t2 = c4 * s5;
             let r5_32 = s4 * s5;
             let r5_12 = -t2;
             // Frame 5: roll
-            columns[25] = [r5_12, c5, r5_32, zero, zero, zero];
+            columns.along(25, [r5_12, c5, r5_32]);
             let r6_22 = c5 * c6;
             let t3 = c5 * s6;
             let r6_12 = s4.mul_sub(s6, t2 * c6);
             let r6_32 = r5_32.mul_add(c6, c4 * s6);
             // Frame 6: pitch
-            columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
+            columns.along(31, [r6_12, r6_22, r6_32]);
             let r6_13 = t2.mul_add(s6, s4 * c6);
             let r6_23 = -t3;
             let r6_33 = c4.mul_sub(c6, r5_32 * s6);
-            columns[32] = [r6_13, r6_23, r6_33, zero, zero, zero];
+            columns.along(32, [r6_13, r6_23, r6_33]);
             let p6_x = r6_12.mul_add(couch_offset, d1);
             let p6_y = r6_22.mul_add(couch_offset, p5_y);
             let p6_z = r6_32.mul_add(couch_offset, p3_z);
@@ -544,90 +571,105 @@ pub mod pps {
             let t9 = -t8;
             let lever1_x = pt_x - d1;
             let t10 = -pt_z;
+            // Frame 1: lateral
+            columns.moment(5, [zero, t10, pt_y]);
             let t11 = -lever1_x;
-            // Frame 1: lateral
-            columns[3] = [pt_z, zero, t11, one, zero, zero];
+            columns.moment(3, [pt_z, zero, t11]);
             // Frame 2: vertical
-            columns[9] = [pt_z, zero, t11, one, zero, zero];
+            columns.moment(9, [pt_z, zero, t11]);
             let t12 = -pt_y;
-            let t13 = s5 * t8;
             // Frame 1: lateral
-            columns[4] = [t12, lever1_x, zero, t13, t5, t9];
+            columns.moment(4, [t12, lever1_x, zero]);
+            let t13 = s5 * t8;
+            columns.turn(4, [t13, t5, t9]);
+            // Frame 2: vertical
+            columns.turn(10, [t13, t5, t9]);
+            // Frame 3: longitudinal
+            columns.turn(16, [t13, t5, t9]);
             let t14 = -(s5 * t7);
-            columns[5] = [zero, t10, pt_y, t14, t6, t7];
+            // Frame 1: lateral
+            columns.turn(5, [t14, t6, t7]);
+            // Frame 2: vertical
+            columns.turn(11, [t14, t6, t7]);
+            // Frame 3: longitudinal
+            columns.turn(17, [t14, t6, t7]);
             let lever4_y = pt_y - p2_y;
             // Frame 2: vertical
-            columns[11] = [zero, t10, lever4_y, t14, t6, t7];
+            columns.moment(11, [zero, t10, lever4_y]);
             let t15 = -lever4_y;
-            columns[10] = [t15, lever1_x, zero, t13, t5, t9];
+            columns.moment(10, [t15, lever1_x, zero]);
             // Frame 3: longitudinal
-            columns[16] = [t15, lever1_x, zero, t13, t5, t9];
+            columns.moment(16, [t15, lever1_x, zero]);
             let t16 = p3_z - pt_z;
-            columns[17] = [zero, t16, lever4_y, t14, t6, t7];
+            columns.moment(17, [zero, t16, lever4_y]);
             let lever4_z = -t16;
-            columns[15] = [lever4_z, zero, t11, one, zero, zero];
+            columns.moment(15, [lever4_z, zero, t11]);
             // Frame 4: spin
-            columns[21] = [lever4_z, zero, t11, one, zero, zero];
+            columns.moment(21, [lever4_z, zero, t11]);
             let t17 = s4 * lever4_y;
             let t18 = c4.mul_sub(t16, s4 * lever1_x);
             let t19 = c4 * lever4_y;
+            columns.moment(23, [t17, t18, t19]);
             let t20 = -t19;
             let t21 = c4.mul_add(lever1_x, s4 * t16);
+            columns.moment(22, [t20, t21, t17]);
             let t22 = s4.mul_sub(t7, c4 * t8);
             let t23 = c4.mul_add(t5, s4 * t6);
             let t24 = -(s5 * t22);
-            columns[22] = [t20, t21, t17, t24, t23, t22];
+            columns.turn(22, [t24, t23, t22]);
+            // Frame 5: roll
+            columns.turn(28, [t24, t23, t22]);
             let t25 = c4.mul_add(t7, s4 * t8);
             let t26 = c4.mul_sub(t6, s4 * t5);
             let t27 = -(s5 * t25);
-            columns[23] = [t17, t18, t19, t27, t26, t25];
+            // Frame 4: spin
+            columns.turn(23, [t27, t26, t25]);
             let lever5_y = pt_y - p5_y;
             let t28 = t1.mul_sub(lever5_y, s5 * t16);
             let t29 = r5_11.mul_sub(t16, t1 * lever1_x);
             let t30 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
             // Frame 5: roll
-            columns[29] = [t28, t29, t30, zero, zero, one];
+            columns.moment(29, [t28, t29, t30]);
             let t31 = -c5.mul_add(t16, r5_32 * lever5_y);
             let t32 = r5_32.mul_sub(lever1_x, t2 * t16);
             let t33 = -t2.mul_add(lever5_y, c5 * lever1_x);
+            columns.moment(27, [t31, t32, t33]);
             let t34 = c4.mul_sub(roll_offset, t19);
             let t35 = s4.neg_mul_add(roll_offset, t17);
-            columns[28] = [t34, t21, t35, t24, t23, t22];
+            columns.moment(28, [t34, t21, t35]);
             let t36 = t2.mul_add(t7, r5_32 * t8);
             let t37 = -t36;
             let t38 = r5_32.mul_sub(t5, t2 * t6);
             let t39 = s5.mul_add(t36, c5);
-            columns[27] = [t31, t32, t33, t39, t38, t37];
+            columns.turn(27, [t39, t38, t37]);
             let t40 = r6_13.neg_mul_add(couch_offset, t28);
             let t41 = t3.mul_add(couch_offset, t29);
             let t42 = r6_33.neg_mul_add(couch_offset, t30);
             // Frame 6: pitch
-            columns[35] = [t40, t41, t42, zero, zero, one];
+            columns.moment(35, [t40, t41, t42]);
             let lever6_x = pt_x - p6_x;
             let lever6_y = pt_y - p6_y;
             let lever6_z = pt_z - p6_z;
             let t43 = r6_22.mul_sub(lever6_z, r6_32 * lever6_y);
             let t44 = r6_32.mul_sub(lever6_x, r6_12 * lever6_z);
             let t45 = r6_12.mul_sub(lever6_y, r6_22 * lever6_x);
+            columns.moment(33, [t43, t44, t45]);
             let t46 = -t3.mul_add(lever6_z, r6_33 * lever6_y);
             let t47 = r6_33.mul_sub(lever6_x, r6_13 * lever6_z);
             let t48 = r6_13.mul_add(lever6_y, t3 * lever6_x);
+            columns.moment(34, [t46, t47, t48]);
             let t49 = r6_12.mul_sub(t7, r6_32 * t8);
             let t50 = r6_32.mul_add(t5, r6_12 * t6);
             let t51 = s5.neg_mul_add(t49, r6_22);
-            columns[33] = [t43, t44, t45, t51, t50, t49];
+            columns.turn(33, [t51, t50, t49]);
             let t52 = r6_13.mul_sub(t7, r6_33 * t8);
             let t53 = r6_33.mul_add(t5, r6_13 * t6);
             let t54 = -s5.mul_add(t52, t3);
-            columns[34] = [t46, t47, t48, t54, t53, t52];
+            columns.turn(34, [t54, t53, t52]);
             cos_roll
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 47 mul, 29 add, 1 div, 3 sincos, 1 sqrt, 6 neg.
         #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -709,10 +751,6 @@ pub mod pps {
         }
 
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 28 mul, 20 add, 3 sincos, 1 sqrt, 2 neg.
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -783,8 +821,6 @@ pub mod pps {
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
-        ///
-        /// 13 mul, 5 add, 7 div, 2 sincos, 5 neg.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
@@ -871,8 +907,6 @@ pub mod pps {
         }
 
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
-        ///
-        /// 13 mul, 10 add, 7 div, 2 sincos, 4 neg.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
@@ -934,218 +968,8 @@ pub mod pps {
             errors[2] = [t5, t12, assembly_shift, t6, t14, t16];
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 94 mul, 59 add, 1 div, 3 sincos, 1 sqrt, 19 neg.
-        #[inline(always)]
-        pub fn error_jacobian_distinct<T: Scalar>(
-            q: &[T; VARIABLES],
-            s: &[T; PARAMETERS],
-            pose: &mut [[T; 3]; 4],
-            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
-        ) -> T {
-            let [d1, d2, d3, q4, q5, q6] = *q;
-            let [
-                y_offset,
-                z_offset,
-                roll_offset,
-                couch_offset,
-                x,
-                y,
-                z,
-                _,
-                _,
-                _,
-                _,
-                _,
-                _,
-            ] = *s;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            // Frame 1: lateral
-            distinct[0][0] = [one, zero, zero];
-            distinct[0][1] = [zero, one, zero];
-            distinct[0][2] = [zero, zero, one];
-            distinct[0][6] = [one, zero, zero];
-            // Frame 2: vertical
-            distinct[1][0] = [one, zero, zero];
-            distinct[1][1] = [zero, one, zero];
-            distinct[1][2] = [zero, zero, one];
-            distinct[1][6] = [one, zero, zero];
-            // Frame 3: longitudinal
-            distinct[2][0] = [one, zero, zero];
-            distinct[2][1] = [zero, one, zero];
-            distinct[2][2] = [zero, zero, one];
-            distinct[2][6] = [one, zero, zero];
-            // Frame 4: spin
-            distinct[3][1] = [zero, one, zero];
-            distinct[3][6] = [one, zero, zero];
-            // Frame 5: roll
-            distinct[4][8] = [zero, zero, one];
-            // Frame 6: pitch
-            distinct[5][8] = [zero, zero, one];
-            let [(s4, c4), (s5, c5), (s6, c6)] = T::sin_cos_each([q4, q5, q6]);
-            // Frame 4: spin
-            distinct[3][2] = [s4, zero, c4];
-            // Frame 5: roll
-            distinct[4][2] = [s4, zero, c4];
-            let p2_y = y_offset + d2;
-            let p3_z = z_offset + d3;
-            let r4_31 = -s4;
-            // Frame 4: spin
-            distinct[3][0] = [c4, zero, r4_31];
-            let p5_y = p2_y + roll_offset;
-            let r5_11 = c4 * c5;
-            let t1 = s4 * c5;
-            let r5_31 = -t1;
-            // Frame 5: roll
-            distinct[4][0] = [r5_11, s5, r5_31];
-            // Frame 6: pitch
-            distinct[5][0] = [r5_11, s5, r5_31];
-            let t2 = c4 * s5;
-            let r5_32 = s4 * s5;
-            let r5_12 = -t2;
-            // Frame 5: roll
-            distinct[4][1] = [r5_12, c5, r5_32];
-            let r6_22 = c5 * c6;
-            let t3 = c5 * s6;
-            let r6_12 = s4.mul_sub(s6, t2 * c6);
-            let r6_32 = r5_32.mul_add(c6, c4 * s6);
-            // Frame 6: pitch
-            distinct[5][1] = [r6_12, r6_22, r6_32];
-            let r6_13 = t2.mul_add(s6, s4 * c6);
-            let r6_23 = -t3;
-            let r6_33 = c4.mul_sub(c6, r5_32 * s6);
-            distinct[5][2] = [r6_13, r6_23, r6_33];
-            let p6_x = r6_12.mul_add(couch_offset, d1);
-            let p6_y = r6_22.mul_add(couch_offset, p5_y);
-            let p6_z = r6_32.mul_add(couch_offset, p3_z);
-            let pt_x = r6_13.mul_add(z, r6_12.mul_add(y, r5_11.mul_add(x, p6_x)));
-            let pt_y = t3.neg_mul_add(z, r6_22.mul_add(y, s5.mul_add(x, p6_y)));
-            let pt_z = r6_33.mul_add(z, r6_32.mul_add(y, t1.neg_mul_add(x, p6_z)));
-            *pose = [
-                [r5_11, s5, r5_31],
-                [r6_12, r6_22, r6_32],
-                [r6_13, r6_23, r6_33],
-                [pt_x, pt_y, pt_z],
-            ];
-            let cos_roll = r5_11.mul_add(r5_11, t1 * t1).sqrt();
-            let t4 = T::constant(1.0) / cos_roll;
-            let t5 = r5_11 * t4;
-            let t6 = t1 * t4;
-            let t7 = t4 * t5;
-            let t8 = t4 * t6;
-            let t9 = -t8;
-            let lever1_x = pt_x - d1;
-            let t10 = -pt_z;
-            // Frame 1: lateral
-            distinct[0][5] = [zero, t10, pt_y];
-            let t11 = -lever1_x;
-            distinct[0][3] = [pt_z, zero, t11];
-            // Frame 2: vertical
-            distinct[1][3] = [pt_z, zero, t11];
-            let t12 = -pt_y;
-            // Frame 1: lateral
-            distinct[0][4] = [t12, lever1_x, zero];
-            let t13 = s5 * t8;
-            distinct[0][7] = [t13, t5, t9];
-            // Frame 2: vertical
-            distinct[1][7] = [t13, t5, t9];
-            // Frame 3: longitudinal
-            distinct[2][7] = [t13, t5, t9];
-            let t14 = -(s5 * t7);
-            // Frame 1: lateral
-            distinct[0][8] = [t14, t6, t7];
-            // Frame 2: vertical
-            distinct[1][8] = [t14, t6, t7];
-            // Frame 3: longitudinal
-            distinct[2][8] = [t14, t6, t7];
-            let lever4_y = pt_y - p2_y;
-            // Frame 2: vertical
-            distinct[1][5] = [zero, t10, lever4_y];
-            let t15 = -lever4_y;
-            distinct[1][4] = [t15, lever1_x, zero];
-            // Frame 3: longitudinal
-            distinct[2][4] = [t15, lever1_x, zero];
-            let t16 = p3_z - pt_z;
-            distinct[2][5] = [zero, t16, lever4_y];
-            let lever4_z = -t16;
-            distinct[2][3] = [lever4_z, zero, t11];
-            // Frame 4: spin
-            distinct[3][3] = [lever4_z, zero, t11];
-            let t17 = s4 * lever4_y;
-            let t18 = c4.mul_sub(t16, s4 * lever1_x);
-            let t19 = c4 * lever4_y;
-            distinct[3][5] = [t17, t18, t19];
-            let t20 = -t19;
-            let t21 = c4.mul_add(lever1_x, s4 * t16);
-            distinct[3][4] = [t20, t21, t17];
-            let t22 = s4.mul_sub(t7, c4 * t8);
-            let t23 = c4.mul_add(t5, s4 * t6);
-            let t24 = -(s5 * t22);
-            distinct[3][7] = [t24, t23, t22];
-            // Frame 5: roll
-            distinct[4][7] = [t24, t23, t22];
-            let t25 = c4.mul_add(t7, s4 * t8);
-            let t26 = c4.mul_sub(t6, s4 * t5);
-            let t27 = -(s5 * t25);
-            // Frame 4: spin
-            distinct[3][8] = [t27, t26, t25];
-            let lever5_y = pt_y - p5_y;
-            let t28 = t1.mul_sub(lever5_y, s5 * t16);
-            let t29 = r5_11.mul_sub(t16, t1 * lever1_x);
-            let t30 = r5_11.mul_sub(lever5_y, s5 * lever1_x);
-            // Frame 5: roll
-            distinct[4][5] = [t28, t29, t30];
-            let t31 = -c5.mul_add(t16, r5_32 * lever5_y);
-            let t32 = r5_32.mul_sub(lever1_x, t2 * t16);
-            let t33 = -t2.mul_add(lever5_y, c5 * lever1_x);
-            distinct[4][3] = [t31, t32, t33];
-            let t34 = c4.mul_sub(roll_offset, t19);
-            let t35 = s4.neg_mul_add(roll_offset, t17);
-            distinct[4][4] = [t34, t21, t35];
-            let t36 = t2.mul_add(t7, r5_32 * t8);
-            let t37 = -t36;
-            let t38 = r5_32.mul_sub(t5, t2 * t6);
-            let t39 = s5.mul_add(t36, c5);
-            distinct[4][6] = [t39, t38, t37];
-            let t40 = r6_13.neg_mul_add(couch_offset, t28);
-            let t41 = t3.mul_add(couch_offset, t29);
-            let t42 = r6_33.neg_mul_add(couch_offset, t30);
-            // Frame 6: pitch
-            distinct[5][5] = [t40, t41, t42];
-            let lever6_x = pt_x - p6_x;
-            let lever6_y = pt_y - p6_y;
-            let lever6_z = pt_z - p6_z;
-            let t43 = r6_22.mul_sub(lever6_z, r6_32 * lever6_y);
-            let t44 = r6_32.mul_sub(lever6_x, r6_12 * lever6_z);
-            let t45 = r6_12.mul_sub(lever6_y, r6_22 * lever6_x);
-            distinct[5][3] = [t43, t44, t45];
-            let t46 = -t3.mul_add(lever6_z, r6_33 * lever6_y);
-            let t47 = r6_33.mul_sub(lever6_x, r6_13 * lever6_z);
-            let t48 = r6_13.mul_add(lever6_y, t3 * lever6_x);
-            distinct[5][4] = [t46, t47, t48];
-            let t49 = r6_12.mul_sub(t7, r6_32 * t8);
-            let t50 = r6_32.mul_add(t5, r6_12 * t6);
-            let t51 = s5.neg_mul_add(t49, r6_22);
-            distinct[5][6] = [t51, t50, t49];
-            let t52 = r6_13.mul_sub(t7, r6_33 * t8);
-            let t53 = r6_33.mul_add(t5, r6_13 * t6);
-            let t54 = -s5.mul_add(t52, t3);
-            distinct[5][7] = [t54, t53, t52];
-            cos_roll
-        }
-
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
         /// Jacobian.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 85 mul, 94 add, 1 div, 3 sincos, 1 sqrt.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1235,10 +1059,6 @@ pub mod pps {
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
         /// order of ε.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 227 mul, 219 add, 1 div, 3 sincos, 1 sqrt, 1 neg.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1458,10 +1278,6 @@ pub mod pps {
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 77 mul, 103 add, 8 div, 4 sincos, 1 sqrt.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1562,10 +1378,6 @@ pub mod pps {
 
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
         /// Jacobian.
-        ///
-        /// Returns `cos ρ`; where that is 0, rows 4–6 are not finite.
-        ///
-        /// 88 mul, 105 add, 8 div, 4 sincos, 1 sqrt, 4 neg.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1683,8 +1495,6 @@ pub mod pps {
 
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
         /// E_1 … A_n E_n T`.
-        ///
-        /// 304 mul, 190 add, 7 div, 8 sincos.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -2132,8 +1942,6 @@ pub mod pps {
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
         /// variable.
-        ///
-        /// 340 mul, 216 add, 7 div, 11 sincos, 4 neg.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],

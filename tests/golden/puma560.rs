@@ -202,7 +202,7 @@ pub mod puma560 {
         }
     }
 
-    ::abbe::checked_face! {
+    ::abbe::checked_functions! {
         /// Unimation PUMA 560, as a [`Manipulator`](::abbe::Manipulator).
         Puma560
     }
@@ -211,11 +211,9 @@ pub mod puma560 {
     /// not finite stays so.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
-        use ::abbe::Scalar;
+        use ::abbe::{ErrorColumns, Scalar};
 
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
-        ///
-        /// 4 mul, 0 add, 6 sincos, 6 neg.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -284,8 +282,6 @@ pub mod puma560 {
         }
 
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
-        ///
-        /// 67 mul, 33 add, 6 sincos, 5 neg.
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], _s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [q1, q2, q3, q4, q5, q6] = *q;
@@ -343,74 +339,119 @@ pub mod puma560 {
         }
 
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
-        ///
-        /// 94 mul, 45 add, 6 sincos, 21 neg.
         #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; ERRORS],
+        ) {
+            error_columns(q, s, pose, columns);
+        }
+
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
+        #[inline(always)]
+        pub fn error_jacobian_distinct<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
+        ) {
+            error_columns(q, s, pose, distinct);
+        }
+
+        /// Both: a column is given as soon as it is known.
+        #[inline(always)]
+        fn error_columns<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            columns: &mut impl ErrorColumns<T>,
         ) {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
             // Frame 1: waist
-            columns[1] = [zero, zero, one, zero, zero, zero];
+            columns.along(1, [zero, zero, one]);
+            columns.turn(3, [zero, zero, one]);
+            // Frame 3: elbow
+            columns.moment(16, [zero; 3]);
+            // Frame 4: wrist roll
+            columns.moment(21, [zero; 3]);
+            columns.moment(22, [zero; 3]);
+            columns.moment(23, [zero; 3]);
+            // Frame 5: wrist bend
+            columns.moment(27, [zero; 3]);
+            columns.moment(28, [zero; 3]);
+            columns.moment(29, [zero; 3]);
+            // Frame 6: flange
+            columns.moment(33, [zero; 3]);
+            columns.moment(34, [zero; 3]);
+            columns.moment(35, [zero; 3]);
             let a2_z4 = T::constant(0.4318);
             let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
             let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
                 T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
-            columns[0] = [c1, s1, zero, zero, zero, zero];
+            // Frame 1: waist
+            columns.along(0, [c1, s1, zero]);
+            columns.turn(5, [c1, s1, zero]);
             let r1_23 = -c1;
-            columns[2] = [s1, r1_23, zero, zero, zero, zero];
+            columns.along(2, [s1, r1_23, zero]);
+            columns.turn(4, [s1, r1_23, zero]);
             // Frame 2: shoulder
-            columns[8] = [s1, r1_23, zero, zero, zero, zero];
+            columns.along(8, [s1, r1_23, zero]);
+            columns.turn(10, [s1, r1_23, zero]);
             let t1 = c2 * a2_z4;
             let p2_z = s2 * a2_z4;
             let p2_x = c1 * t1;
             let p2_y = s1 * t1;
             let r2_11 = c1 * c2;
             let r2_21 = s1 * c2;
-            columns[6] = [r2_11, r2_21, s2, zero, zero, zero];
+            columns.along(6, [r2_11, r2_21, s2]);
+            columns.turn(11, [r2_11, r2_21, s2]);
             let t2 = c1 * s2;
             let r2_12 = -t2;
             let t3 = s1 * s2;
             let r2_22 = -t3;
-            columns[7] = [r2_12, r2_22, c2, zero, zero, zero];
+            columns.along(7, [r2_12, r2_22, c2]);
+            columns.turn(9, [r2_12, r2_22, c2]);
             let t4 = c3 * a3;
             let t5 = s3 * a3;
             let r3_11 = r2_11.mul_sub(c3, t2 * s3);
             let r3_21 = r2_21.mul_sub(c3, t3 * s3);
             let r3_31 = s2.mul_add(c3, c2 * s3);
             // Frame 3: elbow
-            columns[12] = [r3_11, r3_21, r3_31, zero, zero, zero];
+            columns.along(12, [r3_11, r3_21, r3_31]);
+            columns.turn(17, [r3_11, r3_21, r3_31]);
             let r3_12 = -s1;
-            columns[13] = [r3_12, c1, zero, zero, zero, zero];
+            columns.along(13, [r3_12, c1, zero]);
+            columns.turn(15, [r3_12, c1, zero]);
             let t6 = r2_11.mul_add(s3, t2 * c3);
             let r3_13 = -t6;
             let t7 = r2_21.mul_add(s3, t3 * c3);
             let r3_23 = -t7;
             let r3_33 = c2.mul_sub(c3, s2 * s3);
-            columns[14] = [r3_13, r3_23, r3_33, zero, zero, zero];
-            columns[16] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            columns.along(14, [r3_13, r3_23, r3_33]);
+            columns.turn(16, [r3_13, r3_23, r3_33]);
             // Frame 4: wrist roll
-            columns[19] = [r3_13, r3_23, r3_33, zero, zero, zero];
-            columns[21] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            columns.along(19, [r3_13, r3_23, r3_33]);
+            columns.turn(21, [r3_13, r3_23, r3_33]);
             let p3_x = p2_x + s1.mul_add(z3, r2_11.mul_sub(t4, t2 * t5));
             let p3_y = p2_y + c1.neg_mul_add(z3, r2_21.mul_sub(t4, t3 * t5));
             let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
             let r4_31 = r3_31 * c4;
             let r4_11 = r3_11.mul_sub(c4, s1 * s4);
             let r4_21 = r3_21.mul_add(c4, c1 * s4);
-            columns[18] = [r4_11, r4_21, r4_31, zero, zero, zero];
-            columns[23] = [zero, zero, zero, r4_11, r4_21, r4_31];
+            columns.along(18, [r4_11, r4_21, r4_31]);
+            columns.turn(23, [r4_11, r4_21, r4_31]);
             let r4_33 = r3_31 * s4;
             let r4_13 = r3_11.mul_add(s4, s1 * c4);
             let r4_23 = r3_21.mul_sub(s4, c1 * c4);
-            columns[20] = [r4_13, r4_23, r4_33, zero, zero, zero];
-            columns[22] = [zero, zero, zero, r4_13, r4_23, r4_33];
+            columns.along(20, [r4_13, r4_23, r4_33]);
+            columns.turn(22, [r4_13, r4_23, r4_33]);
             let p4_x = t6.neg_mul_add(a2_z4, p3_x);
             let p4_y = t7.neg_mul_add(a2_z4, p3_y);
             let p4_z = r3_33.mul_add(a2_z4, p3_z);
@@ -418,26 +459,26 @@ pub mod puma560 {
             let r5_21 = r4_21.mul_sub(c5, t7 * s5);
             let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
             // Frame 5: wrist bend
-            columns[24] = [r5_11, r5_21, r5_31, zero, zero, zero];
-            columns[29] = [zero, zero, zero, r5_11, r5_21, r5_31];
+            columns.along(24, [r5_11, r5_21, r5_31]);
+            columns.turn(29, [r5_11, r5_21, r5_31]);
             let r5_12 = -r4_13;
             let r5_22 = -r4_23;
             let r5_32 = -r4_33;
-            columns[25] = [r5_12, r5_22, r5_32, zero, zero, zero];
-            columns[27] = [zero, zero, zero, r5_12, r5_22, r5_32];
+            columns.along(25, [r5_12, r5_22, r5_32]);
+            columns.turn(27, [r5_12, r5_22, r5_32]);
             let r5_13 = -r4_11.mul_add(s5, t6 * c5);
             let r5_23 = -r4_21.mul_add(s5, t7 * c5);
             let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
-            columns[26] = [r5_13, r5_23, r5_33, zero, zero, zero];
-            columns[28] = [zero, zero, zero, r5_13, r5_23, r5_33];
+            columns.along(26, [r5_13, r5_23, r5_33]);
+            columns.turn(28, [r5_13, r5_23, r5_33]);
             // Frame 6: flange
-            columns[32] = [r5_13, r5_23, r5_33, zero, zero, zero];
-            columns[34] = [zero, zero, zero, r5_13, r5_23, r5_33];
+            columns.along(32, [r5_13, r5_23, r5_33]);
+            columns.turn(34, [r5_13, r5_23, r5_33]);
             let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
             let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
             let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
-            columns[30] = [r6_11, r6_21, r6_31, zero, zero, zero];
-            columns[35] = [zero, zero, zero, r6_11, r6_21, r6_31];
+            columns.along(30, [r6_11, r6_21, r6_31]);
+            columns.turn(35, [r6_11, r6_21, r6_31]);
             let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
             let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
             let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
@@ -447,18 +488,18 @@ pub mod puma560 {
                 [r5_13, r5_23, r5_33],
                 [p4_x, p4_y, p4_z],
             ];
-            columns[31] = [r6_12, r6_22, r6_32, zero, zero, zero];
-            columns[33] = [zero, zero, zero, r6_12, r6_22, r6_32];
+            columns.along(31, [r6_12, r6_22, r6_32]);
+            columns.turn(33, [r6_12, r6_22, r6_32]);
             let t8 = s1 * p4_z;
             let t9 = -(c1 * p4_z);
             let t10 = c1.mul_sub(p4_y, s1 * p4_x);
             // Frame 1: waist
-            columns[5] = [t8, t9, t10, c1, s1, zero];
+            columns.moment(5, [t8, t9, t10]);
             let t11 = -p4_y;
-            columns[3] = [t11, p4_x, zero, zero, zero, one];
+            columns.moment(3, [t11, p4_x, zero]);
             let t12 = -t8;
             let t13 = s1.mul_add(p4_y, c1 * p4_x);
-            columns[4] = [t9, t12, t13, s1, r1_23, zero];
+            columns.moment(4, [t9, t12, t13]);
             let lever2_x = p4_x - p2_x;
             let lever2_y = p4_y - p2_y;
             let lever2_z = p4_z - p2_z;
@@ -466,28 +507,26 @@ pub mod puma560 {
             let t15 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
             let t16 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
             // Frame 2: shoulder
-            columns[11] = [t14, t15, t16, r2_11, r2_21, s2];
+            columns.moment(11, [t14, t15, t16]);
             let t17 = -t3.mul_add(lever2_z, c2 * lever2_y);
             let t18 = c2.mul_add(lever2_x, t2 * lever2_z);
             let t19 = t3.mul_sub(lever2_x, t2 * lever2_y);
-            columns[9] = [t17, t18, t19, r2_12, r2_22, c2];
+            columns.moment(9, [t17, t18, t19]);
             let t20 = -(c1 * lever2_z);
             let t21 = -(s1 * lever2_z);
             let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
-            columns[10] = [t20, t21, t22, s1, r1_23, zero];
+            columns.moment(10, [t20, t21, t22]);
             let t23 = s1 * a2_z4;
             let t24 = -(c1 * a2_z4);
             // Frame 3: elbow
-            columns[17] = [t23, t24, zero, r3_11, r3_21, r3_31];
+            columns.moment(17, [t23, t24, zero]);
             let t25 = a2_z4 * r3_11;
             let t26 = a2_z4 * r3_21;
             let t27 = a2_z4 * r3_31;
-            columns[15] = [t25, t26, t27, r3_12, c1, zero];
+            columns.moment(15, [t25, t26, t27]);
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
-        ///
-        /// 83 mul, 50 add, 6 sincos, 13 neg.
         #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -573,8 +612,6 @@ pub mod puma560 {
         }
 
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
-        ///
-        /// 67 mul, 33 add, 6 sincos, 5 neg.
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -586,8 +623,6 @@ pub mod puma560 {
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -608,8 +643,6 @@ pub mod puma560 {
         }
 
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -632,160 +665,8 @@ pub mod puma560 {
             errors[5] = [zero; 6];
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
-        ///
-        /// 94 mul, 45 add, 6 sincos, 21 neg.
-        #[inline(always)]
-        pub fn error_jacobian_distinct<T: Scalar>(
-            q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
-            pose: &mut [[T; 3]; 4],
-            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
-        ) {
-            let [q1, q2, q3, q4, q5, q6] = *q;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            // Frame 1: waist
-            distinct[0][1] = [zero, zero, one];
-            // Frame 3: elbow
-            distinct[2][4] = [zero; 3];
-            // Frame 4: wrist roll
-            distinct[3][3] = [zero; 3];
-            distinct[3][4] = [zero; 3];
-            distinct[3][5] = [zero; 3];
-            // Frame 5: wrist bend
-            distinct[4][3] = [zero; 3];
-            distinct[4][4] = [zero; 3];
-            distinct[4][5] = [zero; 3];
-            // Frame 6: flange
-            distinct[5][3] = [zero; 3];
-            distinct[5][4] = [zero; 3];
-            distinct[5][5] = [zero; 3];
-            let a2_z4 = T::constant(0.4318);
-            let a3 = T::constant(0.0203);
-            let z3 = T::constant(0.15005);
-            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
-                T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
-            // Frame 1: waist
-            distinct[0][0] = [c1, s1, zero];
-            let r1_23 = -c1;
-            distinct[0][2] = [s1, r1_23, zero];
-            // Frame 2: shoulder
-            distinct[1][2] = [s1, r1_23, zero];
-            let t1 = c2 * a2_z4;
-            let p2_z = s2 * a2_z4;
-            let p2_x = c1 * t1;
-            let p2_y = s1 * t1;
-            let r2_11 = c1 * c2;
-            let r2_21 = s1 * c2;
-            distinct[1][0] = [r2_11, r2_21, s2];
-            let t2 = c1 * s2;
-            let r2_12 = -t2;
-            let t3 = s1 * s2;
-            let r2_22 = -t3;
-            distinct[1][1] = [r2_12, r2_22, c2];
-            let t4 = c3 * a3;
-            let t5 = s3 * a3;
-            let r3_11 = r2_11.mul_sub(c3, t2 * s3);
-            let r3_21 = r2_21.mul_sub(c3, t3 * s3);
-            let r3_31 = s2.mul_add(c3, c2 * s3);
-            // Frame 3: elbow
-            distinct[2][0] = [r3_11, r3_21, r3_31];
-            let r3_12 = -s1;
-            distinct[2][1] = [r3_12, c1, zero];
-            let t6 = r2_11.mul_add(s3, t2 * c3);
-            let r3_13 = -t6;
-            let t7 = r2_21.mul_add(s3, t3 * c3);
-            let r3_23 = -t7;
-            let r3_33 = c2.mul_sub(c3, s2 * s3);
-            distinct[2][2] = [r3_13, r3_23, r3_33];
-            // Frame 4: wrist roll
-            distinct[3][1] = [r3_13, r3_23, r3_33];
-            let p3_x = p2_x + s1.mul_add(z3, r2_11.mul_sub(t4, t2 * t5));
-            let p3_y = p2_y + c1.neg_mul_add(z3, r2_21.mul_sub(t4, t3 * t5));
-            let p3_z = p2_z + s2.mul_add(t4, c2 * t5);
-            let r4_31 = r3_31 * c4;
-            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
-            let r4_21 = r3_21.mul_add(c4, c1 * s4);
-            distinct[3][0] = [r4_11, r4_21, r4_31];
-            let r4_33 = r3_31 * s4;
-            let r4_13 = r3_11.mul_add(s4, s1 * c4);
-            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
-            distinct[3][2] = [r4_13, r4_23, r4_33];
-            let p4_x = t6.neg_mul_add(a2_z4, p3_x);
-            let p4_y = t7.neg_mul_add(a2_z4, p3_y);
-            let p4_z = r3_33.mul_add(a2_z4, p3_z);
-            let r5_11 = r4_11.mul_sub(c5, t6 * s5);
-            let r5_21 = r4_21.mul_sub(c5, t7 * s5);
-            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
-            // Frame 5: wrist bend
-            distinct[4][0] = [r5_11, r5_21, r5_31];
-            let r5_12 = -r4_13;
-            let r5_22 = -r4_23;
-            let r5_32 = -r4_33;
-            distinct[4][1] = [r5_12, r5_22, r5_32];
-            let r5_13 = -r4_11.mul_add(s5, t6 * c5);
-            let r5_23 = -r4_21.mul_add(s5, t7 * c5);
-            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
-            distinct[4][2] = [r5_13, r5_23, r5_33];
-            // Frame 6: flange
-            distinct[5][2] = [r5_13, r5_23, r5_33];
-            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
-            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
-            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
-            distinct[5][0] = [r6_11, r6_21, r6_31];
-            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
-            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
-            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
-            *pose = [
-                [r6_11, r6_21, r6_31],
-                [r6_12, r6_22, r6_32],
-                [r5_13, r5_23, r5_33],
-                [p4_x, p4_y, p4_z],
-            ];
-            distinct[5][1] = [r6_12, r6_22, r6_32];
-            let t8 = s1 * p4_z;
-            let t9 = -(c1 * p4_z);
-            let t10 = c1.mul_sub(p4_y, s1 * p4_x);
-            // Frame 1: waist
-            distinct[0][5] = [t8, t9, t10];
-            let t11 = -p4_y;
-            distinct[0][3] = [t11, p4_x, zero];
-            let t12 = -t8;
-            let t13 = s1.mul_add(p4_y, c1 * p4_x);
-            distinct[0][4] = [t9, t12, t13];
-            let lever2_x = p4_x - p2_x;
-            let lever2_y = p4_y - p2_y;
-            let lever2_z = p4_z - p2_z;
-            let t14 = r2_21.mul_sub(lever2_z, s2 * lever2_y);
-            let t15 = s2.mul_sub(lever2_x, r2_11 * lever2_z);
-            let t16 = r2_11.mul_sub(lever2_y, r2_21 * lever2_x);
-            // Frame 2: shoulder
-            distinct[1][5] = [t14, t15, t16];
-            let t17 = -t3.mul_add(lever2_z, c2 * lever2_y);
-            let t18 = c2.mul_add(lever2_x, t2 * lever2_z);
-            let t19 = t3.mul_sub(lever2_x, t2 * lever2_y);
-            distinct[1][3] = [t17, t18, t19];
-            let t20 = -(c1 * lever2_z);
-            let t21 = -(s1 * lever2_z);
-            let t22 = s1.mul_add(lever2_y, c1 * lever2_x);
-            distinct[1][4] = [t20, t21, t22];
-            let t23 = s1 * a2_z4;
-            let t24 = -(c1 * a2_z4);
-            // Frame 3: elbow
-            distinct[2][5] = [t23, t24, zero];
-            let t25 = a2_z4 * r3_11;
-            let t26 = a2_z4 * r3_21;
-            let t27 = a2_z4 * r3_31;
-            distinct[2][3] = [t25, t26, t27];
-        }
-
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
         /// Jacobian.
-        ///
-        /// 70 mul, 73 add, 6 sincos.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -849,8 +730,6 @@ pub mod puma560 {
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
         /// order of ε.
-        ///
-        /// 156 mul, 162 add, 6 sincos, 1 neg.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1028,8 +907,6 @@ pub mod puma560 {
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -1043,8 +920,6 @@ pub mod puma560 {
 
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
         /// Jacobian.
-        ///
-        /// 69 mul, 25 add, 5 sincos, 9 neg.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1117,8 +992,6 @@ pub mod puma560 {
 
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
         /// E_1 … A_n E_n T`.
-        ///
-        /// 67 mul, 33 add, 6 sincos, 5 neg.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1258,8 +1131,6 @@ pub mod puma560 {
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
         /// variable.
-        ///
-        /// 83 mul, 50 add, 6 sincos, 13 neg.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],

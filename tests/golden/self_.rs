@@ -202,7 +202,7 @@ pub mod self_ {
         }
     }
 
-    ::abbe::checked_face! {
+    ::abbe::checked_functions! {
         /// A robot with \<unlucky\> \[names\], as a [`Manipulator`](::abbe::Manipulator).
         ManipulatorSelf
     }
@@ -211,11 +211,9 @@ pub mod self_ {
     /// not finite stays so.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
-        use ::abbe::Scalar;
+        use ::abbe::{ErrorColumns, Scalar};
 
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
-        ///
-        /// 26 mul, 7 add, 5 sincos, 3 other, 5 neg.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -282,8 +280,6 @@ pub mod self_ {
         }
 
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
-        ///
-        /// 47 mul, 21 add, 5 sincos, 3 other, 2 neg.
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [Some_, self_] = *q;
@@ -338,8 +334,6 @@ pub mod self_ {
         }
 
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
-        ///
-        /// 63 mul, 30 add, 5 sincos, 3 other, 9 neg.
         #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -347,9 +341,37 @@ pub mod self_ {
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; ERRORS],
         ) {
+            error_columns(q, s, pose, columns);
+        }
+
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
+        #[inline(always)]
+        pub fn error_jacobian_distinct<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
+        ) {
+            error_columns(q, s, pose, distinct);
+        }
+
+        /// Both: a column is given as soon as it is known.
+        #[inline(always)]
+        fn error_columns<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            columns: &mut impl ErrorColumns<T>,
+        ) {
             let [Some_, self_] = *q;
             let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
             let zero = T::constant(0.0);
+            // Frame 2: x
+            columns.moment(9, [zero; 3]);
+            columns.moment(10, [zero; 3]);
+            columns.moment(11, [zero; 3]);
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
@@ -364,7 +386,8 @@ pub mod self_ {
                 Some_.abs().powf(T::constant(2.7)),
             ]);
             // Frame 1: first | `frame`
-            columns[0] = [cos_1, sin_1, zero, zero, zero, zero];
+            columns.along(0, [cos_1, sin_1, zero]);
+            columns.turn(5, [cos_1, sin_1, zero]);
             let t4 = Some_ * ERRORS_;
             let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
             let p1_y = sin_1.mul_add(q_, cos_1 * t4);
@@ -373,11 +396,13 @@ pub mod self_ {
             let r1_12 = sin_1 * cos_r1_11;
             let t5 = cos_1 * cos_r1_11;
             let r1_22 = -t5;
-            columns[1] = [r1_12, r1_22, r1_32, zero, zero, zero];
+            columns.along(1, [r1_12, r1_22, r1_32]);
+            columns.turn(3, [r1_12, r1_22, r1_32]);
             let t6 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
             let r1_13 = -t6;
-            columns[2] = [r1_13, r1_23, r1_33, zero, zero, zero];
+            columns.along(2, [r1_13, r1_23, r1_33]);
+            columns.turn(4, [r1_13, r1_23, r1_33]);
             let t7 = sin_r1_11 * cos__s;
             let t8 = sin_r1_11 * sin__s;
             let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
@@ -395,13 +420,13 @@ pub mod self_ {
             let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
             let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
             // Frame 2: x
-            columns[6] = [r2_11, r2_21, r2_31, zero, zero, zero];
-            columns[11] = [zero, zero, zero, r2_11, r2_21, r2_31];
+            columns.along(6, [r2_11, r2_21, r2_31]);
+            columns.turn(11, [r2_11, r2_21, r2_31]);
             let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
             let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
             let r2_32 = -t7.mul_add(cos_3, t16 * sin_3);
-            columns[7] = [r2_12, r2_22, r2_32, zero, zero, zero];
-            columns[9] = [zero, zero, zero, r2_12, r2_22, r2_32];
+            columns.along(7, [r2_12, r2_22, r2_32]);
+            columns.turn(9, [r2_12, r2_22, r2_32]);
             let r2_13 = t14.mul_sub(cos_3, t11 * sin_3);
             let r2_23 = t12.mul_add(sin_3, t15 * cos_3);
             let r2_33 = t7.mul_sub(sin_3, t16 * cos_3);
@@ -411,28 +436,26 @@ pub mod self_ {
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            columns[8] = [r2_13, r2_23, r2_33, zero, zero, zero];
-            columns[10] = [zero, zero, zero, r2_13, r2_23, r2_33];
+            columns.along(8, [r2_13, r2_23, r2_33]);
+            columns.turn(10, [r2_13, r2_23, r2_33]);
             let lever1_x = p2_x - p1_x;
             let lever1_y = p2_y - p1_y;
             let t17 = -(sin_1 * t13);
             let t18 = cos_1 * t13;
             let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
             // Frame 1: first | `frame`
-            columns[5] = [t17, t18, t19, cos_1, sin_1, zero];
+            columns.moment(5, [t17, t18, t19]);
             let t20 = t5.mul_add(t13, sin_r1_11 * lever1_y);
             let t21 = r1_12.mul_sub(t13, sin_r1_11 * lever1_x);
             let t22 = r1_12.mul_add(lever1_y, t5 * lever1_x);
-            columns[3] = [t20, t21, t22, r1_12, r1_22, r1_32];
+            columns.moment(3, [t20, t21, t22]);
             let t23 = cos_r1_11.mul_sub(lever1_y, r1_23 * t13);
             let t24 = -cos_r1_11.mul_add(lever1_x, t6 * t13);
             let t25 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
-            columns[4] = [t23, t24, t25, r1_13, r1_23, r1_33];
+            columns.moment(4, [t23, t24, t25]);
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
-        ///
-        /// 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg.
         #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -508,8 +531,6 @@ pub mod self_ {
         }
 
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
-        ///
-        /// 68 mul, 28 add, 1 div, 5 sincos, 3 other, 11 neg.
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -601,8 +622,6 @@ pub mod self_ {
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
-        ///
-        /// 9 mul, 3 add, 4 div, 1 sqrt, 2 other.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -622,8 +641,6 @@ pub mod self_ {
         }
 
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -638,106 +655,8 @@ pub mod self_ {
             errors[1] = [zero; 6];
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
-        ///
-        /// 63 mul, 30 add, 5 sincos, 3 other, 9 neg.
-        #[inline(always)]
-        pub fn error_jacobian_distinct<T: Scalar>(
-            q: &[T; VARIABLES],
-            s: &[T; PARAMETERS],
-            pose: &mut [[T; 3]; 4],
-            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
-        ) {
-            let [Some_, self_] = *q;
-            let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
-            let zero = T::constant(0.0);
-            // Frame 2: x
-            distinct[1][3] = [zero; 3];
-            distinct[1][4] = [zero; 3];
-            distinct[1][5] = [zero; 3];
-            let [
-                (sin_1, cos_1),
-                (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
-                (sin_2, cos_2),
-                (sin_3, cos_3),
-            ] = T::sin_cos_each([
-                None_.mul_add(T, Some_),
-                r1_11,
-                _s,
-                self_.atan2(q_),
-                Some_.abs().powf(T::constant(2.7)),
-            ]);
-            // Frame 1: first | `frame`
-            distinct[0][0] = [cos_1, sin_1, zero];
-            let t4 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
-            let r1_32 = -sin_r1_11;
-            let r1_33 = -cos_r1_11;
-            let r1_12 = sin_1 * cos_r1_11;
-            let t5 = cos_1 * cos_r1_11;
-            let r1_22 = -t5;
-            distinct[0][1] = [r1_12, r1_22, r1_32];
-            let t6 = sin_1 * sin_r1_11;
-            let r1_23 = cos_1 * sin_r1_11;
-            let r1_13 = -t6;
-            distinct[0][2] = [r1_13, r1_23, r1_33];
-            let t7 = sin_r1_11 * cos__s;
-            let t8 = sin_r1_11 * sin__s;
-            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
-            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
-            let t13 = t8 * self_;
-            let p2_z = -t13;
-            let p2_x = t9.mul_add(self_, p1_x);
-            let p2_y = t10.mul_add(self_, p1_y);
-            let t14 = t9.mul_sub(sin_2, t6 * cos_2);
-            let t15 = r1_23.mul_add(cos_2, t10 * sin_2);
-            let t16 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
-            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
-            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
-            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
-            // Frame 2: x
-            distinct[1][0] = [r2_11, r2_21, r2_31];
-            let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
-            let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
-            let r2_32 = -t7.mul_add(cos_3, t16 * sin_3);
-            distinct[1][1] = [r2_12, r2_22, r2_32];
-            let r2_13 = t14.mul_sub(cos_3, t11 * sin_3);
-            let r2_23 = t12.mul_add(sin_3, t15 * cos_3);
-            let r2_33 = t7.mul_sub(sin_3, t16 * cos_3);
-            *pose = [
-                [r2_11, r2_21, r2_31],
-                [r2_12, r2_22, r2_32],
-                [r2_13, r2_23, r2_33],
-                [p2_x, p2_y, p2_z],
-            ];
-            distinct[1][2] = [r2_13, r2_23, r2_33];
-            let lever1_x = p2_x - p1_x;
-            let lever1_y = p2_y - p1_y;
-            let t17 = -(sin_1 * t13);
-            let t18 = cos_1 * t13;
-            let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
-            // Frame 1: first | `frame`
-            distinct[0][5] = [t17, t18, t19];
-            let t20 = t5.mul_add(t13, sin_r1_11 * lever1_y);
-            let t21 = r1_12.mul_sub(t13, sin_r1_11 * lever1_x);
-            let t22 = r1_12.mul_add(lever1_y, t5 * lever1_x);
-            distinct[0][3] = [t20, t21, t22];
-            let t23 = cos_r1_11.mul_sub(lever1_y, r1_23 * t13);
-            let t24 = -cos_r1_11.mul_add(lever1_x, t6 * t13);
-            let t25 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
-            distinct[0][4] = [t23, t24, t25];
-        }
-
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
         /// Jacobian.
-        ///
-        /// 47 mul, 31 add, 5 sincos, 3 other, 2 neg.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -793,8 +712,6 @@ pub mod self_ {
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
         /// order of ε.
-        ///
-        /// 100 mul, 88 add, 5 sincos, 3 other, 4 neg.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -938,8 +855,6 @@ pub mod self_ {
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -953,8 +868,6 @@ pub mod self_ {
 
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
         /// Jacobian.
-        ///
-        /// 31 mul, 9 add, 4 div, 4 sincos, 1 sqrt, 3 other.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -995,8 +908,6 @@ pub mod self_ {
 
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
         /// E_1 … A_n E_n T`.
-        ///
-        /// 47 mul, 21 add, 5 sincos, 3 other, 2 neg.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1090,8 +1001,6 @@ pub mod self_ {
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
         /// variable.
-        ///
-        /// 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],

@@ -108,7 +108,7 @@ pub mod slide {
         }
     }
 
-    ::abbe::checked_face! {
+    ::abbe::checked_functions! {
         /// slide, as a [`Manipulator`](::abbe::Manipulator).
         Slide
     }
@@ -117,11 +117,9 @@ pub mod slide {
     /// not finite stays so.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
-        use ::abbe::Scalar;
+        use ::abbe::{ErrorColumns, Scalar};
 
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -146,8 +144,6 @@ pub mod slide {
         }
 
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], _s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [d1] = *q;
@@ -162,14 +158,36 @@ pub mod slide {
         }
 
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
+            s: &[T; PARAMETERS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; ERRORS],
+        ) {
+            error_columns(q, s, pose, columns);
+        }
+
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
+        #[inline(always)]
+        pub fn error_jacobian_distinct<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
+        ) {
+            error_columns(q, s, pose, distinct);
+        }
+
+        /// Both: a column is given as soon as it is known.
+        #[inline(always)]
+        fn error_columns<T: Scalar>(
+            q: &[T; VARIABLES],
+            _s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            columns: &mut impl ErrorColumns<T>,
         ) {
             let [d1] = *q;
             let zero = T::constant(0.0);
@@ -181,17 +199,18 @@ pub mod slide {
                 [d1, zero, zero],
             ];
             // Frame 1: carriage
-            columns[0] = [one, zero, zero, zero, zero, zero];
-            columns[1] = [zero, one, zero, zero, zero, zero];
-            columns[2] = [zero, zero, one, zero, zero, zero];
-            columns[3] = [zero, zero, zero, zero, one, zero];
-            columns[4] = [zero, zero, zero, zero, zero, one];
-            columns[5] = [zero, zero, zero, one, zero, zero];
+            columns.along(0, [one, zero, zero]);
+            columns.along(1, [zero, one, zero]);
+            columns.along(2, [zero, zero, one]);
+            columns.moment(3, [zero; 3]);
+            columns.turn(3, [zero, one, zero]);
+            columns.moment(4, [zero; 3]);
+            columns.turn(4, [zero, zero, one]);
+            columns.moment(5, [zero; 3]);
+            columns.turn(5, [one, zero, zero]);
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -212,8 +231,6 @@ pub mod slide {
         }
 
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -225,8 +242,6 @@ pub mod slide {
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -238,8 +253,6 @@ pub mod slide {
         }
 
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -252,40 +265,8 @@ pub mod slide {
             errors[0] = [zero; 6];
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
-        ///
-        /// 0 mul, 0 add.
-        #[inline(always)]
-        pub fn error_jacobian_distinct<T: Scalar>(
-            q: &[T; VARIABLES],
-            _s: &[T; PARAMETERS],
-            pose: &mut [[T; 3]; 4],
-            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
-        ) {
-            let [d1] = *q;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            *pose = [
-                [one, zero, zero],
-                [zero, one, zero],
-                [zero, zero, one],
-                [d1, zero, zero],
-            ];
-            // Frame 1: carriage
-            distinct[0][0] = [one, zero, zero];
-            distinct[0][1] = [zero, one, zero];
-            distinct[0][2] = [zero, zero, one];
-            distinct[0][3] = [zero; 3];
-            distinct[0][4] = [zero; 3];
-            distinct[0][5] = [zero; 3];
-        }
-
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
         /// Jacobian.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -299,8 +280,6 @@ pub mod slide {
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
         /// order of ε.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -319,8 +298,6 @@ pub mod slide {
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -334,8 +311,6 @@ pub mod slide {
 
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
         /// Jacobian.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             _q: &[T; VARIABLES],
@@ -347,8 +322,6 @@ pub mod slide {
 
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
         /// E_1 … A_n E_n T`.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -377,8 +350,6 @@ pub mod slide {
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
         /// variable.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],

@@ -21,6 +21,8 @@ pub(super) enum Statement {
     Copy { from: Place, to: usize },
     /// Row `index` of a place becomes these; a `fresh` array begins with them.
     Assign { to: Place, index: usize, values: Vec<Value>, fresh: bool },
+    /// A part of column `index` of `J_e`, for what takes columns one by one.
+    Column { index: usize, part: &'static str, values: Vec<Value> },
     /// Another routine; of the arrays that it fills, those that begin here.
     Call { routine: &'static str, arrays: Vec<usize>, fresh: Vec<usize> },
     /// Entries of an array as sums of terms.

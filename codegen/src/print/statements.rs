@@ -29,6 +29,26 @@ impl Statements {
         routine: &Routine,
         syntax: &dyn Syntax,
     ) -> Self {
+        Self::with(spec, description, routine, syntax, false)
+    }
+
+    /// The same; the columns of `J_e` go part by part to what takes them.
+    pub(super) fn by_columns(
+        spec: &Spec,
+        description: &Description,
+        routine: &Routine,
+        syntax: &dyn Syntax,
+    ) -> Self {
+        Self::with(spec, description, routine, syntax, true)
+    }
+
+    fn with(
+        spec: &Spec,
+        description: &Description,
+        routine: &Routine,
+        syntax: &dyn Syntax,
+        by_columns: bool,
+    ) -> Self {
         let names = Names::new(spec, routine, syntax.reserved());
         let mut writer = Writer {
             routine,
@@ -40,6 +60,7 @@ impl Statements {
             whole: Vec::new(),
             constants: [false; 2],
             margin: None,
+            by_columns,
         };
         let symbols = symbols(routine);
         let mut list = writer.arguments(&symbols);
@@ -78,6 +99,7 @@ struct Writer<'w> {
     whole: Vec<usize>,
     constants: [bool; 2],
     margin: Option<String>,
+    by_columns: bool,
 }
 
 impl Writer<'_> {
@@ -268,10 +290,18 @@ impl Writer<'_> {
             let fresh = self.whole.contains(&place.array);
             for index in 0..rows {
                 let values: Vec<Value> = values.by_ref().take(row).collect();
-                let ready = values.iter().map(|value| value.ready).max().unwrap_or(0);
                 let frame = self.frame_of(place, index, rows);
-                let statement = Statement::Assign { to: *place, index, values, fresh };
-                assignments.push(Assignment { ready, frame, statement });
+                let mut assign = |values: Vec<Value>, statement: &dyn Fn(Vec<Value>) -> Statement| {
+                    let ready = values.iter().map(|value| value.ready).max().unwrap_or(0);
+                    assignments.push(Assignment { ready, frame, statement: statement(values) });
+                };
+                if self.by_columns && array.name == "columns" {
+                    for (part, values) in parts(index, values) {
+                        assign(values, &|values| Statement::Column { index, part, values });
+                    }
+                } else {
+                    assign(values, &|values| Statement::Assign { to: *place, index, values, fresh });
+                }
             }
         }
         // What is known is written at once, so that it need not be kept; in a loop, after everything is known.
@@ -292,6 +322,16 @@ impl Writer<'_> {
                 statements.push(assignment.statement);
             }
         }
+    }
+}
+
+/// A column of `J_e` in parts, each of which is known at its own time.
+fn parts(index: usize, mut column: Vec<Value>) -> Vec<(&'static str, Vec<Value>)> {
+    let rows = column.split_off(3);
+    match index % 6 {
+        // Translations turn nothing.
+        0..3 => vec![("along", column)],
+        _ => vec![("moment", column), ("turn", rows)],
     }
 }
 

@@ -184,8 +184,8 @@ impl Printer<'_> {
                 body.iter().for_each(|statement| self.statement(statement));
                 self.writer.close("}");
             }
-            // With the results.
-            Statement::Return(_) => {}
+            // With the results; columns go to arrays.
+            Statement::Return(_) | Statement::Column { .. } => {}
         }
     }
 

@@ -216,7 +216,7 @@ fn structure(writer: &mut Writer, head: &str, values: &[String]) {
 
 /// The checked functions and the trait: the same for all, so the runtime has them.
 pub(super) fn checked(writer: &mut Writer, spec: &Spec) {
-    writer.open("::abbe::checked_face!");
+    writer.open("::abbe::checked_functions!");
     let title = escaped(spec.title.trim_end_matches('.'));
     writer.documentation(&format!("{title}, as a [`Manipulator`](::abbe::Manipulator)."));
     writer.lines(&type_name(&spec.name));

@@ -1,36 +1,81 @@
 //! The array functions of a module: generic over the scalar, without checks.
 
+use abbe::Function;
 use abbe::function::Count;
 
 use super::operators::Rust;
 use crate::print::expression::{Expression, Value};
-use crate::print::header::operations;
-use crate::print::layout::{Writer, array, fits, pattern, width};
+use crate::print::layout::{Writer, array, call, fits, pattern, width};
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
-use crate::program::{Array, Place, Role, Routine, Routines, Row};
+use crate::program::{Array, Block, Place, Role, Routine, Routines, Row, Stage};
 use crate::spec::Spec;
 
 /// One function.
 pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let Statements { list, used, constants } =
-        Statements::new(spec, &routines.description, routine, &Rust(&spec.tables));
-    let has_margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
-    documentation(writer, routine, has_margin);
-    writer.lines("#[inline(always)]");
-    let outside = |(array, _): &(&Array, &bool)| matches!(array.role, Role::Argument | Role::Result);
-    let arguments: Vec<String> = routine.arrays.iter().zip(&used).filter(outside).map(argument).collect();
-    let visibility = if routine.function.is_some() { "pub " } else { "" };
-    let name = format!("{visibility}fn {}<T: Scalar>", routine.name);
-    writer.function(&name, &arguments, if has_margin { " -> T" } else { "" }, list.is_empty());
-    if list.is_empty() {
-        return;
+    let statements = Statements::new(spec, &routines.description, routine, &Rust(&spec.tables));
+    let head = if routine.function.is_some() { "pub fn" } else { "fn" };
+    writer.documentation(routine.documentation);
+    let arguments = arguments(routine, &statements.used);
+    begin(writer, routine, &format!("{head} {}", routine.name), &arguments, statements.list.is_empty());
+    if !statements.list.is_empty() {
+        body(Printer { writer, routines, routine }, &statements);
     }
-    let mut printer = Printer { writer, routines, routine };
+}
+
+/// Whether one program gives `J_e` and what of it is distinct: so it is where neither goes through loops.
+pub(super) fn shares_columns(routines: &Routines) -> bool {
+    let [dense, distinct] = [Function::ErrorJacobian, Function::ErrorJacobianDistinct]
+        .map(|function| routines.function(function));
+    let is_program =
+        |routine: &Routine| matches!(&routine.stages[..], [Stage::Block(Block { repeated: None, .. })]);
+    is_program(dense) && is_program(distinct) && dense.operations == distinct.operations
+}
+
+/// `J_e` and what of it is distinct by a function of their own that gives each column to either as soon as it is known.
+pub(super) fn error_columns(writer: &mut Writer, spec: &Spec, routines: &Routines) {
+    for function in [Function::ErrorJacobian, Function::ErrorJacobianDistinct] {
+        let routine = routines.function(function);
+        writer.documentation(routine.documentation);
+        let all = vec![true; routine.arrays.len()];
+        begin(writer, routine, &format!("pub fn {}", routine.name), &arguments(routine, &all), false);
+        let names = routine.arrays.iter().filter(|array| array.role != Role::Margin);
+        let names: Vec<&str> = names.map(|array| array.name).collect();
+        let end = if names.len() < routine.arrays.len() { "" } else { ";" };
+        writer.lines(&format!("error_columns({}){end}", names.join(", ")));
+        writer.close("}");
+        writer.blank();
+    }
+    let routine = routines.function(Function::ErrorJacobian);
+    let statements = Statements::by_columns(spec, &routines.description, routine, &Rust(&spec.tables));
+    let mut arguments = arguments(routine, &statements.used);
+    if let Some(columns) = arguments.iter_mut().find(|argument| argument.starts_with("columns: ")) {
+        *columns = "columns: &mut impl ErrorColumns<T>".to_owned();
+    }
+    writer.documentation("Both: a column is given as soon as it is known.");
+    begin(writer, routine, "fn error_columns", &arguments, false);
+    body(Printer { writer, routines, routine }, &statements);
+}
+
+/// The head of a function.
+fn begin(writer: &mut Writer, routine: &Routine, name: &str, arguments: &[String], is_empty: bool) {
+    let has_margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
+    writer.lines("#[inline(always)]");
+    let result = if has_margin { " -> T" } else { "" };
+    writer.function(&format!("{name}<T: Scalar>"), arguments, result, is_empty);
+}
+
+fn arguments(routine: &Routine, used: &[bool]) -> Vec<String> {
+    let outside = |(array, _): &(&Array, &bool)| matches!(array.role, Role::Argument | Role::Result);
+    routine.arrays.iter().zip(used).filter(outside).map(argument).collect()
+}
+
+/// The statements of a function, and its end.
+fn body(mut printer: Printer<'_>, Statements { list, constants, .. }: &Statements) {
     let given = list.iter().take_while(|statement| printer.unpacks_argument(statement)).count();
     for (index, statement) in list.iter().enumerate() {
         if index == given {
-            printer.constants(constants);
+            printer.constants(*constants);
         }
         if let (Statement::Call { routine, arrays, fresh }, Some(Statement::Return(_))) =
             (statement, list.get(index + 1))
@@ -44,7 +89,7 @@ pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines
         printer.statement(statement);
     }
     if given == list.len() {
-        printer.constants(constants);
+        printer.constants(*constants);
     }
     printer.writer.close("}");
 }
@@ -85,16 +130,6 @@ fn last(count: Count) -> String {
     }
 }
 
-fn documentation(writer: &mut Writer, routine: &Routine, has_margin: bool) {
-    writer.documentation(routine.documentation);
-    writer.documentation_line("");
-    if has_margin {
-        writer.documentation("Returns `cos ρ`; where that is 0, rows 4–6 are not finite.");
-        writer.documentation_line("");
-    }
-    writer.documentation(&format!("{}.", operations(routine)));
-}
-
 struct Printer<'p> {
     writer: &'p mut Writer,
     routines: &'p Routines,
@@ -131,6 +166,7 @@ impl Printer<'_> {
             }
             Statement::Copy { from, to } => self.copy(*from, *to),
             Statement::Assign { to, index, values, fresh } => self.assign(*to, *index, values, *fresh),
+            Statement::Column { index, part, values } => self.give_column(*index, part, values),
             Statement::Call { routine, arrays, fresh } => {
                 let named = if self.gives_margin(arrays) { "let margin = " } else { "" };
                 let call = self.call(routine, arrays, fresh);
@@ -213,6 +249,18 @@ impl Printer<'_> {
             _ => format!("{} = {from_rows};", self.place(Place::all(to), 0)),
         };
         self.writer.lines(&line);
+    }
+
+    /// `columns.along(0, [x, y, z]);` of a translation, of a rotation `moment` and `turn`.
+    fn give_column(&mut self, index: usize, part: &str, values: &[Value]) {
+        let entries: Vec<String> = match values.iter().all(|value| value.is_zero) {
+            true => vec!["zero; 3".to_owned()],
+            false => values.iter().map(|value| value.text.clone()).collect(),
+        };
+        let indent = self.writer.indent();
+        let vector = array(indent + 4, "", &entries, "");
+        let call = call(indent, &format!("columns.{part}"), &[index.to_string(), vector]);
+        self.writer.lines(&(call + ";"));
     }
 
     fn assign(&mut self, to: Place, index: usize, values: &[Value], fresh: bool) {

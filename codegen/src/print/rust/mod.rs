@@ -1,4 +1,4 @@
-//! Rust: generic over the scalar, arrays by reference, and a checked face by the macros of `abbe`.
+//! Rust: generic over the scalar, arrays by reference, and checked functions by the macros of `abbe`.
 //!
 //! `functions` prints routines, `operators` what expressions are made of; `face` is what users of a module see; `module`
 //! puts them together.

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use abbe::Function;
+
 use super::face;
-use super::functions::raw_function;
+use super::functions::{error_columns, raw_function, shares_columns};
 use super::literal::looks_like_named;
 use super::tables::{lookup_table, tables};
 use crate::chain::Model;
@@ -11,7 +13,7 @@ use crate::expr::Table;
 use crate::print::header::header;
 use crate::print::layout::Writer;
 use crate::program::{Operand, Program, Routines, Stage};
-use crate::spec::{Class, Spec};
+use crate::spec::{Class, Orientation, Spec};
 
 /// The counts that arrays have as sizes.
 const SIZES: [&str; 8] =
@@ -32,14 +34,28 @@ pub fn module(spec: &Spec, model: &Model, routines: &Routines) -> String {
         "The same as functions of plain arrays, generic over the scalar and without checks: what is not finite \
          stays so.",
     );
+    if spec.orientation == Orientation::EulerYzx {
+        writer.documentation_line("");
+        writer.documentation("What is returned is `cos ρ`; where that is 0, rows 4–6 are not finite.");
+    }
+    let shares_columns = shares_columns(routines);
     writer.open("pub mod raw");
     writer.imports("super", &SIZES);
-    writer.lines("use ::abbe::Scalar;");
+    writer.lines(if shares_columns { "use ::abbe::{ErrorColumns, Scalar};" } else { "use ::abbe::Scalar;" });
     let (functions, helpers): (Vec<_>, Vec<_>) =
         routines.list.iter().partition(|routine| routine.function.is_some());
     for routine in functions {
-        writer.blank();
-        raw_function(&mut writer, spec, routines, routine);
+        match routine.function {
+            Some(Function::ErrorJacobian) if shares_columns => {
+                writer.blank();
+                error_columns(&mut writer, spec, routines);
+            }
+            Some(Function::ErrorJacobianDistinct) if shares_columns => {}
+            _ => {
+                writer.blank();
+                raw_function(&mut writer, spec, routines, routine);
+            }
+        }
     }
     tables(&mut writer, routines);
     spec.tables.iter().for_each(|table| lookup_table(&mut writer, table));
