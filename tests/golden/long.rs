@@ -1404,8 +1404,6 @@ pub mod long {
         /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
         /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
         /// the frame.
-        ///
-        /// 3474 mul, 2395 add, 2 div, 142 sincos, in a loop over the frames.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],

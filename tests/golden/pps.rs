@@ -1724,8 +1724,6 @@ pub mod pps {
         /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
         /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
         /// the frame.
-        ///
-        /// 315 mul, 194 add, 7 div, 9 sincos.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],

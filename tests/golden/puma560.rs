@@ -38,7 +38,7 @@
 /// | `predicted_displacement` | 0 mul, 0 add |
 /// | `source_displacements` | 69 mul, 25 add, 5 sincos, 9 neg |
 /// | `real_pose` | 67 mul, 33 add, 6 sincos, 5 neg |
-/// | `drawn_pose` | 145 mul, 71 add, 12 sincos, 4 neg |
+/// | `drawn_pose` | 133 mul, 66 add, 11 sincos, 4 neg |
 /// | `compensator_step` | 83 mul, 50 add, 6 sincos, 13 neg |
 #[allow(dead_code)]
 pub mod puma560 {
@@ -1005,8 +1005,6 @@ pub mod puma560 {
         /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
         /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
         /// the frame.
-        ///
-        /// 145 mul, 71 add, 12 sincos, 4 neg.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1025,7 +1023,6 @@ pub mod puma560 {
                 (s2, c2),
                 (s3, c3),
                 (s4, c4),
-                (s5, c5),
                 (s6, c6),
                 (sin_1, cos_1),
                 (sin_2, cos_2),
@@ -1038,13 +1035,12 @@ pub mod puma560 {
                 q2,
                 q3,
                 q4,
-                q5,
                 q6,
                 T::constant(5.017628908595749e-5) * m1,
                 T::constant(2.9138734439454556e-5) * m2,
                 T::constant(5.849579385639661e-5) * m3,
                 T::constant(4.1316956794243195e-5) * m4,
-                T::constant(4.367994457391645e-5) * m5,
+                m5.mul_add(T::constant(4.367994457391645e-5), q5),
                 T::constant(4.096696468181667e-5) * m6,
             ]);
             let t7 = c2 * a2_z4;
@@ -1097,34 +1093,28 @@ pub mod puma560 {
             let t53 = t40.mul_sub(cos_4, t43 * sin_4);
             let t54 = t41.mul_sub(cos_4, t44 * sin_4);
             let t55 = t39.mul_sub(cos_4, t42 * sin_4);
-            let t56 = c5.mul_add(t53, s5 * t33);
-            let t57 = c5.mul_sub(t54, s5 * t34);
-            let t58 = c5.mul_add(t55, s5 * t35);
-            let t59 = c5.mul_sub(t33, s5 * t53);
-            let t60 = s5.mul_add(t54, c5 * t34);
-            let t61 = c5.mul_sub(t35, s5 * t55);
-            let t62 = t59.mul_sub(cos_5, t56 * sin_5);
-            let t63 = -t60.mul_add(cos_5, t57 * sin_5);
-            let t64 = t61.mul_sub(cos_5, t58 * sin_5);
-            let t65 = t59.mul_add(sin_5, t56 * cos_5);
-            let t66 = t57.mul_sub(cos_5, t60 * sin_5);
-            let t67 = t61.mul_add(sin_5, t58 * cos_5);
-            let t68 = c6.mul_sub(t65, s6 * t50);
-            let t69 = c6.mul_sub(t66, s6 * t51);
-            let t70 = c6.mul_sub(t67, s6 * t52);
-            let t71 = s6.mul_add(t65, c6 * t50);
-            let t72 = s6.mul_add(t66, c6 * t51);
-            let t73 = s6.mul_add(t67, c6 * t52);
-            let t74 = t68.mul_sub(cos_6, t71 * sin_6);
-            let t75 = t69.mul_sub(cos_6, t72 * sin_6);
-            let t76 = t70.mul_sub(cos_6, t73 * sin_6);
-            let t77 = -t68.mul_add(sin_6, t71 * cos_6);
-            let t78 = -t69.mul_add(sin_6, t72 * cos_6);
-            let t79 = -t70.mul_add(sin_6, t73 * cos_6);
+            let t56 = t53.mul_add(cos_5, t33 * sin_5);
+            let t57 = t54.mul_sub(cos_5, t34 * sin_5);
+            let t58 = t55.mul_add(cos_5, t35 * sin_5);
+            let t59 = t33.mul_sub(cos_5, t53 * sin_5);
+            let t60 = -t54.mul_add(sin_5, t34 * cos_5);
+            let t61 = t35.mul_sub(cos_5, t55 * sin_5);
+            let t62 = c6.mul_sub(t56, s6 * t50);
+            let t63 = c6.mul_sub(t57, s6 * t51);
+            let t64 = c6.mul_sub(t58, s6 * t52);
+            let t65 = s6.mul_add(t56, c6 * t50);
+            let t66 = s6.mul_add(t57, c6 * t51);
+            let t67 = s6.mul_add(t58, c6 * t52);
+            let t68 = t62.mul_sub(cos_6, t65 * sin_6);
+            let t69 = t63.mul_sub(cos_6, t66 * sin_6);
+            let t70 = t64.mul_sub(cos_6, t67 * sin_6);
+            let t71 = -t62.mul_add(sin_6, t65 * cos_6);
+            let t72 = -t63.mul_add(sin_6, t66 * cos_6);
+            let t73 = -t64.mul_add(sin_6, t67 * cos_6);
             *pose = [
-                [t74, t75, t76],
-                [t77, t78, t79],
-                [t62, t63, t64],
+                [t68, t69, t70],
+                [t71, t72, t73],
+                [t59, t60, t61],
                 [t46, t48, t49],
             ];
         }

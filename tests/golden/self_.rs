@@ -921,8 +921,6 @@ pub mod self_ {
         /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
         /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
         /// the frame.
-        ///
-        /// 73 mul, 33 add, 4 div, 6 sincos, 1 sqrt, 5 other.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],

@@ -335,8 +335,6 @@ pub mod slide {
         /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
         /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
         /// the frame.
-        ///
-        /// 0 mul, 0 add.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
