@@ -186,7 +186,7 @@ pub mod measured {
         }
     }
 
-    ::abbe::checked_face! {
+    ::abbe::checked_functions! {
         /// A rail as it was measured, and what one can say of an arm on it, as a
         /// [`Manipulator`](::abbe::Manipulator).
         Measured
@@ -196,11 +196,9 @@ pub mod measured {
     /// not finite stays so.
     pub mod raw {
         use super::{DISTINCT, EFFECTS, ERRORS, FRAMES, INPUTS, PARAMETERS, SOURCES, VARIABLES};
-        use ::abbe::Scalar;
+        use ::abbe::{ErrorColumns, Scalar};
 
         /// `A_1 … A_n` and the tool `T`, each by itself: columns x, y, z axis and position.
-        ///
-        /// 15 mul, 7 add, 2 div, 5 sincos, 11 other, 5 neg.
         #[inline(always)]
         pub fn transforms<T: Scalar>(
             q: &[T; VARIABLES],
@@ -263,8 +261,6 @@ pub mod measured {
         }
 
         /// Pose of the tool point in `F_0`: columns x, y, z axis and position.
-        ///
-        /// 41 mul, 24 add, 2 div, 5 sincos, 11 other, 2 neg.
         #[inline(always)]
         pub fn pose<T: Scalar>(q: &[T; VARIABLES], s: &[T; PARAMETERS], pose: &mut [[T; 3]; 4]) {
             let [d1, q2, q3] = *q;
@@ -313,8 +309,6 @@ pub mod measured {
         }
 
         /// Pose and error Jacobian `J_e`: six columns per frame, frame 1 first.
-        ///
-        /// 62 mul, 40 add, 2 div, 5 sincos, 11 other, 10 neg.
         #[inline(always)]
         pub fn error_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -322,34 +316,69 @@ pub mod measured {
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; ERRORS],
         ) {
+            error_columns(q, s, pose, columns);
+        }
+
+        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
+        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
+        /// 4–6. `abbe::distinct` makes the columns of it.
+        #[inline(always)]
+        pub fn error_jacobian_distinct<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
+        ) {
+            error_columns(q, s, pose, distinct);
+        }
+
+        /// Both: a column is given as soon as it is known.
+        #[inline(always)]
+        fn error_columns<T: Scalar>(
+            q: &[T; VARIABLES],
+            s: &[T; PARAMETERS],
+            pose: &mut [[T; 3]; 4],
+            columns: &mut impl ErrorColumns<T>,
+        ) {
             let [d1, q2, q3] = *q;
             let [depth, fine, wide, lever, _, _] = *s;
             let zero = T::constant(0.0);
             let one = T::constant(1.0);
             // Frame 1: rail
-            columns[1] = [zero, one, zero, zero, zero, zero];
+            columns.along(1, [zero, one, zero]);
+            columns.turn(3, [zero, one, zero]);
+            // Frame 3: elbow
+            columns.moment(15, [zero; 3]);
+            columns.moment(16, [zero; 3]);
+            columns.moment(17, [zero; 3]);
             let t1 = d1.mul_sub(T::constant(1.2), T::constant(200.0));
             let [(sin_2, cos_2), (sin_3, cos_3), (sin_4, cos_4)] = T::sin_cos_each([
                 PITCH_TABLE.value(t1),
                 q2.sign().mul_add(T::constant(0.0005817764173314432), q2),
                 (T::constant(3.0) + q2.min(q3)).ln(),
             ]);
-            columns[2] = [sin_2, zero, cos_2, zero, zero, zero];
+            // Frame 1: rail
+            columns.along(2, [sin_2, zero, cos_2]);
+            columns.turn(4, [sin_2, zero, cos_2]);
             // Frame 2: shoulder
-            columns[8] = [sin_2, zero, cos_2, zero, zero, zero];
+            columns.along(8, [sin_2, zero, cos_2]);
+            columns.turn(10, [sin_2, zero, cos_2]);
             let p1_z = STRAIGHTNESS_TABLE.value(d1);
             let r1_31 = -sin_2;
             // Frame 1: rail
-            columns[0] = [cos_2, zero, r1_31, zero, zero, zero];
+            columns.along(0, [cos_2, zero, r1_31]);
+            columns.turn(5, [cos_2, zero, r1_31]);
             let r2_11 = cos_2 * cos_3;
             let t5 = sin_2 * cos_3;
             let r2_31 = -t5;
             // Frame 2: shoulder
-            columns[6] = [r2_11, sin_3, r2_31, zero, zero, zero];
+            columns.along(6, [r2_11, sin_3, r2_31]);
+            columns.turn(11, [r2_11, sin_3, r2_31]);
             let t6 = cos_2 * sin_3;
             let r2_32 = sin_2 * sin_3;
             let r2_12 = -t6;
-            columns[7] = [r2_12, cos_3, r2_32, zero, zero, zero];
+            columns.along(7, [r2_12, cos_3, r2_32]);
+            columns.turn(9, [r2_12, cos_3, r2_32]);
             let t7 = lever + STRETCH_TABLE.value(q2.abs());
             let p2_y = sin_3 * t7;
             let t8 = depth + (q2 * wide).max(fine).max(T::constant(-5.0));
@@ -364,8 +393,8 @@ pub mod measured {
             let r3_11 = r2_11.mul_sub(c3, sin_2 * s3);
             let r3_31 = -cos_2.mul_add(s3, t5 * c3);
             // Frame 3: elbow
-            columns[12] = [r3_11, r3_21, r3_31, zero, zero, zero];
-            columns[17] = [zero, zero, zero, r3_11, r3_21, r3_31];
+            columns.along(12, [r3_11, r3_21, r3_31]);
+            columns.turn(17, [r3_11, r3_21, r3_31]);
             let t13 = (-(q3 * q3 / T::constant(9.0))).exp();
             let t14 = lever * T::constant(2.0) * t13;
             let p3_x = t11.mul_add(t14, p2_x);
@@ -374,8 +403,8 @@ pub mod measured {
             let r3_12 = t11.mul_sub(sin_4, t6 * cos_4);
             let r3_22 = cos_3.mul_add(cos_4, t10 * sin_4);
             let r3_32 = r2_32.mul_add(cos_4, t12 * sin_4);
-            columns[13] = [r3_12, r3_22, r3_32, zero, zero, zero];
-            columns[15] = [zero, zero, zero, r3_12, r3_22, r3_32];
+            columns.along(13, [r3_12, r3_22, r3_32]);
+            columns.turn(15, [r3_12, r3_22, r3_32]);
             let r3_13 = t6.mul_add(sin_4, t11 * cos_4);
             let r3_23 = t10.mul_sub(cos_4, cos_3 * sin_4);
             let r3_33 = t12.mul_sub(cos_4, r2_32 * sin_4);
@@ -385,20 +414,20 @@ pub mod measured {
                 [r3_13, r3_23, r3_33],
                 [p3_x, p3_y, p3_z],
             ];
-            columns[14] = [r3_13, r3_23, r3_33, zero, zero, zero];
-            columns[16] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            columns.along(14, [r3_13, r3_23, r3_33]);
+            columns.turn(16, [r3_13, r3_23, r3_33]);
             let lever1_x = p3_x - d1;
             let lever1_z = p3_z - p1_z;
             let t15 = sin_2 * p3_y;
             let t16 = -sin_2.mul_add(lever1_x, cos_2 * lever1_z);
             let t17 = cos_2 * p3_y;
             // Frame 1: rail
-            columns[5] = [t15, t16, t17, cos_2, zero, r1_31];
+            columns.moment(5, [t15, t16, t17]);
             let t18 = -lever1_x;
-            columns[3] = [lever1_z, zero, t18, zero, one, zero];
+            columns.moment(3, [lever1_z, zero, t18]);
             let t19 = -t17;
             let t20 = cos_2.mul_sub(lever1_x, sin_2 * lever1_z);
-            columns[4] = [t19, t20, t15, sin_2, zero, cos_2];
+            columns.moment(4, [t19, t20, t15]);
             let lever2_x = p3_x - p2_x;
             let lever2_y = p3_y - p2_y;
             let lever2_z = p3_z - p2_z;
@@ -406,20 +435,18 @@ pub mod measured {
             let t22 = -t5.mul_add(lever2_x, r2_11 * lever2_z);
             let t23 = r2_11.mul_sub(lever2_y, sin_3 * lever2_x);
             // Frame 2: shoulder
-            columns[11] = [t21, t22, t23, r2_11, sin_3, r2_31];
+            columns.moment(11, [t21, t22, t23]);
             let t24 = cos_3.mul_sub(lever2_z, r2_32 * lever2_y);
             let t25 = r2_32.mul_add(lever2_x, t6 * lever2_z);
             let t26 = -t6.mul_add(lever2_y, cos_3 * lever2_x);
-            columns[9] = [t24, t25, t26, r2_12, cos_3, r2_32];
+            columns.moment(9, [t24, t25, t26]);
             let t27 = t6.mul_sub(t7, t17);
             let t28 = cos_3.neg_mul_add(t7, t20);
             let t29 = r2_32.neg_mul_add(t7, t15);
-            columns[10] = [t27, t28, t29, sin_2, zero, cos_2];
+            columns.moment(10, [t27, t28, t29]);
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
-        ///
-        /// 94 mul, 66 add, 4 div, 5 sincos, 19 other, 4 neg.
         #[inline(always)]
         pub fn joint_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -528,8 +555,6 @@ pub mod measured {
         }
 
         /// Pose and `∂X_T/∂s`: one column per structural parameter.
-        ///
-        /// 56 mul, 33 add, 2 div, 5 sincos, 13 other, 3 neg.
         #[inline(always)]
         pub fn parameter_jacobian<T: Scalar>(
             q: &[T; VARIABLES],
@@ -606,8 +631,6 @@ pub mod measured {
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
-        ///
-        /// 10 mul, 4 add, 6 div, 1 sincos, 8 other, 1 neg.
         #[inline(always)]
         pub fn effects<T: Scalar>(
             q: &[T; VARIABLES],
@@ -634,8 +657,6 @@ pub mod measured {
         }
 
         /// ε of the repeatable sources: `e_x e_y e_z e_s e_r e_p` of each frame.
-        ///
-        /// 6 mul, 3 add, 1 div, 1 sincos, 6 other.
         #[inline(always)]
         pub fn generalized_errors<T: Scalar>(
             q: &[T; VARIABLES],
@@ -662,119 +683,8 @@ pub mod measured {
             errors[2] = [t5, zero, zero, zero, t7, zero];
         }
 
-        /// Pose and what of `J_e` is neither zero nor repeated: of each frame its x, y and z axis,
-        /// then the moments (rows 1–3) of `e_s e_r e_p`, and where rows are Euler angles their rows
-        /// 4–6. `abbe::distinct` makes the columns of it.
-        ///
-        /// 62 mul, 40 add, 2 div, 5 sincos, 11 other, 10 neg.
-        #[inline(always)]
-        pub fn error_jacobian_distinct<T: Scalar>(
-            q: &[T; VARIABLES],
-            s: &[T; PARAMETERS],
-            pose: &mut [[T; 3]; 4],
-            distinct: &mut [[[T; 3]; DISTINCT]; FRAMES],
-        ) {
-            let [d1, q2, q3] = *q;
-            let [depth, fine, wide, lever, _, _] = *s;
-            let zero = T::constant(0.0);
-            let one = T::constant(1.0);
-            // Frame 1: rail
-            distinct[0][1] = [zero, one, zero];
-            // Frame 3: elbow
-            distinct[2][3] = [zero; 3];
-            distinct[2][4] = [zero; 3];
-            distinct[2][5] = [zero; 3];
-            let t1 = d1.mul_sub(T::constant(1.2), T::constant(200.0));
-            let [(sin_2, cos_2), (sin_3, cos_3), (sin_4, cos_4)] = T::sin_cos_each([
-                PITCH_TABLE.value(t1),
-                q2.sign().mul_add(T::constant(0.0005817764173314432), q2),
-                (T::constant(3.0) + q2.min(q3)).ln(),
-            ]);
-            // Frame 1: rail
-            distinct[0][2] = [sin_2, zero, cos_2];
-            // Frame 2: shoulder
-            distinct[1][2] = [sin_2, zero, cos_2];
-            let p1_z = STRAIGHTNESS_TABLE.value(d1);
-            let r1_31 = -sin_2;
-            // Frame 1: rail
-            distinct[0][0] = [cos_2, zero, r1_31];
-            let r2_11 = cos_2 * cos_3;
-            let t5 = sin_2 * cos_3;
-            let r2_31 = -t5;
-            // Frame 2: shoulder
-            distinct[1][0] = [r2_11, sin_3, r2_31];
-            let t6 = cos_2 * sin_3;
-            let r2_32 = sin_2 * sin_3;
-            let r2_12 = -t6;
-            distinct[1][1] = [r2_12, cos_3, r2_32];
-            let t7 = lever + STRETCH_TABLE.value(q2.abs());
-            let p2_y = sin_3 * t7;
-            let t8 = depth + (q2 * wide).max(fine).max(T::constant(-5.0));
-            let p2_x = sin_2.mul_add(t8, r2_11.mul_add(t7, d1));
-            let p2_z = cos_2.mul_add(t8, t5.neg_mul_add(t7, p1_z));
-            let t9 = q2.sin().mul_add(T::constant(1.4), q3 / T::constant(4.0));
-            let (s3, c3) = (q3 + TORQUE_TABLE.value(t9)).sin_cos();
-            let r3_21 = sin_3 * c3;
-            let t10 = sin_3 * s3;
-            let t11 = sin_2.mul_add(c3, r2_11 * s3);
-            let t12 = cos_2.mul_sub(c3, t5 * s3);
-            let r3_11 = r2_11.mul_sub(c3, sin_2 * s3);
-            let r3_31 = -cos_2.mul_add(s3, t5 * c3);
-            // Frame 3: elbow
-            distinct[2][0] = [r3_11, r3_21, r3_31];
-            let t13 = (-(q3 * q3 / T::constant(9.0))).exp();
-            let t14 = lever * T::constant(2.0) * t13;
-            let p3_x = t11.mul_add(t14, p2_x);
-            let p3_y = t10.mul_add(t14, p2_y);
-            let p3_z = t12.mul_add(t14, p2_z);
-            let r3_12 = t11.mul_sub(sin_4, t6 * cos_4);
-            let r3_22 = cos_3.mul_add(cos_4, t10 * sin_4);
-            let r3_32 = r2_32.mul_add(cos_4, t12 * sin_4);
-            distinct[2][1] = [r3_12, r3_22, r3_32];
-            let r3_13 = t6.mul_add(sin_4, t11 * cos_4);
-            let r3_23 = t10.mul_sub(cos_4, cos_3 * sin_4);
-            let r3_33 = t12.mul_sub(cos_4, r2_32 * sin_4);
-            *pose = [
-                [r3_11, r3_21, r3_31],
-                [r3_12, r3_22, r3_32],
-                [r3_13, r3_23, r3_33],
-                [p3_x, p3_y, p3_z],
-            ];
-            distinct[2][2] = [r3_13, r3_23, r3_33];
-            let lever1_x = p3_x - d1;
-            let lever1_z = p3_z - p1_z;
-            let t15 = sin_2 * p3_y;
-            let t16 = -sin_2.mul_add(lever1_x, cos_2 * lever1_z);
-            let t17 = cos_2 * p3_y;
-            // Frame 1: rail
-            distinct[0][5] = [t15, t16, t17];
-            let t18 = -lever1_x;
-            distinct[0][3] = [lever1_z, zero, t18];
-            let t19 = -t17;
-            let t20 = cos_2.mul_sub(lever1_x, sin_2 * lever1_z);
-            distinct[0][4] = [t19, t20, t15];
-            let lever2_x = p3_x - p2_x;
-            let lever2_y = p3_y - p2_y;
-            let lever2_z = p3_z - p2_z;
-            let t21 = sin_3.mul_add(lever2_z, t5 * lever2_y);
-            let t22 = -t5.mul_add(lever2_x, r2_11 * lever2_z);
-            let t23 = r2_11.mul_sub(lever2_y, sin_3 * lever2_x);
-            // Frame 2: shoulder
-            distinct[1][5] = [t21, t22, t23];
-            let t24 = cos_3.mul_sub(lever2_z, r2_32 * lever2_y);
-            let t25 = r2_32.mul_add(lever2_x, t6 * lever2_z);
-            let t26 = -t6.mul_add(lever2_y, cos_3 * lever2_x);
-            distinct[1][3] = [t24, t25, t26];
-            let t27 = t6.mul_sub(t7, t17);
-            let t28 = cos_3.neg_mul_add(t7, t20);
-            let t29 = r2_32.neg_mul_add(t7, t15);
-            distinct[1][4] = [t27, t28, t29];
-        }
-
         /// `ΔX = J_e ε` for any ε, `e_x e_y e_z e_s e_r e_p` of each frame: rows as those of a
         /// Jacobian.
-        ///
-        /// 53 mul, 47 add, 2 div, 5 sincos, 10 other, 1 neg.
         #[inline(always)]
         pub fn displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -830,8 +740,6 @@ pub mod measured {
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
         /// order of ε.
-        ///
-        /// 105 mul, 100 add, 2 div, 5 sincos, 10 other, 3 neg.
         #[inline(always)]
         pub fn covariance<T: Scalar>(
             q: &[T; VARIABLES],
@@ -966,8 +874,6 @@ pub mod measured {
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
-        ///
-        /// 38 mul, 22 add, 3 div, 5 sincos, 16 other, 2 neg.
         #[inline(always)]
         pub fn predicted_displacement<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1016,8 +922,6 @@ pub mod measured {
 
         /// `ΔX` of each source by itself, of a random one for its magnitude: rows as those of a
         /// Jacobian.
-        ///
-        /// 57 mul, 23 add, 8 div, 5 sincos, 18 other, 6 neg.
         #[inline(always)]
         pub fn source_displacements<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1089,8 +993,6 @@ pub mod measured {
 
         /// Pose of the tool point in `F_0` with the errors of the repeatable sources, exactly: `A_1
         /// E_1 … A_n E_n T`.
-        ///
-        /// 66 mul, 39 add, 3 div, 7 sincos, 17 other, 1 neg.
         #[inline(always)]
         pub fn real_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1170,8 +1072,6 @@ pub mod measured {
         /// Pose of the tool point in `F_0` with the errors of every source times a magnitude of its
         /// own, exactly: numbers of `A_i` as they are, errors elsewhere on its link, then those of
         /// the frame.
-        ///
-        /// 90 mul, 48 add, 8 div, 8 sincos, 19 other, 2 neg.
         #[inline(always)]
         pub fn drawn_pose<T: Scalar>(
             q: &[T; VARIABLES],
@@ -1266,8 +1166,6 @@ pub mod measured {
 
         /// The pose of `real_pose`, and the nominal `J_q` with rotation-vector rows: one column per
         /// variable.
-        ///
-        /// 148 mul, 99 add, 7 div, 11 sincos, 35 other, 4 neg.
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],

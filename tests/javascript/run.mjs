@@ -1,18 +1,19 @@
 // node run.mjs MODULE FUNCTIONS INPUT OUTPUT: calls functions of a generated module.
 //
-// FUNCTIONS is JSON, a name and the names of the arguments each. INPUT holds doubles, q, s, u, errors and variances of
-// one configuration after the other; OUTPUT gets what every function returns, in the order of the names.
+// FUNCTIONS is JSON, a name and the names of the arguments each. INPUT holds doubles, q, s, u, errors, variances and
+// magnitudes of one configuration after the other; OUTPUT gets what every function returns, in the order of the names.
 import { readFileSync, writeFileSync } from "node:fs";
 
 const [module, functions, input, output] = process.argv.slice(2);
 const robot = await import(module);
-const { frames, variables, parameters, inputs } = robot.description;
+const { frames, variables, parameters, inputs, sources } = robot.description;
 const sizes = {
     q: variables.length,
     s: parameters.length,
     u: inputs.length,
     errors: 6 * frames.length,
     variances: 6 * frames.length,
+    magnitudes: sources.length,
 };
 const bytes = readFileSync(input);
 const numbers = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));

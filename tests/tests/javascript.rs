@@ -114,7 +114,7 @@ fn assert_equal(spec: Spec, count: usize) {
     println!("{name}: {worst:e} in {count} configurations");
 }
 
-/// q, s, u, errors and variances.
+/// q, s, u, errors, variances and magnitudes.
 fn configurations(robot: &Interpreter, count: usize) -> Vec<Vec<f64>> {
     let description = robot.description();
     let (s, u) = (nominal_parameters(description), nominal_inputs(description));
@@ -123,11 +123,13 @@ fn configurations(robot: &Interpreter, count: usize) -> Vec<Vec<f64>> {
     let errors = 6 * description.frames.len();
     let configuration = |index| {
         let small = (0..2 * errors).map(|k| 1e-3 * halton(index + 1, k % 30));
+        let magnitudes = (0..description.sources.len()).map(|k| 2.0 * halton(index + 1, k % 30) - 1.0);
         joint_sample(description, arm, &moved, index)
             .into_iter()
             .chain(s.clone())
             .chain(u.clone())
             .chain(small)
+            .chain(magnitudes)
             .collect()
     };
     (0..count).map(configuration).collect()
@@ -143,6 +145,7 @@ fn arguments(robot: &Interpreter, function: Function, given: &[f64]) -> Vec<f64>
         ("u", description.inputs.len()),
         ("errors", errors),
         ("variances", errors),
+        ("magnitudes", description.sources.len()),
     ];
     let mut first = 0;
     let mut taken = Vec::new();
