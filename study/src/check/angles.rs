@@ -20,16 +20,14 @@ pub struct Warning {
     pub message: String,
 }
 
-/// Those of a spec whose text is `text`, in the order of the chain, then of the sources.
-pub(super) fn warnings(spec: &Spec, text: &str) -> Vec<Warning> {
+/// Those of a spec with that text, if it comes from a file, in the order of the chain, then of the sources.
+pub(super) fn warnings(spec: &Spec, text: Option<&str>) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let mut check = |what: String, value: f64, span: Option<Span>| {
         if value.abs() > TAU {
-            let line = span.map(|span| {
-                1 + text.as_bytes()[..span.start.min(text.len())]
-                    .iter()
-                    .filter(|byte| **byte == b'\n')
-                    .count()
+            let line = text.zip(span).and_then(|(text, span)| {
+                let before = text.as_bytes().get(..span.start)?;
+                Some(1 + before.iter().filter(|byte| **byte == b'\n').count())
             });
             let value = short(value);
             let message =
@@ -88,8 +86,8 @@ fn turns(number: ChainNumber, spec: &Spec) -> bool {
 }
 
 /// The value of an angle at home and its place; nothing of one that is written with a unit.
-fn doubtful(angle: &Expression, spec: &Spec, text: &str) -> (f64, Span) {
-    let written = text.get(angle.span()).unwrap_or_default();
+fn doubtful(angle: &Expression, spec: &Spec, text: Option<&str>) -> (f64, Span) {
+    let written = text.and_then(|text| text.get(angle.span())).unwrap_or_default();
     let meant = ["deg", "rad", "arc"].iter().any(|unit| written.contains(unit));
     let named = angle.symbols().any(|symbol| matches!(symbol, Symbol::Parameter(_) | Symbol::Input(_)));
     if meant && !named {

@@ -69,7 +69,7 @@ impl Check {
         Ok(Report {
             facts,
             home: Chain::at_home(spec, &interpreter),
-            warnings: angles::warnings(spec, &self.machine.text()?),
+            warnings: angles::warnings(spec, self.machine.text().ok().as_deref()),
             identifiable,
             configurations,
             laws: laws(&interpreter, configurations),
