@@ -226,14 +226,21 @@ pub struct Source {
     pub name: Text,
     /// Repeatable, or random with a distribution.
     pub class: Class,
+    /// What it is an error of: `joint q2`, `parameter a2`, `dh of elbow`, `frame elbow`.
+    pub at: Text,
     /// Where its numbers come from.
     pub reference: Text,
 }
 
 impl Source {
     /// All its fields, in their order.
-    pub const fn new(name: &'static str, class: Class, reference: &'static str) -> Self {
-        Self { name: Text::Constant(name), class, reference: Text::Constant(reference) }
+    pub const fn new(name: &'static str, class: Class, at: &'static str, reference: &'static str) -> Self {
+        Self {
+            name: Text::Constant(name),
+            class,
+            at: Text::Constant(at),
+            reference: Text::Constant(reference),
+        }
     }
 }
 

@@ -50,6 +50,12 @@
 /// | 39 | 38 | q38 |
 /// | 40 | 39 | q39 |
 ///
+/// | source | is an error of |
+/// |---|---|
+/// | sag | frame 3 |
+/// | bow | frame 30 |
+/// | encoder | frame 20 |
+///
 /// | function | operations |
 /// |---|---|
 /// | `transforms` | 188 mul, 208 add, 2 div, 21 sincos |
@@ -386,9 +392,14 @@ pub mod long {
         parameters: List::Constant(&[Parameter::new("reach", 0.4, "m")]),
         inputs: List::Constant(&[Input::new("load", 2.0, [0.0, 5.0], "kg")]),
         sources: List::Constant(&[
-            Source::new("sag", Class::Repeatable, ""),
-            Source::new("bow", Class::Repeatable, ""),
-            Source::new("encoder", Class::Random(Distribution::Uniform), ""),
+            Source::new("sag", Class::Repeatable, "frame 3", ""),
+            Source::new("bow", Class::Repeatable, "frame 30", ""),
+            Source::new(
+                "encoder",
+                Class::Random(Distribution::Uniform),
+                "frame 20",
+                "",
+            ),
         ]),
         effects: List::Constant(&[
             Effect::new(0, 3, Component::X),

@@ -18,6 +18,12 @@
 /// | 2 | shoulder | q2 |
 /// | 3 | elbow | q3 |
 ///
+/// | source | is an error of |
+/// |---|---|
+/// | rail, as it was measured | frame rail |
+/// | windup | frame elbow |
+/// | warming | frame shoulder |
+///
 /// | function | operations |
 /// |---|---|
 /// | `transforms` | 15 mul, 7 add, 2 div, 5 sincos, 11 other, 5 neg |
@@ -94,9 +100,19 @@ pub mod measured {
             Input::new("pressure", 80.0, [0.0, 100.0], "kg/mm/s^2"),
         ]),
         sources: List::Constant(&[
-            Source::new("rail, as it was measured", Class::Repeatable, ""),
-            Source::new("windup", Class::Repeatable, ""),
-            Source::new("warming", Class::Random(Distribution::Uniform), ""),
+            Source::new(
+                "rail, as it was measured",
+                Class::Repeatable,
+                "frame rail",
+                "",
+            ),
+            Source::new("windup", Class::Repeatable, "frame elbow", ""),
+            Source::new(
+                "warming",
+                Class::Random(Distribution::Uniform),
+                "frame shoulder",
+                "",
+            ),
         ]),
         effects: List::Constant(&[
             Effect::new(0, 0, Component::Y),

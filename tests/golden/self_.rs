@@ -17,6 +17,10 @@
 /// | 1 | first \| \`frame\` | Some |
 /// | 2 | x | self_ |
 ///
+/// | source | is an error of |
+/// |---|---|
+/// | "quoted" \ name | frame x |
+///
 /// | function | operations |
 /// |---|---|
 /// | `transforms` | 26 mul, 7 add, 5 sincos, 3 other, 5 neg |
@@ -103,6 +107,7 @@ pub mod self_ {
         sources: List::Constant(&[Source::new(
             "\"quoted\" \\ name",
             Class::Random(Distribution::Normal),
+            "frame x",
             "",
         )]),
         effects: List::Constant(&[

@@ -18,7 +18,8 @@ pub(super) fn sources(report: &Report) -> String {
         }
         let (class, distribution) = number::class(errors.class);
         let class = distribution.map_or(class.to_owned(), |distribution| format!("{class}, {distribution}"));
-        lines.cells[0] = vec![report.name(errors).to_owned(), class];
+        let at = report.spec.place(report.source(errors.source));
+        lines.cells[0] = vec![report.name(errors).to_owned(), class, at];
         table.row(lines.joined());
     }
     table.right(&[2, 3, 4, 5]).unwrapped(&[1, 6]).to_string()

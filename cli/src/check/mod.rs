@@ -55,9 +55,13 @@ fn text(report: &Report) -> String {
     if !report.facts.sources.is_empty() {
         let rows = report.facts.sources.iter().map(|source| {
             let state = if source.enabled { "on" } else { "off" };
-            [source.name.clone(), source.class.to_owned(), source.effects.to_string(), state.to_owned()]
+            [source.name.clone(), source.class.to_owned(), source.at.clone(), state.to_owned()]
         });
-        parts.push(format!("Sources\n{}", table(&["name", "class", "effects", ""], rows)));
+        parts.push(format!("Sources\n{}", table(&["name", "class", "at", ""], rows)));
+    }
+    if !report.notes.is_empty() {
+        let notes: String = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect();
+        parts.push(format!("Notes\n{notes}"));
     }
     let rows = report.facts.operations.iter().map(|f| [f.function.to_owned(), f.operations.to_string()]);
     parts.push(format!("Operations of the generated code\n{}", table(&["function", "operations"], rows)));

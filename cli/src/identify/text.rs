@@ -79,6 +79,12 @@ fn parameters(spec: &Spec, report: &Report) -> String {
         ]);
     }
     let mut text = format!("Errors of the machine, all others held at zero\n{}", table.right(&[2, 3]));
+    if !report.meanings.is_empty() {
+        let sentences: String =
+            report.meanings.iter().map(|meaning| format!("  {}\n", meaning.sentence)).collect();
+        text +=
+            &format!("The same in numbers of the chain, each in place of the error in brackets\n{sentences}");
+    }
     if report.parameters.iter().any(|parameter| parameter.hardly_known) {
         let line = "Hardly known: the data say less of it than that it is small; `--prior` says how small.";
         text += &format!("{line}\n");

@@ -21,7 +21,7 @@ fn it_shows_what_follows_from_a_spec() {
         "Lengths in mm, orientation euler-yzx",
         "0 … 2256 mm",
         "-90 … 90 deg",
-        "base rail curvature, signs as printed   repeatable                2   off",
+        "base rail curvature, signs as printed   repeatable   frame lateral   off",
         "22 of 36 can be known from poses",
         "24 of 42 and 21 of 42",
         "sincos",

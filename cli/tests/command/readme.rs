@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::running::command;
+use super::running::{command, json, prints};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -29,6 +29,35 @@ fn its_code_is_that_of_the_example() {
     assert_eq!(code[0], format!("// build.rs\n{}", example("build.rs")));
     let main = code[1].strip_prefix("// src/main.rs\n").unwrap();
     assert!(example("src/main.rs").starts_with(main));
+}
+
+/// 20 µrad × 850 mm with the arm stretched: the lever begins at the shoulder's axis, not at the elbow.
+#[test]
+fn its_shoulder_encoder_turns_about_the_shoulder() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arm.toml");
+    fs::write(&path, &blocks("toml")[0]).unwrap();
+    let path = path.to_str().unwrap();
+    let report = json(&["analyze", path, "--json"]);
+    let encoder = &report["sources"][0];
+    assert_eq!(
+        (encoder["name"].as_str(), encoder["at"].as_str()),
+        (Some("shoulder encoder"), Some("joint q2"))
+    );
+    let norm = encoder["plain_max"]["norm"].as_f64().unwrap();
+    assert!((norm - 0.0170).abs() < 1e-5, "{norm}");
+    assert_eq!(json(&["check", path, "--json"])["notes"].as_array().map(Vec::len), Some(0));
+    // And as an error of the frame it is another one, which is said.
+    let spec = fs::read_to_string(path).unwrap();
+    let start = spec.find("joint = \"q2\"").unwrap();
+    let end = spec[start..].find("error = \"20e-6\"").unwrap() + start;
+    let other = format!("{}frame = \"shoulder\"\ne_r{}", &spec[..start], &spec[end + "error".len()..]);
+    fs::write(path, other).unwrap();
+    let note = "`shoulder encoder` at shoulder turns about an axis 400 mm from that of q2; if the joint's own error is \
+                meant, write `joint = \"q2\"`.";
+    assert_eq!(json(&["check", path, "--json"])["notes"][0], note);
+    let text = prints(&["check", path]).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains(note), "{text}");
 }
 
 #[test]

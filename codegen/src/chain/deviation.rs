@@ -14,7 +14,8 @@ use crate::graph::{Graph, Node, Op, Vector};
 use crate::spec::{ChainNumber, Factor, Spec};
 
 /// Velocity and rotation per unit of the number, in the axes of a frame.
-pub(crate) struct FrameTwist {
+#[derive(Clone, Copy, Debug)]
+pub struct FrameTwist {
     /// The frame, from 0.
     pub frame: usize,
     /// Velocity of its origin.
@@ -24,7 +25,7 @@ pub(crate) struct FrameTwist {
 }
 
 /// What a number of the chain does to every frame that depends on it; the tool's part is one of the last frame.
-pub(crate) fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<FrameTwist> {
+pub fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<FrameTwist> {
     let symbol = match number {
         ChainNumber::Joint(variable) => Symbol::Variable(variable),
         ChainNumber::Parameter(parameter) => Symbol::Parameter(parameter),

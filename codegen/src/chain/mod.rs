@@ -26,6 +26,7 @@ mod walk;
 
 pub(crate) use accumulate::Accumulated;
 pub(crate) use covariance::Covariance;
+pub use deviation::{FrameTwist, frame_twists};
 pub(crate) use displacement::Displacement;
 pub(crate) use error_jacobian::Columns;
 pub(crate) use local::Local;
@@ -33,6 +34,6 @@ pub use local_twist::LocalTwist;
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;
 pub(crate) use rows::Rows;
-pub use sources::EffectNode;
+pub use sources::{EffectNode, effects};
 pub(crate) use symbol_jacobian::swing;
 pub use walk::transform;

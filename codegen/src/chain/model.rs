@@ -123,7 +123,7 @@ impl Model {
 
         let factors = spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]);
         let transforms = factors.map(|factors| transform(g, factors)).collect();
-        let (effects, causes) = sources::effects(g, spec, &frames);
+        let (effects, causes) = sources::effects_in(g, spec, &frames);
         let generalized_errors = sources::generalized_errors(g, spec, &effects);
 
         let zero = g.zero();

@@ -2,7 +2,7 @@
 
 use super::deviation::frame_twists;
 use super::elastic::{Element, Loads};
-use super::walk::transform;
+use super::walk::{transform, walk};
 use crate::expr::{Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::{Cause, ChainNumber, Class, Component, Effect, Source, Spec};
@@ -60,8 +60,21 @@ pub(super) struct DeviationNode {
     pub(super) error: Node,
 }
 
+/// The effects of every enabled source by themselves, and the graph they are in.
+pub fn effects(spec: &Spec) -> (Graph, Vec<EffectNode>) {
+    let mut graph = Graph::new();
+    let mut at = graph.identity();
+    let mut frames = Vec::new();
+    for frame in &spec.frames {
+        at = walk(&mut graph, at, &frame.factors, &mut Vec::new());
+        frames.push(at);
+    }
+    let (effects, _) = effects_in(&mut graph, spec, &frames);
+    (graph, effects)
+}
+
 /// The effects of every enabled source, source by source, without those that are always zero, and what causes them.
-pub(super) fn effects(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (Vec<EffectNode>, Causes) {
+pub(super) fn effects_in(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (Vec<EffectNode>, Causes) {
     let loads = Loads::new(graph, spec, frames);
     let zero = graph.zero();
     let mut nodes = Vec::new();

@@ -53,6 +53,14 @@ pub(super) fn header(writer: &mut Writer, spec: &Spec, routines: &Routines) {
         let variable = frame.variable.map_or("fixed", |index| &spec.variables[index].name);
         row(&format!("| {} | {} | {variable} |", i + 1, escaped(&frame.name)));
     }
+    if spec.enabled_sources().next().is_some() {
+        row("");
+        row("| source | is an error of |");
+        row("|---|---|");
+    }
+    for source in spec.enabled_sources() {
+        row(&format!("| {} | {} |", escaped(&source.name), escaped(&spec.place(source))));
+    }
     row("");
     row("| function | operations |");
     row("|---|---|");

@@ -188,16 +188,6 @@ pub struct Effect {
     pub span: Span,
 }
 
-impl Effect {
-    /// How many of the frame's six errors it gives at most.
-    pub fn error_count(&self) -> usize {
-        match &self.cause {
-            Cause::Errors(errors) if self.at.is_empty() => errors.len(),
-            _ => 6,
-        }
-    }
-}
-
 /// How a place on a link moves against where it should be.
 #[derive(Clone, Debug)]
 pub enum Cause {

@@ -46,13 +46,14 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, rep
     let mut rows = String::new();
     for (i, (name, figures, published)) in metrics.iter().enumerate() {
         let head = if i == 0 {
-            let (name, class) = (escaped(&source.name), class(errors.class));
+            let (name, at, class) =
+                (escaped(&source.name), escaped(&report.spec.place(source)), class(errors.class));
             let worst =
                 worst.map(|worst| format!("<br>worst at {}", escaped(&unbroken(&report.label(worst)))));
             let worst = worst.unwrap_or_default();
             format!(
                 "<td rowspan=\"{lines}\">{rank}</td><td class=\"words\" rowspan=\"{lines}\"><b>{name}</b>\
-                 <small>{class}{worst}</small></td>"
+                 <small>{at}<br>{class}{worst}</small></td>"
             )
         } else {
             String::new()

@@ -1,8 +1,8 @@
 //! What a spec says, in the order of the file.
 
-use abbe_codegen::chain::Model;
+use abbe_codegen::chain::{Model, effects};
 use abbe_codegen::program::{Operations, Routines};
-use abbe_codegen::spec::{Class, Distribution, Effect, Orientation, Spec, VariableKind};
+use abbe_codegen::spec::{Class, Distribution, Orientation, Spec, VariableKind};
 use serde::Serialize;
 
 /// What a spec says, and how many operations its functions take.
@@ -75,6 +75,8 @@ pub struct Source {
     pub name: String,
     /// `repeatable`, or `random` with its distribution.
     pub class: &'static str,
+    /// What it is an error of.
+    pub at: String,
     /// How many generalized errors it causes.
     pub effects: usize,
     /// Whether it takes part.
@@ -129,10 +131,14 @@ impl Facts {
             unit: input.unit.clone(),
             range: Some(input.range.map(finite)),
         });
-        let sources = spec.sources.iter().map(|source| Source {
+        let all =
+            spec.sources.iter().map(|source| abbe_codegen::spec::Source { enabled: true, ..source.clone() });
+        let (_, effects) = effects(&Spec { sources: all.collect(), ..spec.clone() });
+        let sources = spec.sources.iter().enumerate().map(|(i, source)| Source {
             name: source.name.clone(),
             class: class(source.class),
-            effects: source.effects.iter().map(Effect::error_count).sum(),
+            at: spec.place(source),
+            effects: effects.iter().filter(|effect| effect.source == i).count(),
             enabled: source.enabled,
         });
         Self {

@@ -1,9 +1,11 @@
 //! Whether a spec is right, and what follows from it.
 //!
-//! `facts` is what the spec says, `chain` its matrices at home, `angles` which of its angles are hardly meant, `identifiable` what measurements could tell, `laws` whether the closed form agrees
-//! with the exact chain.
+//! `facts` is what the spec says, `chain` its matrices at home, `angles` which of its angles are hardly meant, `axes` what
+//! its rotations turn about, `identifiable` what measurements could tell, `laws` whether the closed form agrees with the
+//! exact chain.
 
 mod angles;
+mod axes;
 mod chain;
 mod facts;
 mod identifiable;
@@ -42,6 +44,8 @@ pub struct Report {
     pub home: Option<Chain>,
     /// Numbers that are hardly meant as they stand.
     pub warnings: Vec<Warning>,
+    /// What a reader might take for something else.
+    pub notes: Vec<String>,
     /// What measurements could tell: poses, then tool points; each without and with an unknown base frame.
     pub identifiable: Vec<Identifiable>,
     /// At how many configurations the laws were checked.
@@ -70,6 +74,7 @@ impl Check {
             facts,
             home: Chain::at_home(spec, &interpreter),
             warnings: angles::warnings(spec, self.machine.text().ok().as_deref()),
+            notes: axes::notes(spec),
             identifiable,
             configurations,
             laws: laws(&interpreter, configurations),

@@ -1,9 +1,12 @@
 //! A spec with terms as sources: what is fitted, and what `analyze` then computes, are one and the same.
 
 use abbe_codegen::expr::{Dimension, Expression, Function, Symbol, Unit};
-use abbe_codegen::spec::{Axes, Cause, Class, Compliance, Effect, Load, Point, Source, Spec};
+use abbe_codegen::spec::{
+    Axes, Cause, ChainNumber, Class, Compliance, Component, Deviation, Effect, Load, Point, Source, Spec,
+    VariableKind,
+};
 
-use super::terms::{Basis, Term};
+use super::terms::{Basis, Place, Term};
 
 /// The spec with all terms as repeatable sources of magnitude 1, behind its own.
 ///
@@ -46,16 +49,34 @@ fn in_units(spec: &Spec, number: f64, units: &[(&str, i32)]) -> f64 {
 impl Term {
     /// The source of magnitude 1.
     pub fn source(&self, spec: &Spec) -> Source {
-        let cause = match self.basis {
-            Basis::Moment => Cause::Compliance(Box::new(self.compliance(spec))),
-            basis => {
-                let mut value = basis.expression(spec);
-                if !self.component.is_rotation() {
-                    value = Expression::from_number(1.0, Dimension::LENGTH) * value;
-                }
-                Cause::Errors(vec![(self.component, value)])
-            }
+        let (mut effects, mut deviations) = (Vec::new(), Vec::new());
+        let error = |dimension: Dimension| match dimension {
+            Dimension::NONE => self.basis.expression(spec),
+            _ => Expression::from_number(1.0, dimension) * self.basis.expression(spec),
         };
+        let mut deviation = |number: ChainNumber, dimension: Dimension| {
+            deviations.push(Deviation { number, error: error(dimension), span: 0..0 });
+        };
+        match self.place {
+            Place::Joint(joint) => {
+                let dimension = match spec.variables[joint].kind {
+                    VariableKind::Revolute => Dimension::NONE,
+                    VariableKind::Prismatic => Dimension::LENGTH,
+                };
+                deviation(ChainNumber::Joint(joint), dimension);
+            }
+            Place::Parameter(parameter) => {
+                deviation(ChainNumber::Parameter(parameter), spec.parameters[parameter].dimension);
+            }
+            Place::Frame(frame, component) => {
+                let cause = match self.basis {
+                    Basis::Moment => Cause::Compliance(Box::new(compliance(spec, component))),
+                    _ if component.is_rotation() => Cause::Errors(vec![(component, error(Dimension::NONE))]),
+                    _ => Cause::Errors(vec![(component, error(Dimension::LENGTH))]),
+                };
+                effects.push(Effect { frame, at: Vec::new(), cause, span: 0..0 });
+            }
+        }
         Source {
             name: self.name(spec),
             class: Class::Repeatable,
@@ -63,20 +84,20 @@ impl Term {
             description: String::new(),
             reference: String::new(),
             magnitude: None,
-            effects: vec![Effect { frame: self.frame, at: Vec::new(), cause, span: 0..0 }],
-            deviations: Vec::new(),
+            effects,
+            deviations,
         }
     }
+}
 
-    /// A microradian per N times the length unit, about one axis.
-    fn compliance(&self, spec: &Spec) -> Compliance {
-        let value = in_units(spec, 1e-6, &[("N", -1), (spec.length.symbol(), -1)]);
-        let dimension = Dimension::NONE.over(Dimension::MOMENT).unwrap_or(Dimension::NONE);
-        let mut compliance = Compliance::default();
-        let place = self.component as usize;
-        compliance[place][place] = Some(Expression::from_number(value, dimension));
-        compliance
-    }
+/// A microradian per N times the length unit, about one axis.
+fn compliance(spec: &Spec, component: Component) -> Compliance {
+    let value = in_units(spec, 1e-6, &[("N", -1), (spec.length.symbol(), -1)]);
+    let dimension = Dimension::NONE.over(Dimension::MOMENT).unwrap_or(Dimension::NONE);
+    let mut compliance = Compliance::default();
+    let place = component as usize;
+    compliance[place][place] = Some(Expression::from_number(value, dimension));
+    compliance
 }
 
 impl Basis {

@@ -9,6 +9,7 @@ use super::alike::Alike;
 use super::counts::Counts;
 use super::extended::extended;
 use super::found::FoundModel;
+use super::meaning::meanings;
 use super::readings::check_readings;
 use super::report::{
     Compared, CrossValidation, Held, Indices, LeftOut, Pair, Parameter, Report, Sizes, TermGain,
@@ -65,6 +66,7 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
     let o = identifiable.observability;
     let length = map.uncertainty.length;
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
+    let parameters = parameters(setup, solved, spec.length);
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -77,7 +79,8 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
         observability: Indices { o1: o.o1, o2: o.o2, o3: o.o3, o4: o.o4, o5: o.o5 },
         unexplained: (model.unknowns.len() - identifiable.rank).saturating_sub(alike.len()),
         groups: alike.iter().map(|group| Alike::new(group, model, setup.description)).collect(),
-        parameters: parameters(setup, solved, spec.length),
+        meanings: meanings(spec, model, fit),
+        parameters,
         held: identifiable
             .held
             .iter()

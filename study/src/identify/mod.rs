@@ -3,7 +3,7 @@
 //! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant; `terms`
 //! are candidates for richer models, `extended` the spec that has them; `solve` fits, judges and chooses, on the data
 //! alone, `gross` looks for gross errors. `found` is the identified machine, `written` its spec; `report` is what comes out,
-//! with `alike` and `counts`, `job` the way from one to the other.
+//! with `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
 
 mod alike;
 mod counts;
@@ -11,6 +11,7 @@ mod extended;
 mod found;
 mod gross;
 mod job;
+mod meaning;
 mod readings;
 mod report;
 mod setup;
@@ -25,10 +26,10 @@ pub use found::{FoundError, FoundModel, FoundTerm};
 pub use gross::shown_lines;
 pub use job::Identify;
 pub use report::{
-    Compared, CrossValidation, Held, Indices, LeftOut, Pair, Parameter, Report, Sizes, TermGain,
+    Compared, CrossValidation, Held, Indices, LeftOut, Meaning, Pair, Parameter, Report, Sizes, TermGain,
 };
 pub use solve::Settings;
-pub use terms::{Basis, Family, Term, candidates};
+pub use terms::{Basis, Family, Place, Term, candidates};
 pub use written::WrittenSpec;
 
 pub(crate) use readings::check_readings;

@@ -35,6 +35,8 @@ pub struct Report {
     pub unexplained: usize,
     /// The unknowns that stand for the combinations that are known.
     pub parameters: Vec<Parameter>,
+    /// Joints' zeros, parameters and Denavit-Hartenberg numbers that can stand in the place of some of these.
+    pub meanings: Vec<Meaning>,
     /// The others.
     pub held: Vec<Held>,
     /// Parameters that are correlated by more than 0.9, either sign.
@@ -93,6 +95,21 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Whether the data say less of it than was known before.
     pub hardly_known: bool,
+}
+
+/// What was found, said of a number of the chain.
+#[derive(Clone, Debug, Serialize)]
+pub struct Meaning {
+    /// The error of a frame that it takes the place of, such as `e_r1`.
+    pub in_place_of: String,
+    /// The number: `zero of q2`, `reach`, `a of shoulder`.
+    pub number: String,
+    /// By how much it is off: the length unit, or rad.
+    pub value: f64,
+    /// How well that is known.
+    pub standard_deviation: f64,
+    /// All this as a sentence.
+    pub sentence: String,
 }
 
 /// An unknown that is held at zero, and what it acts as.

@@ -6,7 +6,7 @@ use abbe_codegen::expr::Symbol;
 use abbe_codegen::spec::{Fitted, Spec, VariableKind};
 
 use super::found::{FoundError, FoundModel, FoundTerm};
-use super::terms::{Basis, Term};
+use super::terms::{Basis, Place, Term};
 use crate::number::digits;
 
 /// A spec to be written.
@@ -87,31 +87,51 @@ impl FoundModel {
     fn term(&self, spec: &Spec, found: &FoundTerm) -> String {
         let FoundTerm { term, magnitude, standard_deviation } = found;
         format!(
-            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\nreference = {:?}\n\n[[source.effect]]\nframe = {:?}\n{}\n",
+            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\nreference = {:?}\n\n[[source.effect]]\n{}\n",
             source_name(spec, &format!("identified: {}", term.name(spec))),
             format!("Standard deviation: {} of it", digits((standard_deviation / magnitude).abs(), 2)),
             self.reference,
-            spec.frames[term.frame].name,
             effect(spec, term, *magnitude),
         )
     }
 }
 
-/// The error that a term causes.
+/// What a term is an error of, and which.
 fn effect(spec: &Spec, term: &Term, magnitude: f64) -> String {
     let (factor, basis) = (number(magnitude), term.basis.text(spec));
-    let name = term.component.name();
-    if term.basis == Basis::Moment {
-        let entry = |rotation: &str| match rotation == name {
-            true => format!("\"{factor} * {basis}\""),
-            false => "0".to_owned(),
-        };
-        let turns = ["e_s", "e_r", "e_p"].map(entry).join(", ");
-        return format!("compliance = {{ diagonal = [0, 0, 0, {turns}] }}");
-    }
-    match term.component.is_rotation() {
-        true => format!("{name} = \"{factor} * ({basis})\""),
-        false => format!("{name} = \"{factor} * (1 {} * {basis})\"", spec.length.symbol()),
+    let error = |unit: &str| match unit {
+        "" => format!("\"{factor} * ({basis})\""),
+        unit => format!("\"{factor} * (1 {unit} * {basis})\""),
+    };
+    let length = spec.length.symbol();
+    match term.place {
+        Place::Joint(joint) => {
+            let unit = match spec.variables[joint].kind {
+                VariableKind::Revolute => "",
+                VariableKind::Prismatic => length,
+            };
+            format!("joint = {:?}\nerror = {}", spec.variables[joint].name, error(unit))
+        }
+        Place::Parameter(parameter) => {
+            let parameter = &spec.parameters[parameter];
+            format!("parameter = {:?}\nerror = {}", parameter.name, error(&parameter.unit))
+        }
+        Place::Frame(frame, component) => {
+            let name = component.name();
+            let error = match (term.basis, component.is_rotation()) {
+                (Basis::Moment, _) => {
+                    let entry = |rotation: &str| match rotation == name {
+                        true => format!("\"{factor} * {basis}\""),
+                        false => "0".to_owned(),
+                    };
+                    let turns = ["e_s", "e_r", "e_p"].map(entry).join(", ");
+                    format!("compliance = {{ diagonal = [0, 0, 0, {turns}] }}")
+                }
+                (_, true) => format!("{name} = {}", error("")),
+                (_, false) => format!("{name} = {}", error(length)),
+            };
+            format!("frame = {:?}\n{error}", spec.frames[frame].name)
+        }
     }
 }
 

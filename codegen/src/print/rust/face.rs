@@ -109,7 +109,8 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
             Class::Repeatable => "Class::Repeatable".to_owned(),
             Class::Random(distribution) => format!("Class::Random(Distribution::{distribution:?})"),
         };
-        entry("Source::new", &[quoted(&source.name), class, quoted(&source.reference)])
+        let at = spec.place(source);
+        entry("Source::new", &[quoted(&source.name), class, quoted(&at), quoted(&source.reference)])
     });
     list("sources", sources.collect());
     let effects = effects.iter().map(|effect| {

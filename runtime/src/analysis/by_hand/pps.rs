@@ -17,7 +17,7 @@ const fn frame(name: &'static str, index: usize) -> Frame {
 }
 
 const fn source(name: &'static str, class: Class) -> Source {
-    Source::new(name, class, "")
+    Source::new(name, class, "", "")
 }
 
 const fn effect(source: usize, frame: usize, component: Component) -> Effect {

@@ -24,7 +24,7 @@ fn machine(sources: Vec<Source>) -> Description {
 }
 
 fn source(class: Class) -> Source {
-    Source::new("source", class, "")
+    Source::new("source", class, "", "")
 }
 
 /// A budget of these distributions with its errors in so many directions.

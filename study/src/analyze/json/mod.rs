@@ -54,6 +54,7 @@ struct Shape<'a> {
 #[derive(Serialize)]
 struct Source<'a> {
     name: &'a str,
+    at: String,
     class: &'static str,
     plain_max: Axes,
     half_peak_to_peak: Axes,
@@ -190,6 +191,7 @@ fn source<'a>(report: &'a Report, errors: &SourceErrors) -> Source<'a> {
     let (class, distribution) = number::class(errors.class);
     Source {
         name: &report.source(errors.source).name,
+        at: report.spec.place(report.source(errors.source)),
         class,
         plain_max: axes(errors.plain_max),
         half_peak_to_peak: axes(errors.half_peak_to_peak),
