@@ -62,7 +62,7 @@ pub(super) struct DeviationNode {
 
 /// The effects of every enabled source by themselves, and the graph they are in.
 pub fn effects(spec: &Spec) -> (Graph, Vec<EffectNode>) {
-    let mut graph = Graph::new();
+    let mut graph = Graph::with_tables(&spec.tables);
     let mut at = graph.identity();
     let mut frames = Vec::new();
     for frame in &spec.frames {

@@ -114,7 +114,7 @@ impl Check<'_> {
         if expression.symbols().any(|symbol| matches!(symbol, Symbol::Variable(_))) {
             return None;
         }
-        let mut graph = Graph::new();
+        let mut graph = Graph::with_tables(&self.declarations.scope.tables);
         let node = graph.lower(expression);
         let at = |changed: Option<(usize, f64)>| {
             let value = |symbol| match (symbol, changed) {

@@ -93,7 +93,7 @@ fn doubtful(angle: &Expression, spec: &Spec, text: Option<&str>) -> (f64, Span) 
     if meant && !named {
         return (0.0, angle.span());
     }
-    let mut graph = Graph::new();
+    let mut graph = Graph::with_tables(&spec.tables);
     let node = graph.lower(angle);
     let value = graph.evaluate(&[node], |symbol| value_at_home(symbol, spec))[0];
     (value, angle.span())

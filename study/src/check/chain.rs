@@ -105,7 +105,7 @@ fn in_order(factors: &[Factor], convention: DhConvention) -> Option<Vec<(DhNumbe
 }
 
 fn at_home(factor: &Elementary, spec: &Spec) -> f64 {
-    let mut graph = Graph::new();
+    let mut graph = Graph::with_tables(&spec.tables);
     let node = graph.lower(&factor.amount);
     graph.evaluate(&[node], |symbol| value_at_home(symbol, spec))[0] + 0.0
 }

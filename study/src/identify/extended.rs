@@ -131,7 +131,7 @@ mod tests {
     use abbe_codegen::spec::Spec;
     use abbe_interpreter::Interpreter;
 
-    use super::super::terms::{Basis, Term};
+    use super::super::terms::{Basis, Place, Term};
     use super::extended;
 
     /// 1 kg, 300 mm from the axis, and a microradian per N mm.
@@ -139,7 +139,7 @@ mod tests {
     fn the_default_load_hangs_at_the_tool_point() {
         let text = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"arm\"\nvariable = { name = \"q1\", kind = \"revolute\" }\ntransform = \"Rz(q1)\"\n[tool]\ntransform = \"Tx(300)\"\n";
         let spec = Spec::parse("arm.toml", text).unwrap();
-        let term = Term { frame: 0, component: Component::Spin, basis: Basis::Moment };
+        let term = Term { place: Place::Frame(0, Component::Spin), basis: Basis::Moment };
         let robot = Interpreter::new(extended(&spec, &[term]));
         let mut errors = [[0.0; 6]];
         robot.generalized_errors(&[0.7], &[], &[], &mut errors).unwrap();

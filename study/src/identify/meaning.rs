@@ -24,7 +24,7 @@ const FOUND: f64 = 3.0;
 /// What was found of the numbers of the chain.
 pub(super) fn meanings(spec: &Spec, model: &Model, fit: &Fit) -> Vec<Meaning> {
     let mut basis = Basis::new(model, fit);
-    let mut graph = Graph::new();
+    let mut graph = Graph::with_tables(&spec.tables);
     let mut meanings = Vec::new();
     for (name, number) in numbers(spec) {
         let Some((frame, errors)) = constant_errors(&mut graph, spec, number) else { continue };

@@ -97,7 +97,7 @@ pub fn candidates(spec: &Spec, families: &[Family]) -> Vec<Vec<Term>> {
 
 /// The one error of a frame that is, in every configuration, the error of a joint, if there is one.
 fn error_of_joint(spec: &Spec, joint: usize) -> Option<(usize, Component)> {
-    let mut graph = Graph::new();
+    let mut graph = Graph::with_tables(&spec.tables);
     let twists = frame_twists(&mut graph, spec, ChainNumber::Joint(joint));
     let [twist] = &twists[..] else { return None };
     let zero = graph.zero();
@@ -130,7 +130,8 @@ fn joint(spec: &Spec) -> Vec<Vec<Term>> {
 
 fn load(spec: &Spec) -> Vec<Vec<Term>> {
     let used = |parameter: &usize| {
-        !frame_twists(&mut Graph::new(), spec, ChainNumber::Parameter(*parameter)).is_empty()
+        !frame_twists(&mut Graph::with_tables(&spec.tables), spec, ChainNumber::Parameter(*parameter))
+            .is_empty()
     };
     let joints = (0..spec.variables.len()).map(Place::Joint);
     let parameters = (0..spec.parameters.len()).filter(used).map(Place::Parameter);

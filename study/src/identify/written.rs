@@ -1,5 +1,7 @@
 //! The identified machine as a spec: the nominal one, comments and all, with the errors found as repeatable sources.
 
+use std::path::Path;
+
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::{Document, Section};
 use abbe_codegen::expr::Symbol;
@@ -21,7 +23,7 @@ pub struct WrittenSpec {
 impl FoundModel {
     /// The nominal spec, whose text this is, with what was found; `path` is the name of its file.
     ///
-    /// What is written is a spec, or it is not written.
+    /// What is written is a spec, or it is not written: files of tables must be where they are looked for from there.
     pub fn written(&self, spec: &Spec, text: &str, path: &str) -> Result<WrittenSpec, Diagnostics> {
         let base = free_name(spec, "measured from");
         let frame = format!(
@@ -40,7 +42,7 @@ impl FoundModel {
             new = format!("{gravity}{}\n{load}", new.trim_end());
             added = format!("{gravity}{added}{load}");
         }
-        Spec::parse(path, &new)?;
+        Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &new)?;
         Ok(WrittenSpec { text: new, added })
     }
 
