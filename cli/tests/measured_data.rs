@@ -89,7 +89,7 @@ fn wam_gains_by_terms_that_the_grid_alone_chooses() -> Result<(), Missing> {
     let crossed = ["cross_validation", "after", "mean"];
     assert!(number(&richer, &crossed) < number(&report, &crossed));
     // The data's author published 2.9178.
-    assert!((number(&richer, &["test", "after", "mean"]) - 2.845).abs() < 5e-4);
+    assert!((number(&richer, &["test", "after", "mean"]) - 2.849).abs() < 5e-4);
     is_as_the_readme_has_it("Barrett WAM", &report, &richer);
     Ok(())
 }

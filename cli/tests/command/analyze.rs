@@ -103,7 +103,7 @@ fn people_see_the_papers_figures_beside_ours() {
     let lines = squeezed.collect::<Vec<_>>();
     for expected in [
         "repeatable half peak-to-peak 0.2197 0 0.0774 0.2231",
-        "the paper 0.22 0 0.08 – met",
+        "frame lateral the paper 0.22 0 0.08 – met",
         "spin encoder plain maximum 0.0710 0 0.0710 0.0711",
         "random, uniform the paper 0.074 – 0.074 – misses by 4 %",
         "arm deflection plain maximum 0.1200 0.4400 0.2501 0.5190",
