@@ -11,7 +11,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
 use crate::expr::{Dimension, Entry, Expression, Place, Scope, parse_expression};
 use crate::keys::Keys;
-use crate::kind::not_toml;
+use crate::not_toml::not_toml;
 
 /// The largest file that is read; a chain of a hundred frames takes some 30 kB.
 const LARGEST: u64 = 4 << 20;

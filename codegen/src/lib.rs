@@ -25,5 +25,6 @@ pub mod spec;
 
 mod compile;
 mod kind;
+mod not_toml;
 
 pub use compile::{CompileError, compile, compile_into};

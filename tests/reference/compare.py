@@ -14,7 +14,7 @@ import random_specs
 import shipped
 import textbook
 from budget import Sweep
-from comparison import Comparison, Refused
+from comparison import Comparison
 from spec import Spec
 
 CHECKED_EVERY, DRAWN_EVERY = 3, 10
@@ -47,19 +47,6 @@ def random_spec(comparison, writer, folder):
         questions.drawn(comparison, place, sweep, report)
 
 
-def has_tables(comparison, folder):
-    """Whether the command knows `[tables]`, and the functions and units that came with them."""
-    file = folder / "tables.toml"
-    table = '[tables.t]\nx = [0, 1]\ny = [0, 1]\ninterpolation = "linear"\noutside = "hold"\n'
-    frame = '[[frame]]\nname = "f"\ntransform = "Tx(exp(0) * 1 cm)"\n'
-    file.write_text(f'[manipulator]\nname = "tables"\nlength = "mm"\n{table}{frame}')
-    try:
-        comparison.abbe("jacobian", str(file))
-    except Refused:
-        return False
-    return True
-
-
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("command")
@@ -70,9 +57,6 @@ def main():
     comparison, used = Comparison(options.command), set()
     with tempfile.TemporaryDirectory() as folder:
         folder = options.keep or pathlib.Path(folder)
-        if has_tables(comparison, folder):
-            random_specs.MISSING.clear()
-            random_specs.NEW.clear()
         for seed in range(options.specs):
             if options.only in (None, seed):
                 comparison.attempt(random_spec, random_specs.Writer(seed, used), folder)
@@ -85,7 +69,7 @@ def main():
             comparison.attempt(textbook.readme, folder)
             textbook.beams(comparison, folder)
     if options.only is None:
-        unused = sorted(random_specs.FORMS - random_specs.MISSING - used)
+        unused = sorted(random_specs.FORMS - used)
         if unused:
             comparison.failures.append(f"no spec uses {unused}")
     for failure in comparison.failures[:40]:

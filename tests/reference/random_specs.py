@@ -5,9 +5,6 @@ import math
 import random
 import re
 
-# Forms that the command does not have yet; `compare.py` asks it, and takes them away if it has.
-NEW = set("min max sign exp log nm cm inch urad arcmin arcsec lb t mN kPa min h ppm %".split())
-MISSING = {"table", "linear", "cubic", *NEW}
 SOURCES = [
     "repeatable", "uniform", "normal", "triangular", "arcsine", "effects", "random effects", "at", "disabled", "magnitude",
     "beam", "beam at", "beam without EA", "compliance", "compliance matrix", "compliance at", "joint", "parameter", "dh source",
@@ -43,7 +40,6 @@ class Writer:
 
     def pick(self, *choices):
         """One of these forms; half of the time one that no spec before this one has."""
-        choices = [choice for choice in choices if choice not in MISSING]
         unused = [choice for choice in choices if choice not in self.used]
         choice = self.random.choice(unused if unused and self.random.random() < 0.5 else choices)
         self.used.add(choice)
@@ -59,7 +55,7 @@ class Writer:
 
     def of_size(self, size, units):
         """A number with one of these units, each with its size."""
-        unit = self.pick(*(unit for unit in units if not NEW & set(re.findall(r"\w+", unit))))
+        unit = self.pick(*units)
         return f"{size / units[unit]:.9g} {unit}"
 
     # Expressions over the variables that may stand there.
@@ -67,8 +63,7 @@ class Writer:
     def angle(self, names, depth=1):
         turns = [name for name in names if name.startswith("q")]
         options = [f"{self.number(-180, 180)} deg", f"{self.number(-900, 900)} mrad", self.number(), "pi/4"]
-        if not NEW:
-            options += [f"{self.number(-9e5, 9e5)} urad", f"{self.number(-900, 900)} arcmin", f"{self.number(-9e4, 9e4)} arcsec"]
+        options += [f"{self.number(-9e5, 9e5)} urad", f"{self.number(-900, 900)} arcmin", f"{self.number(-9e4, 9e4)} arcsec"]
         options += turns * 3
         if depth:
             x = self.plain(names, depth - 1)
@@ -103,16 +98,16 @@ class Writer:
                 f"sqrt(1 + ({x})^2)",
                 f"abs({x})",
                 *self.tabulated(x, length),
-                f"exp(-({length}/({self.long(0.4, 0.9)}))^2)" if not NEW else x,
-                f"max({x}, {y})" if not NEW else y,
-                f"min({x}, sin({angle}))" if not NEW else y,
-                f"sign({x})*log(2 + ({y})^2)" if not NEW else y,
+                f"exp(-({length}/({self.long(0.4, 0.9)}))^2)",
+                f"max({x}, {y})",
+                f"min({x}, sin({angle}))",
+                f"sign({x})*log(2 + ({y})^2)",
             ]
         )
 
     def tabulated(self, x, length):
         """Tables of a plain number (linear, here) and of a length (cubic, in a file), held beyond their ends."""
-        return [] if "table" in MISSING else [f"profile({x})", f"rail({length})/(1 mm)", f"bow({length})"]
+        return [f"profile({x})", f"rail({length})/(1 mm)", f"bow({length})"]
 
     def tables(self, folder):
         rows = ["place,height"]
@@ -147,8 +142,7 @@ class Writer:
             self.add(f'{name} = {{ value = "{self.of_size(self.random.uniform(1e4, 9e4), stiff)}" }}')
         self.add("[inputs]", 'payload = { value = "2.5 kg", range = ["0 kg", "7500 g"] }')
         self.add('warmth = { value = "3 K", range = ["-10 K", "10 K"] }', "approach = { value = 1, range = [-1, 1] }")
-        if "table" not in MISSING:
-            self.tables(folder)
+        self.tables(folder)
         count = turn.randint(3, 6)
         moving = turn.sample(range(count), turn.randint(2, count))
         for i in range(count):
@@ -261,6 +255,15 @@ class Writer:
     # Sources.
 
     def source(self, k):
+        begin = len(self.lines)
+        self.one_source(k)
+        # Random errors that are all negative are refused: a half-width has no sign.
+        if 'class = "random"' in self.lines[begin:]:
+            stated = [i for i in range(begin, len(self.lines)) if re.match(r"(e_.|error|dh) = ", self.lines[i])]
+            for first in stated[:1]:
+                self.lines[first] = re.sub(r'"-?([\d.e-]+ \w+)[^"]*"', r'"\1"', self.lines[first], count=1)
+
+    def one_source(self, k):
         form = self.pick(*SOURCES)
         self.add("", "[[source]]", f'name = "source {k}"')
         if form in ("uniform", "normal", "triangular", "arcsine"):
@@ -328,7 +331,7 @@ class Writer:
         for component in self.random.sample(["e_x", "e_y", "e_z", "e_s", "e_r", "e_p"], self.random.randint(1, 4)):
             size = f"{self.number()} mm" if component in ("e_x", "e_y", "e_z") else f"{self.number()} mrad"
             factors = ["", f" * {self.plain(self.names())}", " * approach", " * warmth * 0.1/K", " * 60 %", " * warmth * 8e4 ppm/K"]
-            factor = self.random.choice(factors[:4] if NEW else factors)
+            factor = self.random.choice(factors)
             self.add(f'{component} = "{size}{factor}"')
 
     def elastic(self, form):

@@ -3,7 +3,7 @@
 use super::accumulate::Accumulated;
 use super::local::Local;
 use super::rows::Rows;
-use super::sources::vectors;
+use super::six::vectors;
 use crate::graph::{Graph, Node, Vector};
 
 type Matrix = [Vector; 3];

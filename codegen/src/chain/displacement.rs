@@ -3,7 +3,7 @@
 use super::accumulate::Accumulated;
 use super::local::Local;
 use super::rows::Rows;
-use super::sources::vectors;
+use super::six::vectors;
 use crate::graph::{Graph, Node, Vector};
 
 /// What the frames from the tip to the one that has been reached do to the tool point:

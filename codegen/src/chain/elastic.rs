@@ -4,7 +4,7 @@
 //! its own frame. A beam extends from its end M back to where it is clamped, and a load of its own frame acts on it
 //! where the load's point projects onto it: beyond M at M, before the clamp not at all.
 
-use super::sources::{six, vectors};
+use super::six::{six, vectors};
 use super::walk::transform;
 use crate::expr::{Function, Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};

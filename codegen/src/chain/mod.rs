@@ -20,6 +20,7 @@ mod model;
 mod moments;
 mod real;
 mod rows;
+mod six;
 mod sources;
 mod symbol_jacobian;
 mod walk;

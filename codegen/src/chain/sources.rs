@@ -2,9 +2,9 @@
 
 use super::deviation::frame_twists;
 use super::elastic::{Element, Loads};
+use super::six::{six, vectors};
 use super::walk::{transform, walk};
-use crate::expr::{Motion, motion};
-use crate::graph::{Frame, Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node};
 use crate::spec::{Cause, ChainNumber, Class, Component, Effect, Source, Spec};
 
 /// One generalized error that a source causes.
@@ -161,24 +161,4 @@ fn at_place(graph: &mut Graph, effect: &Effect, place: &Frame, loads: &Loads) ->
             loads.give_way(graph, &Element { effect, place }, &compliance)
         }
     }
-}
-
-/// Translation and rotation, x y z, of six values in the order of ε.
-pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
-    let (mut shift, mut turn) = ([six[0]; 3], [six[0]; 3]);
-    for (component, node) in Component::ALL.into_iter().zip(six) {
-        match motion(component) {
-            (Motion::Translation, axis) => shift[axis] = node,
-            (Motion::Rotation, axis) => turn[axis] = node,
-        }
-    }
-    (shift, turn)
-}
-
-/// Six values in the order of ε from two vectors.
-pub(super) fn six(shift: Vector, turn: Vector) -> [Node; 6] {
-    Component::ALL.map(|component| match motion(component) {
-        (Motion::Translation, axis) => shift[axis],
-        (Motion::Rotation, axis) => turn[axis],
-    })
 }

@@ -108,6 +108,19 @@ impl Writer {
         self.depth += usize::from(!is_empty);
     }
 
+    /// `before[name(first, …), name(second, …), …]after`.
+    pub(super) fn array_of_calls(&mut self, before: &str, calls: &[(&str, Vec<String>)], after: &str) {
+        let indent = self.indent();
+        let entries: Vec<String> =
+            calls.iter().map(|(name, arguments)| call(indent + STEP, name, arguments)).collect();
+        match calls {
+            [(name, arguments)] if on_one_line(indent, before, ["[", "]"], &entries, after).is_none() => {
+                self.lines(&format!("{before}[{}]{after}", long_call(name, arguments)));
+            }
+            _ => self.lines(&array(indent, before, &entries, after)),
+        }
+    }
+
     /// `before[first, second, …]after`.
     pub(super) fn array(&mut self, before: &str, entries: &[String], after: &str) {
         let lines = array(self.indent(), before, entries, after);
@@ -149,14 +162,14 @@ pub(super) fn pattern(indent: usize, before: &str, entries: &[String], after: &s
 
 /// `name(first, second, …)` at an indentation: narrow, or one argument below the other.
 pub(super) fn call(indent: usize, name: &str, arguments: &[String]) -> String {
-    on_one_line(indent, name, ["(", ")"], arguments, ",").map_or_else(
-        || {
-            let mut lines = format!("{name}(\n");
-            one_below_the_other(&mut lines, arguments);
-            lines + ")"
-        },
-        |line| line.trim_end_matches(',').to_owned(),
-    )
+    on_one_line(indent, name, ["(", ")"], arguments, ",")
+        .map_or_else(|| long_call(name, arguments), |line| line.trim_end_matches(',').to_owned())
+}
+
+fn long_call(name: &str, arguments: &[String]) -> String {
+    let mut lines = format!("{name}(\n");
+    one_below_the_other(&mut lines, arguments);
+    lines + ")"
 }
 
 fn on_one_line(

@@ -9,10 +9,10 @@ use abbe_codegen::diagnostic::Diagnostics;
 
 use super::figures::Gathering;
 use super::first_order::FirstOrder;
+use super::judged::Judged;
 use super::report::{Drawn, Places, Report};
-use super::uncertainty::Stated;
+use super::stated::Stated;
 use super::unreachable;
-use super::verdict::Judged;
 use crate::changes::Changes;
 use crate::machine::Machine;
 use crate::notes::Notes;

@@ -2,7 +2,7 @@
 //!
 //! `job` is the question, `report` the answer. The sweep runs once; `figures` gathers on the way what the figures show.
 //! `first_order` compares with the exact chain, `agreement` with published figures; `ledger` ranks the sources,
-//! `verdict` holds them against the tolerance, `uncertainty` states them as the GUM does,
+//! `judged` holds them against the tolerance and `verdict` says so, `stated` are budgets after the GUM and `uncertainty` their tables,
 //! `unreachable` says what could not be had and why, `conclusions` puts the results into sentences; `json` is the report as
 //! machines read it.
 
@@ -12,9 +12,11 @@ pub mod figures;
 mod first_order;
 mod job;
 mod json;
+mod judged;
 mod ledger;
 mod report;
 mod source_value;
+mod stated;
 mod uncertainty;
 pub mod unit;
 mod unreachable;
@@ -23,8 +25,9 @@ mod verdict;
 pub use agreement::{Agreement, figures_of};
 pub use first_order::FirstOrder;
 pub use job::Analyze;
+pub use judged::{Judged, Verdict};
 pub use ledger::{Entry, allowed, ledger, turns};
 pub use report::{Drawn, Report};
-pub use uncertainty::{Stated, contributions, sentences, totals};
+pub use stated::Stated;
+pub use uncertainty::{contributions, sentences, totals};
 pub use unreachable::{Reason, first_few, reason, reasons, summary};
-pub use verdict::{Judged, Verdict};

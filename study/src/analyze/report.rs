@@ -8,11 +8,10 @@ use abbe_codegen::spec::{Source, Spec};
 
 use super::figures::Figures;
 use super::first_order::FirstOrder;
-use super::uncertainty::Stated;
-use super::unit;
-use super::verdict::Judged;
+use super::judged::Judged;
+use super::stated::Stated;
 use crate::notes::Notes;
-use crate::number::{self, Named, error_decimals};
+use crate::number::{self, Named};
 use crate::study_file::Study;
 
 /// What the sources do over a workspace. Lengths in the spec's unit and along the axes of `F_0`, angles in rad.
@@ -166,26 +165,6 @@ impl Report {
     /// What is not at home at a configuration.
     pub fn label(&self, configuration: &Configuration) -> String {
         number::configuration(configuration, &self.home, &self.spec)
-    }
-
-    /// How many decimals errors have: three digits of the smallest source that matters.
-    pub fn decimals(&self) -> usize {
-        self.decimals_of(Measurand::Position)
-    }
-
-    /// The same of a measurand in the unit in which it is printed; of mrad at least four.
-    pub(super) fn decimals_of(&self, measurand: Measurand) -> usize {
-        let (sources, combined, _) = self.budget.errors(measurand);
-        let (factor, _) = unit::of(self, measurand);
-        let least = match measurand {
-            Measurand::Position => error_decimals(self.spec.length),
-            Measurand::Orientation => 4,
-        };
-        let negligible = 1e-6 * factor * combined.radius.value;
-        let norms = sources.iter().map(|errors| factor * errors.plain_max.norm);
-        let smallest = norms.filter(|norm| *norm > negligible).fold(f64::INFINITY, f64::min);
-        let needed = 2.0 - smallest.log10().floor();
-        (needed.max(0.0) as usize).clamp(least, least + 4)
     }
 
     /// Warns if first order is not good enough for the tolerance.

@@ -5,18 +5,10 @@ use abbe::analysis::{COVERAGE, Contribution, Measurand, Statement};
 
 use super::report::Report;
 use super::source_value::{Kind, SourceValue};
+use super::stated::Stated;
 use super::unit;
 use crate::listing::Listing;
 use crate::number;
-
-/// A budget, and where it holds: where the combined standard uncertainty of the norm is largest.
-#[derive(Clone, Debug)]
-pub struct Stated {
-    /// The budget.
-    pub statement: Statement,
-    /// Index of the configuration.
-    pub configuration: Option<usize>,
-}
 
 /// Every random source, the largest share first.
 pub fn contributions(report: &Report, stated: &Stated) -> Listing {

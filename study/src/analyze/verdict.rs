@@ -1,63 +1,11 @@
-//! Whether the tolerance is met.
+//! Whether the tolerance is met, in sentences.
 
-use abbe::analysis::{Budget, Compliance, Measurand};
-use serde::Serialize;
+use abbe::analysis::{Compliance, Measurand};
 
+use super::judged::{Judged, Verdict};
 use super::report::Report;
 use super::unit;
 use crate::number;
-
-/// Whether a tolerance is met.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// For certain: all random sources are bounded, and no draw of any of them exceeds it anywhere in the workspace.
-    Met,
-    /// With the probability that the study asks for, or more, at the worst configuration.
-    MetWithProbability,
-    /// With less than that.
-    NotMet,
-}
-
-/// The verdict on position or orientation. Lengths in the spec's unit, angles in rad.
-///
-/// The probability is that of the worst configuration, where the radius (the norm of the repeatable errors and that of the
-/// random bounds, added) is largest: repeatable sources as they are, random ones drawn, to first order.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Judged {
-    /// What it is about.
-    pub measurand: Measurand,
-    /// How large the norm of the error may be.
-    pub tolerance: f64,
-    /// Whether it is.
-    pub verdict: Verdict,
-    /// The largest error that any draw can make, if all random sources are bounded.
-    pub largest: Option<f64>,
-    /// How likely the tolerance is met: 1 if for certain.
-    pub compliance: Compliance,
-}
-
-impl Judged {
-    /// Judges the errors of a budget; `compliance` evaluates the probability at a configuration.
-    pub(super) fn new<E>(
-        budget: &Budget,
-        measurand: Measurand,
-        (tolerance, asked): (f64, f64),
-        compliance: impl FnOnce(Option<usize>) -> Result<Compliance, E>,
-    ) -> Result<Self, E> {
-        let (sources, combined, _) = budget.errors(measurand);
-        let bounded = sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
-        let largest = bounded.then_some(combined.bounded_radius.value);
-        if largest.is_some_and(|largest| largest <= tolerance) {
-            let compliance = Compliance { probability: 1.0, error: 0.0, draws: None };
-            return Ok(Self { measurand, tolerance, verdict: Verdict::Met, largest, compliance });
-        }
-        let compliance = compliance(combined.radius.configuration)?;
-        let met = compliance.probability >= asked;
-        let verdict = if met { Verdict::MetWithProbability } else { Verdict::NotMet };
-        Ok(Self { measurand, tolerance, verdict, largest, compliance })
-    }
-}
 
 impl Report {
     /// The verdict on all tolerances of the study, the worst of them; none if it has no tolerance.
@@ -115,7 +63,7 @@ impl Report {
         };
         let met = if judged.verdict == Verdict::NotMet { "not met" } else { "met" };
         format!(
-            "{name}: {met}. At the worst configuration ({at}) the error is within {tolerance} with probability {}; {enough}. \
+            "{name}: {met}. Where the radius is largest ({at}) the error is within {tolerance} with probability {}; {enough}. \
              Repeatable sources are as they are, random ones drawn ({how}).",
             probability(judged.compliance)
         )

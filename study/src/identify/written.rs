@@ -88,12 +88,23 @@ impl FoundModel {
 
     fn term(&self, spec: &Spec, found: &FoundTerm) -> String {
         let FoundTerm { term, magnitude, standard_deviation } = found;
+        // No body has a negative compliance: as one it would be refused.
+        let is_reversed = term.basis == Basis::Moment && *magnitude < 0.0;
+        let (size, reversed, remark) = match is_reversed {
+            true => (
+                -magnitude,
+                "magnitude = { value = -1 }\n",
+                ". Negative: it stands for something else than elasticity",
+            ),
+            false => (*magnitude, "", ""),
+        };
+        let deviation = digits((standard_deviation / magnitude).abs(), 2);
         format!(
-            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\nreference = {:?}\n\n[[source.effect]]\n{}\n",
+            "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\n{reversed}reference = {:?}\n\n[[source.effect]]\n{}\n",
             source_name(spec, &format!("identified: {}", term.name(spec))),
-            format!("Standard deviation: {} of it", digits((standard_deviation / magnitude).abs(), 2)),
+            format!("Standard deviation: {deviation} of it{remark}"),
             self.reference,
-            effect(spec, term, *magnitude),
+            effect(spec, term, size),
         )
     }
 }

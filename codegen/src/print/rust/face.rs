@@ -3,7 +3,7 @@
 use super::literal::number;
 use crate::chain::EffectNode;
 use crate::expr::LengthUnit;
-use crate::print::layout::{Writer, array, call};
+use crate::print::layout::{Writer, array};
 use crate::print::text::escaped;
 use crate::spec::{Class, Orientation, Spec, VariableKind};
 
@@ -78,12 +78,12 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
         Orientation::EulerYzx => "orientation: Orientation::EulerYzx,",
     });
     let entries = writer.indent() + 4;
-    let entry = |name: &str, arguments: &[String]| call(entries, name, arguments);
-    let mut list =
-        |name: &str, entries: Vec<String>| writer.array(&format!("{name}: List::Constant(&"), &entries, "),");
+    let mut list = |name: &str, entries: Vec<(&str, Vec<String>)>| {
+        writer.array_of_calls(&format!("{name}: List::Constant(&"), &entries, "),");
+    };
     let frames = spec.frames.iter();
     let frames =
-        frames.map(|frame| entry("Frame::new", &[quoted(&frame.name), format!("{:?}", frame.variable)]));
+        frames.map(|frame| ("Frame::new", vec![quoted(&frame.name), format!("{:?}", frame.variable)]));
     list("frames", frames.collect());
     let variables = spec.variables.iter().map(|variable| {
         let kind = match variable.kind {
@@ -91,17 +91,17 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
             VariableKind::Prismatic => "VariableKind::Prismatic",
         };
         let (limits, home) = (interval(entries + 4, variable.limits), number(variable.home));
-        entry("Variable::new", &[quoted(&variable.name), kind.to_owned(), limits, home])
+        ("Variable::new", vec![quoted(&variable.name), kind.to_owned(), limits, home])
     });
     list("variables", variables.collect());
     let parameters = spec.parameters.iter().map(|parameter| {
         let value = number(parameter.value);
-        entry("Parameter::new", &[quoted(&parameter.name), value, quoted(&parameter.unit)])
+        ("Parameter::new", vec![quoted(&parameter.name), value, quoted(&parameter.unit)])
     });
     list("parameters", parameters.collect());
     let inputs = spec.inputs.iter().map(|input| {
         let (value, range) = (number(input.value), interval(entries + 4, input.range));
-        entry("Input::new", &[quoted(&input.name), value, range, quoted(&input.unit)])
+        ("Input::new", vec![quoted(&input.name), value, range, quoted(&input.unit)])
     });
     list("inputs", inputs.collect());
     let sources = spec.enabled_sources().map(|source| {
@@ -110,12 +110,12 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
             Class::Random(distribution) => format!("Class::Random(Distribution::{distribution:?})"),
         };
         let at = spec.place(source);
-        entry("Source::new", &[quoted(&source.name), class, quoted(&at), quoted(&source.reference)])
+        ("Source::new", vec![quoted(&source.name), class, quoted(&at), quoted(&source.reference)])
     });
     list("sources", sources.collect());
     let effects = effects.iter().map(|effect| {
         let component = format!("Component::{:?}", effect.component);
-        entry("Effect::new", &[effect.source.to_string(), effect.frame.to_string(), component])
+        ("Effect::new", vec![effect.source.to_string(), effect.frame.to_string(), component])
     });
     list("effects", effects.collect());
     writer.close("};");

@@ -3,10 +3,10 @@
 use abbe::analysis::{COVERAGE, Compliance, Measurand, Statement};
 use serde::Serialize;
 
+use super::super::judged::{Judged, Verdict};
 use super::super::report::Report;
 use super::super::source_value::{Kind, SourceValue};
-use super::super::uncertainty::Stated;
-use super::super::verdict::{Judged, Verdict};
+use super::super::stated::Stated;
 use crate::number::Named;
 
 /// The verdict on the study's tolerances.

@@ -12,7 +12,7 @@ use serde::{Serialize, Serializer};
 
 use super::agreement::Agreement;
 use super::report::Report;
-use super::uncertainty::Stated;
+use super::stated::Stated;
 use super::unreachable;
 use allowed::Allowed;
 

@@ -1,0 +1,26 @@
+//! Six values in the order of ε, and the two vectors that they are.
+
+use abbe::Component;
+
+use crate::expr::{Motion, motion};
+use crate::graph::{Node, Vector};
+
+/// Translation and rotation, x y z, of six values in the order of ε.
+pub(super) fn vectors(six: [Node; 6]) -> (Vector, Vector) {
+    let (mut shift, mut turn) = ([six[0]; 3], [six[0]; 3]);
+    for (component, node) in Component::ALL.into_iter().zip(six) {
+        match motion(component) {
+            (Motion::Translation, axis) => shift[axis] = node,
+            (Motion::Rotation, axis) => turn[axis] = node,
+        }
+    }
+    (shift, turn)
+}
+
+/// Six values in the order of ε from two vectors.
+pub(super) fn six(shift: Vector, turn: Vector) -> [Node; 6] {
+    Component::ALL.map(|component| match motion(component) {
+        (Motion::Translation, axis) => shift[axis],
+        (Motion::Rotation, axis) => turn[axis],
+    })
+}
