@@ -359,7 +359,7 @@ impl<R: Register> Scalar for Lanes<R> {
         self.zip(exponent, Scalar::powf)
     }
 
-    /// The steps of [`LookupTable::find`], of all lanes together where they are the same.
+    /// The steps of `LookupTable::find`, of all lanes together where they are the same.
     #[inline(always)]
     fn piece(self, table: &LookupTable<'_>) -> (Self, [Self; 4]) {
         let number = <Self as Scalar>::constant;
