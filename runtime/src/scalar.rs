@@ -35,10 +35,12 @@ pub trait Scalar:
         angles.map(Self::sin_cos)
     }
     /// Sine.
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
     /// Cosine.
+    #[inline(always)]
     fn cos(self) -> Self {
         self.sin_cos().1
     }
