@@ -74,7 +74,7 @@ fn tables(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("{set:?}"));
         group.throughput(Throughput::Elements(COUNT as u64));
         group.bench_function("sine", |bencher| {
-            bencher.iter(|| set.run(Sum { table: None, x: black_box(&x) }))
+            bencher.iter(|| set.run(Sum { table: None, x: black_box(&x) }));
         });
         for (name, spec) in &specs {
             let table = spec.tables[0].lookup();
