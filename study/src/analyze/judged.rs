@@ -7,7 +7,8 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// For certain: all random sources are bounded, and no draw of any of them exceeds it anywhere in the workspace.
+    /// For certain: all random sources are bounded, and no draw of any of them exceeds it at any
+    /// configuration of the workspace, to first order.
     Met,
     /// With the probability that the study asks for, or more, where the radius is largest.
     MetWithProbability,

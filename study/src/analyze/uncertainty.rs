@@ -84,7 +84,8 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
         ),
         holds,
         format!(
-            "Nowhere in the workspace is the U of the norm more than {} (1.960 × {}).",
+            "At none of the {} configurations is the U of the norm more than {} (1.960 × {}).",
+            report.budget.configurations,
             show(largest),
             show(combined.standard_radius.value)
         ),
@@ -92,7 +93,7 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     if combined.repeatable_radius.value > 0.0 {
         sentences.push(format!(
             "The budget covers the random sources. The repeatable ones are known errors: the GUM takes for granted that they are \
-             corrected (3.2.4). As long as they are not they are a bias, of up to {} in the workspace, and stand beside U (6.3.1, note).",
+             corrected (3.2.4). As long as they are not they are a bias, of up to {} at these configurations, and stand beside U (6.3.1, note).",
             show(combined.repeatable_radius.value)
         ));
     }

@@ -45,8 +45,9 @@ impl Report {
         if let (Verdict::Met, Some(largest)) = (judged.verdict, judged.largest) {
             return format!(
                 "{name}: met for certain. All random sources are bounded, and together with the repeatable ones they make at most \
-                 {} anywhere in the workspace, of {tolerance}.",
-                show(largest)
+                 {} of {tolerance} at each of the {} configurations, to first order.",
+                show(largest),
+                self.budget.configurations,
             );
         }
         let at = combined.radius.configuration;
