@@ -50,13 +50,15 @@ pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<V
     model.manipulator.transforms(q, &model.s, &mut transforms)?;
     let has = |unknown| model.unknowns.contains(&unknown);
     let six = |of: &dyn Fn(Component) -> Unknown| Component::ALL.iter().all(|component| has(of(*component)));
-    let errors_of = |frame: usize| {
-        move |component| {
-            if frame == 0 { Unknown::Base(component) } else { Unknown::Error(frame - 1, component) }
-        }
-    };
+    let errors_of = |frame: usize| move |component| Unknown::Error(frame, component);
+    let stations = 0..model.stations.len();
+    let base = |station: usize| move |component| Unknown::Base(station, component);
     for (i, frame) in description.frames.iter().enumerate() {
-        if !six(&errors_of(i)) || !six(&errors_of(i + 1)) {
+        let before = match i.checked_sub(1) {
+            Some(before) => six(&errors_of(before)),
+            None => stations.clone().all(|station| six(&base(station))),
+        };
+        if !before || !six(&errors_of(i)) {
             continue;
         }
         let (kernel, reason) = match frame.variable {
@@ -69,13 +71,17 @@ pub fn groups(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<V
             }
         };
         for twist in kernel {
-            let (these, act_as) =
-                (named(&twist, errors_of(i)), named(&seen_from(&transforms[i], &twist), errors_of(i + 1)));
+            // What turns or shifts before the first joint does so at every station.
+            let these = match i.checked_sub(1) {
+                Some(before) => named(&twist, errors_of(before)),
+                None => stations.clone().flat_map(|station| named(&twist, base(station))).collect(),
+            };
+            let act_as = named(&seen_from(&transforms[i], &twist), errors_of(i));
             groups.push(Group { these, act_as, reason });
         }
     }
-    let last = description.frames.len();
-    let tool = transforms[last];
+    let tool = transforms[description.frames.len()];
+    let Some(last) = description.frames.len().checked_sub(1) else { return Ok(groups) };
     if pose && six(&Unknown::Tool) && six(&errors_of(last)) {
         for twist in every() {
             // E_n T = T E_T: an error of the tool, as the last frame has it.

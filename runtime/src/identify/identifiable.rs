@@ -41,7 +41,7 @@ fn order(model: &Model) -> Vec<usize> {
     let frames = model.manipulator.description().frames.len();
     let mut order: Vec<usize> = (0..model.unknowns.len()).collect();
     order.sort_by_key(|k| match model.unknowns[*k] {
-        Base(component) => (0, component.index()),
+        Base(station, component) => (0, 6 * station + component.index()),
         Error(frame, component) => (1 + frames - frame, component.index()),
         Magnitude(source) => (frames + 2, source),
         Target(target, axis) => (frames + 3, 3 * target + axis),

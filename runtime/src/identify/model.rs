@@ -1,11 +1,11 @@
 //! The real machine with unknown errors: residuals of measurements, and their exact derivatives.
 //!
-//! `B E_0 · A_1 E_1 … A_n E_n · T E_T`: `B` is where `F_0` stands as the instrument sees it, `E_0` what is unknown of
+//! `B E_0 · A_1 E_1 … A_n E_n · T E_T`: `B` is where `F_0` stands as the instrument sees it from a station, `E_0` what is unknown of
 //! that, `E_T` what is unknown of the tool where whole poses are measured; where points are, a target is at `d_j` in
 //! the frame of the tool. ε is the sum of the sources that are known, of the unknown constants, and of the sources
 //! whose magnitude is unknown.
 
-use super::{Failure, Role, Uncertainty, Unknown};
+use super::{Failure, Role, Station, Uncertainty, Unknown};
 use crate::analysis::sampling;
 use crate::{Class, Component, Manipulator, Pose};
 
@@ -14,8 +14,8 @@ use crate::{Class, Component, Manipulator, Pose};
 pub struct Model<'a> {
     /// The nominal manipulator, with all its sources.
     pub manipulator: &'a dyn Manipulator,
-    /// `B`: from `F_0` to the frame of the instrument, before any unknown.
-    pub base: Pose,
+    /// Where the machine stands: one station for each that observations name.
+    pub stations: Vec<Station>,
     /// The targets in the frame of the tool; a single one at zero is the tool point itself.
     pub targets: Vec<[f64; 3]>,
     /// What the instrument's numbers are worth.
@@ -34,7 +34,7 @@ impl<'a> Model<'a> {
         let description = manipulator.description();
         Self {
             manipulator,
-            base: Pose::IDENTITY,
+            stations: vec![Station::at(Pose::IDENTITY)],
             targets,
             uncertainty,
             unknowns: Vec::new(),
@@ -61,18 +61,23 @@ impl<'a> Model<'a> {
         Self { roles: self.roles.iter().map(off).collect(), ..self.clone() }
     }
 
-    /// The unknowns of base and tool alone; `pose` where whole poses are measured.
+    /// The unknowns of stations and tool alone; `pose` where whole poses are measured.
     pub fn base_and_tool(&self, pose: bool) -> Vec<Unknown> {
-        let base = Component::ALL.map(Unknown::Base);
-        base.into_iter().chain(self.tool_unknowns(pose)).collect()
+        self.base_unknowns().chain(self.tool_unknowns(pose)).collect()
     }
 
-    /// The base, all six errors of every frame, and the tool, in this order.
+    /// The stations, all six errors of every frame, and the tool, in this order.
     pub fn constants(&self, pose: bool) -> Vec<Unknown> {
         let frames = 0..self.manipulator.description().frames.len();
         let errors =
             frames.flat_map(|frame| Component::ALL.map(|component| Unknown::Error(frame, component)));
-        Component::ALL.map(Unknown::Base).into_iter().chain(errors).chain(self.tool_unknowns(pose)).collect()
+        self.base_unknowns().chain(errors).chain(self.tool_unknowns(pose)).collect()
+    }
+
+    /// All six of every station that is not exact.
+    fn base_unknowns(&self) -> impl Iterator<Item = Unknown> {
+        let unknown = self.stations.iter().enumerate().filter(|(_, station)| !station.exact);
+        unknown.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component)))
     }
 
     fn tool_unknowns(&self, pose: bool) -> Vec<Unknown> {
@@ -103,10 +108,13 @@ impl<'a> Model<'a> {
         all.filter(|(_, source)| source.class == Class::Repeatable).map(|(i, _)| i).collect()
     }
 
-    /// What an unknown is called: `e_x1`, of the base `e_x0`, a source by its name.
+    /// What an unknown is called: `e_x1`, of the base `e_x0`, of a named station `e_x0 NAME`, a source by its name.
     pub fn name(&self, unknown: Unknown) -> String {
         match unknown {
-            Unknown::Base(component) => format!("{}0", component.name()),
+            Unknown::Base(station, component) => match &self.stations[station].name[..] {
+                "" => format!("{}0", component.name()),
+                station => format!("{}0 {station}", component.name()),
+            },
             Unknown::Error(frame, component) => format!("{}{}", component.name(), frame + 1),
             Unknown::Magnitude(source) => self.manipulator.description().sources[source].name.to_string(),
             Unknown::Target(target, axis) => {

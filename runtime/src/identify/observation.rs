@@ -16,6 +16,8 @@ pub enum Measurement {
 pub struct Observation {
     /// Its line in the file, from 1: what messages call it by.
     pub line: u64,
+    /// The station where it was measured, from 0.
+    pub station: usize,
     /// The joint variables as commanded: length unit, rad.
     pub q: Vec<f64>,
     /// The inputs: load, temperature.
@@ -28,9 +30,9 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// A row as good as the instrument is stated to be.
+    /// A row at the first station, as good as the instrument is stated to be.
     pub fn new(line: u64, q: Vec<f64>, u: Vec<f64>, measured: Measurement) -> Self {
-        Self { line, q, u, measured, weight: 1.0 }
+        Self { line, station: 0, q, u, measured, weight: 1.0 }
     }
 
     /// How many numbers were measured: three for every target that was not hidden, six for a pose.

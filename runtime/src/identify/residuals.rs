@@ -14,6 +14,7 @@ pub struct Room {
     effects: Vec<f64>,
     frames: Vec<Frame>,
     targets: Vec<[f64; 3]>,
+    station: usize,
     base: [f64; 6],
     tool: [f64; 6],
 }
@@ -24,6 +25,7 @@ impl Model<'_> {
         room.errors.fill([0.0; 6]);
         room.tool = [0.0; 6];
         room.base = [0.0; 6];
+        room.station = observation.station;
         room.targets.copy_from_slice(&self.targets);
         let description = self.manipulator.description();
         if self.roles.iter().any(|role| *role != Role::Off) {
@@ -36,7 +38,10 @@ impl Model<'_> {
         }
         for (unknown, value) in self.unknowns.iter().zip(x) {
             match *unknown {
-                Unknown::Base(component) => room.base[component.index()] += value,
+                Unknown::Base(station, component) if station == observation.station => {
+                    room.base[component.index()] += value;
+                }
+                Unknown::Base(..) => {}
                 Unknown::Error(frame, component) => room.errors[frame][component.index()] += value,
                 Unknown::Tool(component) => room.tool[component.index()] += value,
                 Unknown::Target(target, axis) => room.targets[target][axis] += value,
@@ -54,11 +59,19 @@ impl Model<'_> {
 
     /// Runs along the chain: where everything is, and how it moves.
     fn chain(&self, room: &mut Room, observation: &Observation, x: &[f64]) -> Result<(), Failure> {
+        let station = self.stations.get(observation.station).ok_or(Failure::Observation {
+            line: observation.line,
+            error: Error::Count {
+                quantity: Quantity::Pose,
+                expected: self.stations.len(),
+                found: observation.station + 1,
+            },
+        })?;
         self.errors(room, observation, x)
             .and_then(|()| self.manipulator.transforms(&observation.q, &self.s, &mut room.transforms))
             .map_err(|error| Failure::Observation { line: observation.line, error })?;
         room.frames.clear();
-        room.frames.push(Frame::new(&self.base, &room.base));
+        room.frames.push(Frame::new(&station.pose, &room.base));
         for i in 0..room.errors.len() {
             let before = room.frames[i].after.then(&room.transforms[i]);
             room.frames.push(Frame::new(&before, &room.errors[i]));
@@ -84,6 +97,7 @@ impl Model<'_> {
             effects: vec![0.0; description.effects.len()],
             frames: Vec::with_capacity(frames + 2),
             targets: self.targets.clone(),
+            station: 0,
             base: [0.0; 6],
             tool: [0.0; 6],
         }
@@ -159,21 +173,23 @@ impl Model<'_> {
     fn point(&self, room: &Room, k: usize, j: usize, point: [f64; 3]) -> [f64; 3] {
         let last = room.errors.len() + 1;
         match self.unknowns[k] {
-            Unknown::Base(component) => room.frames[0].point(component, point),
+            Unknown::Base(station, component) if station == room.station => {
+                room.frames[0].point(component, point)
+            }
             Unknown::Error(frame, component) => room.frames[frame + 1].point(component, point),
             Unknown::Tool(component) => room.frames[last].point(component, point),
             Unknown::Target(target, axis) if target == j => room.frames[last].after.0[axis],
-            Unknown::Target(..) => [0.0; 3],
+            Unknown::Base(..) | Unknown::Target(..) => [0.0; 3],
             Unknown::Magnitude(source) => self.caused(room, source, |frame, c| frame.point(c, point)),
         }
     }
 
     fn turn(&self, room: &Room, k: usize) -> [f64; 3] {
         match self.unknowns[k] {
-            Unknown::Base(component) => room.frames[0].turn(component),
+            Unknown::Base(station, component) if station == room.station => room.frames[0].turn(component),
             Unknown::Error(frame, component) => room.frames[frame + 1].turn(component),
             Unknown::Tool(component) => room.frames[room.errors.len() + 1].turn(component),
-            Unknown::Target(..) => [0.0; 3],
+            Unknown::Base(..) | Unknown::Target(..) => [0.0; 3],
             Unknown::Magnitude(source) => self.caused(room, source, Frame::turn),
         }
     }

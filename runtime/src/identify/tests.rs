@@ -30,8 +30,12 @@ fn sampled(robot: &dyn Manipulator, moved: &[usize], count: usize, points: usize
 fn disturbed(model: &Model) -> Vec<f64> {
     let value = |(k, unknown): (usize, &Unknown)| {
         let size = match unknown {
-            Unknown::Base(component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
-                if component.is_rotation() { 0.02 } else { 5.0 }
+            Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
+                if component.is_rotation() {
+                    0.02
+                } else {
+                    5.0
+                }
             }
             Unknown::Target(..) => 3.0,
             Unknown::Magnitude(_) => 2.0,
@@ -121,7 +125,7 @@ fn counted(robot: &dyn Manipulator, moved: &[usize], points: usize, base: bool) 
     let model = Model::ideal(robot, targets, Uncertainty { length: 1.0, angle: 1e-3 });
     let kept = |unknown: &Unknown| match unknown {
         Unknown::Error(..) => true,
-        Unknown::Base(_) => base,
+        Unknown::Base(..) => base,
         _ => false,
     };
     let model = model.with(model.constants(pose).into_iter().filter(kept).collect());

@@ -5,8 +5,8 @@ use crate::Component;
 /// A number that measurements are to tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unknown {
-    /// An error of the base: of a frame `E_0` at `F_0`.
-    Base(Component),
+    /// An error of where a machine stands: of a frame `E_0` at `F_0`, at this station.
+    Base(usize, Component),
     /// A constant generalized error of a frame, from 0.
     Error(usize, Component),
     /// How large a repeatable source is, 1 = as the spec has it.

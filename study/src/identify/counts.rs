@@ -18,12 +18,12 @@ pub struct Counts {
 
 impl Counts {
     pub(crate) fn new(model: &Model, identifiable: &Identifiable) -> Self {
-        let machine = |unknown: &Unknown| matches!(unknown, Unknown::Base(_) | Unknown::Error(..));
+        let machine = |unknown: &Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Error(..));
         Self {
             // Those of the tool are kept last: only for what no error of a frame stands for.
             rank: identifiable.kept.iter().filter(|k| machine(&model.unknowns[**k])).count(),
             unknowns: model.unknowns.iter().filter(|unknown| machine(unknown)).count(),
-            base: model.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Base(_))),
+            base: model.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Base(..))),
         }
     }
 }

@@ -55,7 +55,7 @@ impl FoundModel {
         let mut found = Self { frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
         for k in &fit.identifiable.kept {
             let (list, component) = match model.unknowns[*k] {
-                Unknown::Base(component) => (&mut found.base, component),
+                Unknown::Base(_, component) => (&mut found.base, component),
                 Unknown::Error(frame, component) => (&mut found.frames[frame], component),
                 _ => continue,
             };

@@ -95,7 +95,7 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
             .map(|(a, b, correlation)| Pair { of: [name(a), name(b)], correlation })
             .collect(),
         uncertainty_factor: fit.sigma,
-        base: setup.ideal.base.rows().map(|row| row.map(|entry| entry + 0.0)),
+        base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
         test: test.as_ref().map(judged).transpose()?,
         cross_validation: CrossValidation {
@@ -129,7 +129,7 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
     let parameter = |k: &usize| {
         let unknown = model.unknowns[*k];
         let (frame, rotation) = match unknown {
-            Unknown::Base(component) => (Some(0), component.is_rotation()),
+            Unknown::Base(_, component) => (Some(0), component.is_rotation()),
             Unknown::Error(frame, component) => (Some(frame + 1), component.is_rotation()),
             Unknown::Tool(component) => (None, component.is_rotation()),
             Unknown::Target(..) | Unknown::Magnitude(_) => (None, false),

@@ -1,6 +1,6 @@
 //! Whether the data are read as they were meant: units, signs, the order of a quaternion.
 
-use abbe::identify::{Measurement, Model, Observation, Options, Uncertainty, fit};
+use abbe::identify::{Measurement, Model, Observation, Options, Station, Uncertainty, fit};
 use abbe::{Pose, VariableKind};
 use abbe_codegen::diagnostic::Diagnostics;
 
@@ -56,13 +56,13 @@ fn missed(setup: &Setup, rows: &[Observation]) -> Option<f64> {
     let rows: Vec<Observation> = rows.iter().map(points).collect();
     let mut model = Model {
         uncertainty: Uncertainty { length: 1.0, angle: 1.0 },
-        base: Pose::IDENTITY,
+        stations: vec![Station::at(Pose::IDENTITY)],
         ..setup.ideal.clone()
     };
     if setup.pose {
         model.targets = corners.to_vec();
     }
-    model.base = station(&model, &rows).ok()??;
+    model.stations[0].pose = station(&model, &rows).ok()??;
     let model = model.with(model.base_and_tool(false));
     let found = fit(&model, &rows, &Options::default()).ok()?;
     model.figures(&rows, &found.x).ok().map(|figures| figures.rms)

@@ -1,7 +1,7 @@
 //! The models that measurements are compared with.
 
 use abbe::analysis::sampling;
-use abbe::identify::{Measurement, Model, Observation, Role, Unknown, register};
+use abbe::identify::{Measurement, Model, Observation, Role, Station, Unknown, register};
 use abbe::{Class, Description, Manipulator, Pose, VariableKind};
 use abbe_codegen::diagnostic::Diagnostics;
 
@@ -13,8 +13,6 @@ pub(crate) struct Setup<'a> {
     pub(crate) description: &'a Description,
     /// Whether whole poses are measured.
     pub(crate) pose: bool,
-    /// Whether nothing of the base is unknown.
-    exact: bool,
     /// The ideal chain, without any source.
     pub(crate) ideal: Model<'a>,
     /// The chain with the repeatable sources of its spec.
@@ -43,12 +41,15 @@ impl<'a> Setup<'a> {
                     mistake::with_help(&data.file, message, help)
                 })?,
         };
-        Self::placed(Model { base, ..ideal }, map, terms)
+        let stations = vec![Station { exact: map.base == Base::Exact, ..Station::at(base) }];
+        Self::placed(Model { stations, ..ideal }, map, terms)
     }
 
     /// Seen from `F_0` itself.
     pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self, Diagnostics> {
-        Self::placed(Model::ideal(manipulator, map.targets(), map.uncertainty), map, 0)
+        let stations = vec![Station { exact: map.base == Base::Exact, ..Station::at(Pose::IDENTITY) }];
+        let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
+        Self::placed(Model { stations, ..ideal }, map, 0)
     }
 
     fn placed(ideal: Model<'a>, map: &Map, terms: usize) -> Result<Self, Diagnostics> {
@@ -60,22 +61,17 @@ impl<'a> Setup<'a> {
         }
         let arm = sampling::arm_length(ideal.manipulator, &ideal.s);
         let arm = arm.map_err(|error| mistake::whole(&description.name, error))?;
-        Ok(Self { description, pose: map.is_pose(), exact: map.base == Base::Exact, ideal, real, arm })
+        Ok(Self { description, pose: map.is_pose(), ideal, real, arm })
     }
 
     /// What is unknown of base and tool.
     pub(crate) fn base_and_tool(&self) -> Vec<Unknown> {
-        self.but_exact(self.ideal.base_and_tool(self.pose))
+        self.ideal.base_and_tool(self.pose)
     }
 
     /// What is unknown of base, frames and tool.
     pub(crate) fn constants(&self) -> Vec<Unknown> {
-        self.but_exact(self.ideal.constants(self.pose))
-    }
-
-    fn but_exact(&self, mut unknowns: Vec<Unknown>) -> Vec<Unknown> {
-        unknowns.retain(|unknown| !(self.exact && matches!(unknown, Unknown::Base(_))));
-        unknowns
+        self.ideal.constants(self.pose)
     }
 
     /// The variables that the data move.
@@ -116,5 +112,7 @@ pub(super) fn station(ideal: &Model, data: &[Observation]) -> Result<Option<Pose
             }
         }
     }
-    Ok(register(&from, &to).filter(|found| found.breadth > 1e-6).map(|found| found.pose.then(&ideal.base)))
+    Ok(register(&from, &to)
+        .filter(|found| found.breadth > 1e-6)
+        .map(|found| found.pose.then(&ideal.stations[0].pose)))
 }
