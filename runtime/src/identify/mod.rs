@@ -64,6 +64,7 @@
 //! ```
 
 mod columns;
+mod configurations;
 mod design;
 mod failure;
 mod figures;
@@ -89,6 +90,7 @@ mod unknown;
 #[cfg(test)]
 mod tests;
 
+pub use configurations::Configurations;
 pub use design::{Design, d_optimal, predicted, whole};
 pub use failure::Failure;
 pub use figures::Figures;

@@ -22,6 +22,11 @@ pub struct Observation {
     pub q: Vec<f64>,
     /// The inputs: load, temperature.
     pub u: Vec<f64>,
+    /// Which independent configuration it belongs to: rows with the same number are visits of one, and share the errors
+    /// that the machine has there.
+    pub configuration: usize,
+    /// When it was measured, if that is known; rows are in the order of time otherwise.
+    pub time: Option<f64>,
     /// What was measured.
     pub measured: Measurement,
     /// Its weight in sums of squares: 1 where the instrument is as good as stated, ¼ where its standard deviation is twice
@@ -30,9 +35,10 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// A row at the first station, as good as the instrument is stated to be.
+    /// A row at the first station, as good as the instrument is stated to be, and a configuration of its own: numbered as
+    /// its line.
     pub fn new(line: u64, q: Vec<f64>, u: Vec<f64>, measured: Measurement) -> Self {
-        Self { line, station: 0, q, u, measured, weight: 1.0 }
+        Self { line, station: 0, q, u, configuration: line as usize, time: None, measured, weight: 1.0 }
     }
 
     /// How many numbers were measured: three for every target that was not hidden, six for a pose.

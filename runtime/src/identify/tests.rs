@@ -12,18 +12,21 @@ use crate::{Manipulator, Pose};
 const EXACT: Uncertainty = Uncertainty { length: 1.0, angle: 1.0 };
 
 fn observation(q: &[f64], points: usize) -> Observation {
+    numbered(1, q, points)
+}
+
+fn numbered(line: u64, q: &[f64], points: usize) -> Observation {
     let measured = match points {
         0 => Measurement::Pose(Pose::IDENTITY),
         _ => Measurement::Points(vec![Some([0.0; 3]); points]),
     };
-    Observation::new(1, q.to_vec(), Vec::new(), measured)
+    Observation::new(line, q.to_vec(), Vec::new(), measured)
 }
 
 /// Samples of the joints that are moved.
 fn sampled(robot: &dyn Manipulator, moved: &[usize], count: usize, points: usize) -> Vec<Observation> {
     let samples = joint_samples(robot, moved, count).unwrap().reached();
-    let numbered = samples.iter().zip(1..);
-    numbered.map(|(sample, line)| Observation { line, ..observation(&sample.q, points) }).collect()
+    samples.iter().zip(1..).map(|(sample, line)| numbered(line, &sample.q, points)).collect()
 }
 
 /// A machine with errors everywhere, base, targets and tool included.
@@ -228,7 +231,7 @@ fn planned() -> Vec<Observation> {
     axis(&mut list, 2, &mut (1..=58).map(|i| 25.0 * f64::from(i)));
     axis(&mut list, 3, &mut (-18..=18).map(|i| (5.0 * f64::from(i)).to_radians()));
     let list = list.iter().chain(&list).map(|q| [q[0], q[1], q[2], q[3], 0.0, 0.0]);
-    list.map(|q| observation(&q, 3)).collect()
+    list.zip(1..).map(|(q, line)| numbered(line, &q, 3)).collect()
 }
 
 /// Over 200 machines: what can be known is found to within its standard deviations.

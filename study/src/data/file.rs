@@ -90,7 +90,13 @@ impl Record<'_> {
         places.iter().map(|place| self.number(*place)).collect()
     }
 
-    fn number(&self, place: usize) -> Result<f64, String> {
+    /// What stands at a place.
+    pub(super) fn text(&self, place: usize) -> &str {
+        self.fields.get(place).unwrap_or_default()
+    }
+
+    /// The finite number at a place, or why it is none.
+    pub(super) fn number(&self, place: usize) -> Result<f64, String> {
         let name = &self.heading[place];
         match self.fields.get(place) {
             None => Err(format!("it ends before `{name}`")),

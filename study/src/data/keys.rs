@@ -3,7 +3,7 @@
 abbe_codegen::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
     FORMS: ["the file"], ["point", "difference", "target", "pose"];
-    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base"];
+    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "time"];
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
 
     POINT: ["[point]"], ["columns", "unit"];

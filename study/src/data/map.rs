@@ -8,6 +8,7 @@ use abbe::identify::{Measurement, Observation, Uncertainty};
 use abbe_codegen::spec::Spec;
 
 use super::column::{Channel, Column};
+use super::configurations::resolution;
 use super::turn::Turn;
 use crate::Machine;
 use crate::workspace::has_range;
@@ -62,6 +63,12 @@ pub struct Map {
     pub inputs: Vec<Channel>,
     /// What was measured.
     pub layout: Layout,
+    /// The column that says which rows are visits of one configuration; joints and inputs say it otherwise.
+    pub group: Option<Column>,
+    /// The column of the time; rows are in its order otherwise.
+    pub time: Option<Column>,
+    /// By variable and then by input: values that differ by no more are the same; for an input without a range, none.
+    pub(super) resolution: Vec<Option<f64>>,
     pub(super) path: String,
     pub(super) text: Arc<str>,
 }
@@ -83,6 +90,9 @@ impl Map {
             joints: joints.collect(),
             inputs: inputs.collect(),
             layout: Layout::Point([(); 3].map(|()| column("")), 1.0),
+            group: None,
+            time: None,
+            resolution: resolution(spec),
             path: "the names of the spec".to_owned(),
             text: Arc::from(""),
         }

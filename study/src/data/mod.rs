@@ -7,6 +7,8 @@
 //! # angle_uncertainty = "0.1 mrad"     # of a turn: poses only
 //! # base = "unknown"                   # the instrument stands anywhere; "exact": it sees in F_0 itself; if not
 //!                                      # given, it sees in F_0 but for small errors of the base
+//! # group = "pose"                     # rows with the same text there are visits of one configuration
+//! # time = "minute"                    # rows are in the order of that column
 //!
 //! [joints]                             # every variable of the spec; sign = -1 turns one round
 //! q1 = { column = "joint_1", unit = "deg" }
@@ -38,6 +40,7 @@
 //! ```
 
 mod column;
+mod configurations;
 mod file;
 mod keys;
 mod layout;

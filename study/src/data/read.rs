@@ -10,6 +10,7 @@ use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, find_name, parse_valu
 use abbe_codegen::spec::{Spec, VariableKind};
 
 use super::column::{Channel, Column};
+use super::configurations::resolution;
 use super::keys;
 use super::map::{Base, Layout, Map, Target};
 use super::turn::{Order, Turn};
@@ -62,6 +63,11 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         }
         None => Some(1.0),
     };
+    let mut named = |key: &str| match head.get(key) {
+        Some(item) => column(&item, document).map(Some),
+        None => Some(None),
+    };
+    let (group, time) = (named("group"), named("time"));
     let bases = [("known", Base::Known), ("unknown", Base::Unknown), ("exact", Base::Exact)];
     let base = match head.get("base") {
         Some(item) => document.choice(&item, &bases)?,
@@ -74,6 +80,9 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         joints: joints?,
         inputs: inputs?,
         layout: layout?,
+        group: group?,
+        time: time?,
+        resolution: resolution(spec),
         path: document.path.clone(),
         text: Arc::clone(&document.text),
     })

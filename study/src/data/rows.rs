@@ -3,11 +3,12 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use abbe::identify::Observation;
+use abbe::identify::{Configurations, Observation};
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use super::column::{Channel, Column};
+use super::configurations::number_configurations;
 use super::file::{File, Record};
 use super::map::{Layout, Map};
 use crate::mistake;
@@ -68,14 +69,18 @@ impl Data {
         let commanded: Vec<&Column> = map.commanded().collect();
         let measured = if columns == Columns::Measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
-        let missing: Vec<&Column> =
-            commanded.iter().chain(&measured).filter(|column| place(column).is_none()).copied().collect();
+        let beside = map.group.iter().chain(&map.time).filter(|_| once);
+        let wanted = commanded.iter().chain(&measured).copied().chain(beside);
+        let missing: Vec<&Column> = wanted.filter(|column| place(column).is_none()).collect();
         if !missing.is_empty() {
             return Err(map.missing(file, &missing, header));
         }
         let places = |columns: &[&Column]| columns.iter().filter_map(place).collect::<Vec<_>>();
         let (commanded, measured) = (places(&commanded), places(&measured));
         let mut data = Self { file: file.display().to_string(), ..Self::default() };
+        let (group, time) =
+            (map.group.as_ref().and_then(|c| place(&c)), map.time.as_ref().and_then(|c| place(&c)));
+        let mut groups = Vec::new();
         let mut known = HashSet::new();
         for record in table.records() {
             let record = record?;
@@ -87,10 +92,24 @@ impl Data {
                     Err("the same as a row before it, digit by digit".to_owned())
                 }
             });
+            let row = row.and_then(|row| Ok((row, time.map(|place| record.number(place)).transpose()?)));
             match row {
-                Ok(observation) => data.observations.push(observation),
+                Ok((observation, time)) => {
+                    data.observations.push(Observation { time, ..observation });
+                    groups.extend(group.map(|place| record.text(place).to_owned()));
+                }
                 Err(reason) => data.unusable.push(Unusable { line: record.line, reason }),
             }
+        }
+        match group {
+            Some(_) => {
+                let numbers = Configurations::from_keys(groups).number;
+                data.observations
+                    .iter_mut()
+                    .zip(numbers)
+                    .for_each(|(row, number)| row.configuration = number);
+            }
+            None => number_configurations(&mut data.observations, &map.resolution),
         }
         if data.observations.is_empty() {
             let why = data.unusable.first().map(|row| format!(": line {}: {}", row.line, row.reason));

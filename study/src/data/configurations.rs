@@ -1,0 +1,75 @@
+//! Which rows are visits of one configuration: joints and inputs are the same, as far as values can be told apart.
+
+use abbe::identify::{Configurations, Observation};
+use abbe_codegen::expr::Unit;
+use abbe_codegen::spec::{Spec, VariableKind};
+
+use crate::workspace::has_range;
+
+/// Angles that differ by no more are the same, rad.
+const ANGLE: f64 = 1e-4;
+
+/// The share of its range by which an input must differ.
+const SHARE: f64 = 0.01;
+
+/// By variable and then by input: values that differ by no more are the same. Travels: 0.01 mm.
+pub(super) fn resolution(spec: &Spec) -> Vec<Option<f64>> {
+    let travel = Unit::named("mm").unwrap_or(Unit::NONE).convert(0.01, spec.length);
+    let joints = spec.variables.iter().map(|variable| match variable.kind {
+        VariableKind::Revolute => Some(ANGLE),
+        VariableKind::Prismatic => Some(travel),
+    });
+    let inputs = spec.inputs.iter().map(|input| {
+        let [lower, upper] = input.range;
+        has_range(input).then_some(SHARE * (upper - lower))
+    });
+    joints.chain(inputs).collect()
+}
+
+/// Numbers the rows by their configuration, from 0 in the order in which they come first.
+pub(super) fn number_configurations(rows: &mut [Observation], resolution: &[Option<f64>]) {
+    let columns = resolution.iter().enumerate().map(|(i, resolution)| {
+        let values: Vec<f64> =
+            rows.iter().map(|row| *row.q.iter().chain(&row.u).nth(i).unwrap_or(&0.0)).collect();
+        levels(&values, *resolution)
+    });
+    let columns: Vec<Vec<usize>> = columns.collect();
+    let key = |i: usize| columns.iter().map(|column| column[i]).collect::<Vec<_>>();
+    let configurations = Configurations::from_keys((0..rows.len()).map(key));
+    rows.iter_mut().zip(configurations.number).for_each(|(row, number)| row.configuration = number);
+}
+
+/// Numbers values so that those of one level lie within the resolution: from the least on, a level begins where a value is
+/// farther from the beginning of the last. Without a resolution, it is a share of what the values span.
+fn levels(values: &[f64], resolution: Option<f64>) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let ends = order.first().zip(order.last());
+    let span = ends.map_or(0.0, |(first, last)| values[*last] - values[*first]);
+    let resolution = resolution.unwrap_or(SHARE * span);
+    let (mut level, mut begins) = (0, f64::NEG_INFINITY);
+    let mut levels = vec![0; values.len()];
+    for i in order {
+        if values[i] - begins > resolution {
+            (level, begins) = (level + 1, values[i]);
+        }
+        levels[i] = level;
+    }
+    levels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::levels;
+
+    #[test]
+    fn values_within_the_resolution_are_the_same() {
+        let values = [0.5, 0.50005, 0.5002, -0.3, 0.49999, 0.5003];
+        assert_eq!(levels(&values, Some(1e-4)), [2, 2, 3, 1, 2, 3]);
+        // Many values close to each other are no chain.
+        let dense: Vec<f64> = (0..1000).map(|i| f64::from(i) * 5e-5).collect();
+        assert!(levels(&dense, Some(1e-4)).iter().max() > Some(&300));
+        assert_eq!(levels(&[1.0, 1.0, 1.0], None), [1, 1, 1]);
+        assert_eq!(levels(&[0.0, 0.005, 1.0], None), [1, 1, 2]);
+    }
+}
