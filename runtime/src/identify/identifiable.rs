@@ -27,7 +27,7 @@ pub struct Identifiable {
 
 /// Finds what data of this kind determine at `x`; see [`Options::at`](super::Options::at).
 ///
-/// Of unknowns that act alike, those of the base are kept, then those of the frames nearest to the tool.
+/// Of unknowns that act alike, those of base and fixtures are kept, then those of the frames nearest to the tool.
 pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable, Failure> {
     let triangle = linearize(model, data, x, None)?;
     let p = model.unknowns.len();
@@ -37,11 +37,13 @@ pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Id
 
 /// The order in which unknowns are kept.
 fn order(model: &Model) -> Vec<usize> {
-    use super::Unknown::{Base, Error, Magnitude, Target, Tool};
+    use super::Unknown::{Base, Error, Fixture, Magnitude, Target, Tool, Zero};
     let frames = model.manipulator.description().frames.len();
     let mut order: Vec<usize> = (0..model.unknowns.len()).collect();
     order.sort_by_key(|k| match model.unknowns[*k] {
         Base(station, component) => (0, 6 * station + component.index()),
+        Fixture(fixture, coordinate) => (1, 3 * fixture + coordinate),
+        Zero(reading) => (1, 3 * model.fixtures.len() + reading),
         Error(frame, component) => (1 + frames - frame, component.index()),
         Magnitude(source) => (frames + 2, source),
         Target(target, axis) => (frames + 3, 3 * target + axis),

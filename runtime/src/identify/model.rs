@@ -2,10 +2,10 @@
 //!
 //! `B E_0 · A_1 E_1 … A_n E_n · T E_T`: `B` is where `F_0` stands as the instrument sees it from a station, `E_0` what is unknown of
 //! that, `E_T` what is unknown of the tool where whole poses are measured; where points are, a target is at `d_j` in
-//! the frame of the tool. ε is the sum of the sources that are known, of the unknown constants, and of the sources
+//! the frame of the tool. [Fixtures](Fixture) stand in `F_0`, before `B E_0`. ε is the sum of the sources that are known, of the unknown constants, and of the sources
 //! whose magnitude is unknown.
 
-use super::{Failure, Role, Station, Uncertainty, Unknown};
+use super::{Failure, Fixture, Place, Reading, Role, Station, Uncertainty, Unknown};
 use crate::analysis::sampling;
 use crate::{Class, Component, Manipulator, Pose};
 
@@ -18,7 +18,11 @@ pub struct Model<'a> {
     pub stations: Vec<Station>,
     /// The targets in the frame of the tool; a single one at zero is the tool point itself.
     pub targets: Vec<[f64; 3]>,
-    /// What the instrument's numbers are worth.
+    /// What stands still, seen in `F_0`.
+    pub fixtures: Vec<Fixture>,
+    /// What the numbers of an observation are that has [readings](super::Measurement::Readings).
+    pub readings: Vec<Reading>,
+    /// What the instrument's numbers are worth; readings have their own.
     pub uncertainty: Uncertainty,
     /// The unknowns, in order.
     pub unknowns: Vec<Unknown>,
@@ -36,6 +40,8 @@ impl<'a> Model<'a> {
             manipulator,
             stations: vec![Station::at(Pose::IDENTITY)],
             targets,
+            fixtures: Vec::new(),
+            readings: Vec::new(),
             uncertainty,
             unknowns: Vec::new(),
             roles: vec![Role::Off; description.sources.len()],
@@ -61,23 +67,36 @@ impl<'a> Model<'a> {
         Self { roles: self.roles.iter().map(off).collect(), ..self.clone() }
     }
 
-    /// The unknowns of stations and tool alone; `pose` where whole poses are measured.
+    /// The unknowns of stations, fixtures, zeros and tool alone; `pose` where whole poses are measured.
     pub fn base_and_tool(&self, pose: bool) -> Vec<Unknown> {
-        self.base_unknowns().chain(self.tool_unknowns(pose)).collect()
+        self.base_unknowns().chain(self.fixture_unknowns()).chain(self.tool_unknowns(pose)).collect()
     }
 
-    /// The stations, all six errors of every frame, and the tool, in this order.
+    /// The stations, all six errors of every frame, fixtures and zeros, and the tool, in this order.
     pub fn constants(&self, pose: bool) -> Vec<Unknown> {
         let frames = 0..self.manipulator.description().frames.len();
         let errors =
             frames.flat_map(|frame| Component::ALL.map(|component| Unknown::Error(frame, component)));
-        self.base_unknowns().chain(errors).chain(self.tool_unknowns(pose)).collect()
+        self.base_unknowns()
+            .chain(errors)
+            .chain(self.fixture_unknowns())
+            .chain(self.tool_unknowns(pose))
+            .collect()
     }
 
     /// All six of every station that is not exact.
     fn base_unknowns(&self) -> impl Iterator<Item = Unknown> {
         let unknown = self.stations.iter().enumerate().filter(|(_, station)| !station.exact);
         unknown.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component)))
+    }
+
+    fn fixture_unknowns(&self) -> impl Iterator<Item = Unknown> {
+        let places = self.fixtures.iter().enumerate();
+        let places = places.flat_map(|(i, fixture)| {
+            (0..fixture.place.unknowns()).map(move |coordinate| Unknown::Fixture(i, coordinate))
+        });
+        let zeros = self.readings.iter().enumerate().filter(|(_, reading)| !reading.zero_known);
+        places.chain(zeros.map(|(i, _)| Unknown::Zero(i)))
     }
 
     fn tool_unknowns(&self, pose: bool) -> Vec<Unknown> {
@@ -126,6 +145,15 @@ impl<'a> Model<'a> {
                 }
             }
             Unknown::Tool(component) => format!("tool_{}", component.name()),
+            Unknown::Fixture(fixture, coordinate) => {
+                let Fixture { name, place } = &self.fixtures[fixture];
+                let coordinates = match place {
+                    Place::Point(_) => ["x", "y", "z"],
+                    Place::Direction(_) => ["tilt1", "tilt2", ""],
+                };
+                format!("{name}_{}", coordinates[coordinate])
+            }
+            Unknown::Zero(reading) => format!("{}_zero", self.readings[reading].name),
         }
     }
 }

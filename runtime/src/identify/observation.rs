@@ -9,6 +9,8 @@ pub enum Measurement {
     Points(Vec<Option<[f64; 3]>>),
     /// The whole pose of the tool.
     Pose(Pose),
+    /// One number for each of the model's [readings](super::Model::readings), none where there was none.
+    Readings(Vec<Option<f64>>),
 }
 
 /// One row of measurements: where it stands, what was commanded, what was measured, what it weighs.
@@ -41,11 +43,12 @@ impl Observation {
         Self { line, station: 0, q, u, configuration: line as usize, time: None, measured, weight: 1.0 }
     }
 
-    /// How many numbers were measured: three for every target that was not hidden, six for a pose.
+    /// How many numbers were measured: three for every target that was not hidden, six for a pose, one for a reading.
     pub fn count(&self) -> usize {
         match &self.measured {
             Measurement::Points(points) => 3 * points.iter().flatten().count(),
             Measurement::Pose(_) => 6,
+            Measurement::Readings(readings) => readings.iter().flatten().count(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Model minus measurement, and how it moves with every unknown.
 
 use super::columns::{Frame, turned};
+use super::gradient::Gradient;
 use super::{Failure, Figures, Measurement, Model, Observation, Role, Uncertainty, Unknown};
 use crate::analysis::sampling;
 use crate::chain::rotation_vector;
@@ -10,10 +11,12 @@ use crate::{Component, Error, Pose, Quantity};
 #[derive(Clone, Debug)]
 pub struct Room {
     transforms: Vec<Pose>,
-    errors: Vec<[f64; 6]>,
+    pub(super) errors: Vec<[f64; 6]>,
     effects: Vec<f64>,
-    frames: Vec<Frame>,
-    targets: Vec<[f64; 3]>,
+    pub(super) frames: Vec<Frame>,
+    pub(super) targets: Vec<[f64; 3]>,
+    pub(super) fixtures: Vec<[f64; 3]>,
+    pub(super) zeros: Vec<f64>,
     station: usize,
     base: [f64; 6],
     tool: [f64; 6],
@@ -27,6 +30,10 @@ impl Model<'_> {
         room.base = [0.0; 6];
         room.station = observation.station;
         room.targets.copy_from_slice(&self.targets);
+        room.fixtures.fill([0.0; 3]);
+        for (zero, reading) in room.zeros.iter_mut().zip(&self.readings) {
+            *zero = reading.zero;
+        }
         let description = self.manipulator.description();
         if self.roles.iter().any(|role| *role != Role::Off) {
             self.manipulator.effects(&observation.q, &self.s, &observation.u, &mut room.effects)?;
@@ -45,6 +52,8 @@ impl Model<'_> {
                 Unknown::Error(frame, component) => room.errors[frame][component.index()] += value,
                 Unknown::Tool(component) => room.tool[component.index()] += value,
                 Unknown::Target(target, axis) => room.targets[target][axis] += value,
+                Unknown::Fixture(fixture, coordinate) => room.fixtures[fixture][coordinate] += value,
+                Unknown::Zero(reading) => room.zeros[reading] += value,
                 Unknown::Magnitude(source) => {
                     for (effect, size) in description.effects.iter().zip(&room.effects) {
                         if effect.source == source {
@@ -87,6 +96,12 @@ impl Model<'_> {
         Ok(room.frames[room.errors.len() + 1].after)
     }
 
+    /// What each of the [readings](Self::readings) should be; what was measured does not matter.
+    pub fn values(&self, room: &mut Room, observation: &Observation, x: &[f64]) -> Result<Vec<f64>, Failure> {
+        self.chain(room, observation, x)?;
+        Ok((0..self.readings.len()).map(|i| self.gradient(room, i).value).collect())
+    }
+
     /// Room for the numbers of one configuration.
     pub fn room(&self) -> Room {
         let description = self.manipulator.description();
@@ -98,6 +113,8 @@ impl Model<'_> {
             frames: Vec::with_capacity(frames + 2),
             targets: self.targets.clone(),
             station: 0,
+            fixtures: vec![[0.0; 3]; self.fixtures.len()],
+            zeros: vec![0.0; self.readings.len()],
             base: [0.0; 6],
             tool: [0.0; 6],
         }
@@ -105,8 +122,8 @@ impl Model<'_> {
 
     /// Model minus measurement at `x`, number by number: `row(residual, derivative of unknown k)`.
     ///
-    /// In units of the uncertainty of the observation. Three for every target that was not hidden, or position and rotation
-    /// vector of a pose: six.
+    /// In units of the uncertainty of the observation. Three for every target that was not hidden, position and rotation
+    /// vector of a pose: six, or one for every reading.
     pub(super) fn residuals(
         &self,
         room: &mut Room,
@@ -114,22 +131,21 @@ impl Model<'_> {
         x: &[f64],
         row: impl FnMut(f64, &mut dyn FnMut(usize) -> f64),
     ) -> Result<(), Failure> {
-        let Uncertainty { length, angle } = self.uncertainty;
         let weight = observation.weight.sqrt();
-        let uncertainty = Uncertainty { length: length / weight, angle: angle / weight };
-        self.differences(room, observation, x, uncertainty, row)
+        self.differences(room, observation, x, weight, row)
     }
 
-    /// Model minus measurement in units of an uncertainty.
+    /// Model minus measurement in units of the uncertainty, times a weight.
     fn differences(
         &self,
         room: &mut Room,
         observation: &Observation,
         x: &[f64],
-        Uncertainty { length, angle }: Uncertainty,
+        weight: f64,
         mut row: impl FnMut(f64, &mut dyn FnMut(usize) -> f64),
     ) -> Result<(), Failure> {
         self.chain(room, observation, x)?;
+        let [length, angle] = [self.uncertainty.length, self.uncertainty.angle].map(|sigma| sigma / weight);
         let last = room.frames[room.errors.len() + 1].after;
         match &observation.measured {
             Measurement::Points(points) => {
@@ -165,12 +181,22 @@ impl Model<'_> {
                     row(turn[axis] / angle, &mut |k| turned(turn, self.turn(room, k))[axis] / angle);
                 }
             }
+            Measurement::Readings(values) => {
+                for (i, measured) in values.iter().enumerate().take(self.readings.len()) {
+                    let Some(measured) = measured else { continue };
+                    let sigma = self.readings[i].uncertainty / weight;
+                    let gradient = self.gradient(room, i);
+                    row((gradient.value - measured) / sigma, &mut |k| {
+                        self.moves(room, i, &gradient, k) / sigma
+                    });
+                }
+            }
         }
         Ok(())
     }
 
     /// How a point of target `j` moves with unknown `k`.
-    fn point(&self, room: &Room, k: usize, j: usize, point: [f64; 3]) -> [f64; 3] {
+    pub(super) fn point(&self, room: &Room, k: usize, j: usize, point: [f64; 3]) -> [f64; 3] {
         let last = room.errors.len() + 1;
         match self.unknowns[k] {
             Unknown::Base(station, component) if station == room.station => {
@@ -179,17 +205,17 @@ impl Model<'_> {
             Unknown::Error(frame, component) => room.frames[frame + 1].point(component, point),
             Unknown::Tool(component) => room.frames[last].point(component, point),
             Unknown::Target(target, axis) if target == j => room.frames[last].after.0[axis],
-            Unknown::Base(..) | Unknown::Target(..) => [0.0; 3],
+            Unknown::Base(..) | Unknown::Target(..) | Unknown::Fixture(..) | Unknown::Zero(_) => [0.0; 3],
             Unknown::Magnitude(source) => self.caused(room, source, |frame, c| frame.point(c, point)),
         }
     }
 
-    fn turn(&self, room: &Room, k: usize) -> [f64; 3] {
+    pub(super) fn turn(&self, room: &Room, k: usize) -> [f64; 3] {
         match self.unknowns[k] {
             Unknown::Base(station, component) if station == room.station => room.frames[0].turn(component),
             Unknown::Error(frame, component) => room.frames[frame + 1].turn(component),
             Unknown::Tool(component) => room.frames[room.errors.len() + 1].turn(component),
-            Unknown::Base(..) | Unknown::Target(..) => [0.0; 3],
+            Unknown::Base(..) | Unknown::Target(..) | Unknown::Fixture(..) | Unknown::Zero(_) => [0.0; 3],
             Unknown::Magnitude(source) => self.caused(room, source, Frame::turn),
         }
     }
@@ -206,16 +232,29 @@ impl Model<'_> {
         sum
     }
 
-    /// Position errors, model minus measurement, one vector for every point that was measured. The length unit.
+    /// Position errors, model minus measurement, one vector for every point that was measured, in the axes of the
+    /// instrument. The length unit. Of a reading of a length, that along the direction in which it changes; angles have none.
     pub fn deviations(
         &self,
         room: &mut Room,
         observation: &Observation,
         x: &[f64],
     ) -> Result<Vec<[f64; 3]>, Failure> {
+        if let Measurement::Readings(readings) = &observation.measured {
+            let mut values = Vec::new();
+            self.chain(room, observation, x)?;
+            for (i, measured) in readings.iter().enumerate().take(self.readings.len()) {
+                let Some(measured) = measured.filter(|_| !self.readings[i].gauge.is_angle()) else {
+                    continue;
+                };
+                let Gradient { value, along, .. } = self.gradient(room, i);
+                values.push(along.map(|axis| (value - measured) * axis));
+            }
+            return Ok(values);
+        }
         let Uncertainty { length, .. } = self.uncertainty;
         let mut values = Vec::new();
-        self.differences(room, observation, x, self.uncertainty, |residual, _| {
+        self.differences(room, observation, x, 1.0, |residual, _| {
             values.push(residual * length);
         })?;
         if matches!(observation.measured, Measurement::Pose(_)) {

@@ -44,6 +44,7 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
         let mut numbers = stream(chance.seed ^ APART, i);
         let x: Vec<f64> = random.iter().map(|(_, distribution)| draw(*distribution, &mut numbers)).collect();
         let pose = model.pose(&mut room, asked, &x)?;
+        let readings = model.values(&mut room, asked, &x)?;
         let gross = numbers.random::<f64>() < chance.outliers;
         let mut wrong = || if gross { numbers.random_range(-chance.gross..=chance.gross) } else { 0.0 };
         let shift = [wrong(), wrong(), wrong()];
@@ -64,6 +65,16 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
                 let mut seen = pose.then(&displacement(&[0.0, 0.0, 0.0, turn[0], turn[1], turn[2]]));
                 seen.0[3] = core::array::from_fn(|k| pose.0[3][k] + shift[k] + noise(chance.noise.length));
                 Measurement::Pose(seen)
+            }
+            Measurement::Readings(asked) => {
+                let factor = chance.noise.length / model.uncertainty.length;
+                let numbers = asked.iter().zip(&model.readings).zip(&readings).enumerate();
+                let measured = numbers.map(|(i, ((asked, reading), value))| {
+                    let far = if i == 0 && !reading.gauge.is_angle() { shift[0] } else { 0.0 };
+                    let value = value + far + noise(reading.uncertainty * factor);
+                    asked.map(|_| value)
+                });
+                Measurement::Readings(measured.collect())
             }
         };
         Ok(Observation { measured, ..asked.clone() })

@@ -7,7 +7,7 @@ use super::*;
 use crate::analysis::by_hand::{Pps, Puma};
 use crate::analysis::{Workspace, joint_samples};
 use crate::chain::real_pose;
-use crate::{Manipulator, Pose};
+use crate::{Component, Manipulator, Pose};
 
 const EXACT: Uncertainty = Uncertainty { length: 1.0, angle: 1.0 };
 
@@ -40,7 +40,11 @@ fn disturbed(model: &Model) -> Vec<f64> {
                     5.0
                 }
             }
-            Unknown::Target(..) => 3.0,
+            Unknown::Target(..) | Unknown::Zero(_) => 3.0,
+            Unknown::Fixture(fixture, _) => match model.fixtures[fixture].place {
+                Place::Point(_) => 20.0,
+                Place::Direction(_) => 0.3,
+            },
             Unknown::Magnitude(_) => 2.0,
         };
         size * (1.0 + k as f64 * 2.3).sin()
@@ -96,6 +100,60 @@ fn derivatives_are_those_of_the_exact_chain() {
     // The pose that would be seen is about where it should be, not half a turn away.
     let near = pose.pose(&mut pose.room(), &observation(&q, 0), &vec![0.0; pose.unknowns.len()]).unwrap();
     differences(&pose, &Observation { measured: Measurement::Pose(near), ..observation(&q, 0) });
+}
+
+/// One reading of every gauge.
+fn every_gauge(robot: &dyn Manipulator) -> Model<'_> {
+    let targets = vec![[100.0, 20.0, -30.0], [-80.0, 10.0, 50.0]];
+    let gauges = [
+        Gauge::Coordinate { target: 1, axis: 2 },
+        Gauge::Distance { target: 0, from: 0 },
+        Gauge::Apart { target: 1, from: 0, axis: 1 },
+        Gauge::Along { target: 0, direction: 1 },
+        Gauge::Between { targets: [0, 1] },
+        Gauge::Lean { mirror: [0.6, 0.0, 0.8], direction: 1 },
+    ];
+    let fixture = |name: &str, place| Fixture { name: name.to_owned(), place };
+    let reading = |(i, gauge)| Reading {
+        name: format!("reading{i}"),
+        gauge,
+        zero: 0.5,
+        zero_known: false,
+        uncertainty: 1.0,
+        instrument: 0,
+    };
+    let fixtures = vec![
+        fixture("bar", Place::Point([300.0, -200.0, 500.0])),
+        fixture("plane", Place::Direction([0.3, -0.5, 0.2])),
+    ];
+    let base = Pose::IDENTITY
+        .then(&real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[500.0, -3.0, 800.0, 0.4, -1.9, 2.5]]));
+    let readings = gauges.into_iter().enumerate().map(reading).collect();
+    Model { fixtures, readings, stations: vec![Station::at(base)], ..Model::ideal(robot, targets, EXACT) }
+}
+
+#[test]
+fn derivatives_of_readings_are_exact() {
+    let q = [900.0, 120.0, 300.0, 0.7, 0.04, -0.03];
+    let model = every_gauge(&Pps);
+    let sources = model.repeatable().into_iter().map(Unknown::Magnitude);
+    let all = model.constants(false).into_iter().chain(sources);
+    let model = model.with(all.chain(Component::ALL.map(Unknown::Tool)).collect());
+    let seen = Observation { measured: Measurement::Readings(vec![Some(0.0); 6]), ..observation(&q, 1) };
+    differences(&model, &seen);
+    assert_eq!(seen.count(), 6);
+    let hidden = Measurement::Readings(vec![None, Some(1.0), None, None, Some(2.0), None]);
+    let part = Observation { measured: hidden, ..seen.clone() };
+    let zero = vec![0.0; model.unknowns.len()];
+    let (all, rows) = residuals(&model, &seen, &zero);
+    let (two, _) = residuals(&model, &part, &zero);
+    assert_eq!(two.len(), 2);
+    assert!((two[0] - all[1] + 1.0).abs() < 1e-12 && (two[1] - all[4] + 2.0).abs() < 1e-12);
+    // Nothing of the base moves a fixture against the machine.
+    let base = model.unknowns.iter().enumerate().filter(|(_, unknown)| matches!(unknown, Unknown::Base(..)));
+    for (k, _) in base {
+        assert!(rows[1..].iter().all(|row| row[k] == 0.0));
+    }
 }
 
 #[test]

@@ -15,6 +15,10 @@ pub enum Unknown {
     Target(usize, usize),
     /// An error of the tool: where whole poses are measured.
     Tool(Component),
+    /// Where a fixture stands: a coordinate (0, 1, 2) of a point, a tilt (0, 1) of a direction, less what the model says.
+    Fixture(usize, usize),
+    /// The zero of a reading, less what the model says.
+    Zero(usize),
 }
 
 /// What part a source has in a model.

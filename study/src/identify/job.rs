@@ -1,6 +1,6 @@
 //! What is asked, and the way to what comes out.
 
-use abbe::identify::{Model, Observation, Unknown, groups};
+use abbe::identify::{Model, Observation, Place, Unknown, groups};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
 use abbe_interpreter::Interpreter;
@@ -132,6 +132,10 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
             Unknown::Base(_, component) => (Some(0), component.is_rotation()),
             Unknown::Error(frame, component) => (Some(frame + 1), component.is_rotation()),
             Unknown::Tool(component) => (None, component.is_rotation()),
+            Unknown::Fixture(fixture, _) => {
+                (None, matches!(model.fixtures[fixture].place, Place::Direction(_)))
+            }
+            Unknown::Zero(reading) => (None, model.readings[reading].gauge.is_angle()),
             Unknown::Target(..) | Unknown::Magnitude(_) => (None, false),
         };
         let frame_name =

@@ -51,7 +51,7 @@ fn missed(setup: &Setup, rows: &[Observation]) -> Option<f64> {
                 Measurement::Points(corners.iter().map(|corner| Some(pose.apply(*corner))).collect());
             Observation { measured, ..row.clone() }
         }
-        Measurement::Points(_) => row.clone(),
+        Measurement::Points(_) | Measurement::Readings(_) => row.clone(),
     };
     let rows: Vec<Observation> = rows.iter().map(points).collect();
     let mut model = Model {
@@ -136,6 +136,7 @@ fn scaled(measured: Measurement, factor: f64) -> Measurement {
             Measurement::Points(points.into_iter().map(|point| point.map(larger)).collect())
         }
         Measurement::Pose(Pose([x, y, z, position])) => Measurement::Pose(Pose([x, y, z, larger(position)])),
+        Measurement::Readings(_) => measured,
     }
 }
 

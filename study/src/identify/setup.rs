@@ -110,6 +110,7 @@ pub(super) fn station(ideal: &Model, data: &[Observation]) -> Result<Option<Pose
                 from.push(pose.position());
                 to.push(measured.position());
             }
+            Measurement::Readings(_) => {}
         }
     }
     Ok(register(&from, &to)

@@ -59,6 +59,7 @@ pub(super) fn norm(v: [f64; 3]) -> f64 {
 fn pose(targets: &[[f64; 3]], measured: &Measurement, ideal: &Pose) -> Option<Pose> {
     match measured {
         Measurement::Pose(pose) => Some(*pose),
+        Measurement::Readings(_) => None,
         Measurement::Points(points) if targets.len() == 1 => {
             let mut pose = *ideal;
             pose.0[3] = (*points.first()?)?;
