@@ -41,7 +41,7 @@ fn disturbed(model: &Model) -> Vec<f64> {
                 }
             }
             Unknown::Target(..) | Unknown::Zero(_) => 3.0,
-            Unknown::Fixture(fixture, _) => match model.fixtures[fixture].place {
+            Unknown::Fixture(fixture, _) => match model.fixtures[*fixture].place {
                 Place::Point(_) => 20.0,
                 Place::Direction(_) => 0.3,
             },
