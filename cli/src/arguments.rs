@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::print::Language;
 use abbe_codegen::spec::Spec;
+use abbe_study::identify::Prior;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -153,13 +154,19 @@ pub(crate) struct Identify {
     /// A loss that gross errors cannot pull at
     #[arg(long, value_enum, default_value_t = Robust::None)]
     pub(crate) robust: Robust,
-    /// How large errors are expected to be, as a share of the arm's length and in rad; 0 for no expectation
-    #[arg(long, value_name = "SHARE", default_value_t = 0.01, value_parser = share)]
-    pub(crate) prior: f64,
+    /// How large errors are expected to be, as a share of the arm's length and in rad, 0 for no expectation; `spec`: as its
+    /// random sources have them; `auto`: as rows left out in turn fit best
+    #[arg(long, value_name = "SHARE", default_value = "0.01", value_parser = prior)]
+    pub(crate) prior: Prior,
+    /// Limits for rows that nothing is fitted to, `mean 0.15 mm, max 0.3 mm`: of mean, rms, p95 and max. End with status 1 if
+    /// they are not met
+    #[arg(long, value_name = "LIMITS")]
+    pub(crate) accept: Option<String>,
     /// Into how many parts the rows are dealt, each left out in turn
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
     pub(crate) folds: usize,
-    /// Write the spec with the errors found, as repeatable sources
+    /// Write the spec with the errors found, as repeatable sources; beside it, as FILE.map.toml, the map with where the
+    /// machine stands and what is mounted on its tool
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
@@ -178,6 +185,13 @@ pub(crate) struct Measure {
     /// What the columns are: a map (TOML), or the name of a shipped one
     #[arg(long, value_name = "FILE")]
     pub(crate) map: PathBuf,
+    /// The instrument stands elsewhere than the map says: its station is found from the data, for the machine as it is
+    #[arg(long, value_enum, value_name = "WHICH")]
+    pub(crate) station: Option<Station>,
+    /// Limits for what the sources of the spec leave, `mean 0.15 mm, max 0.3 mm`: of mean, rms, p95 and max. End with status
+    /// 1 if they are not met
+    #[arg(long, value_name = "LIMITS")]
+    pub(crate) accept: Option<String>,
     /// Write into this folder: report.html, and errors.csv with ΔX of every row
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -294,6 +308,20 @@ pub(crate) enum Robust {
     None,
     Huber,
     Tukey,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Station {
+    /// One that no map knows
+    New,
+}
+
+fn prior(text: &str) -> Result<Prior, String> {
+    match text {
+        "spec" => Ok(Prior::Spec),
+        "auto" => Ok(Prior::Auto),
+        text => share(text).map(Prior::Share),
+    }
 }
 
 fn share(text: &str) -> Result<f64, String> {

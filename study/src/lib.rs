@@ -58,11 +58,13 @@ pub mod number;
 pub mod study_file;
 pub mod workspace;
 
+mod acceptance;
 mod changes;
 mod listing;
 mod machine;
 mod notes;
 
+pub use acceptance::{Acceptance, Accepted, Limit};
 pub use changes::{Changes, find_symbol};
 pub use listing::Listing;
 pub use machine::{Evaluator, Machine};

@@ -6,11 +6,11 @@ use abbe::identify::{Loss, Measurement, Observation};
 use abbe_codegen::spec::Spec;
 use abbe_study::compensate::Compensate;
 use abbe_study::data::{Base, Data, Map};
-use abbe_study::identify::{Family, Identify, Settings};
+use abbe_study::identify::{Family, Identify, Prior, Settings};
 use abbe_study::measure::Measure;
 use abbe_study::plan::{Choice, Plan};
 use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Machine, Study};
+use abbe_study::{Acceptance, Machine, Study};
 use tempfile::{TempDir, tempdir};
 
 /// A UR5 with errors of its own.
@@ -79,12 +79,20 @@ fn simulate(map: &Map, samples: usize, seed: u64) -> Simulate {
 
 fn measurements(map: &Map, samples: usize, seed: u64) -> Data {
     let report = simulate(map, samples, seed).run(&mut ()).unwrap();
-    Data { file: "simulated".to_owned(), observations: report.observations, unusable: Vec::new() }
+    Data { file: "simulated".to_owned(), observations: report.observations, ..Data::default() }
 }
 
 fn identify(map: &Map, data: Data) -> Identify {
-    let settings = Settings { loss: Loss::Squares, prior: 0.01, folds: 10 };
-    Identify { machine: ur5(), map: map.clone(), data, test: None, terms: Vec::new(), settings }
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10 };
+    Identify {
+        machine: ur5(),
+        map: map.clone(),
+        data,
+        test: None,
+        terms: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    }
 }
 
 /// A file in a folder of its own.
@@ -123,7 +131,7 @@ fn the_identified_machine_is_measured_again() {
     let nominal = ur5();
     let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
-    let measured = Measure { machine, map: exact, data }.run(&mut ()).unwrap();
+    let measured = Measure { machine, map: exact, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
     assert_eq!(measured.row_errors.len(), 300);
     assert!(measured.explained.share > 0.99, "{:?}", measured.explained);
 }
@@ -219,7 +227,7 @@ fn repeated_visits_show_repeatability() {
                 .observations,
         );
     }
-    let report = Measure { machine: real(), map, data }.run(&mut ()).unwrap();
+    let report = Measure { machine: real(), map, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
     assert_eq!((report.repeated.configurations, report.repeated.visits), (20, 180));
     for sigma in report.repeated.three_sigma.unwrap() {
         assert!((sigma - 0.06).abs() < 0.012, "{sigma}");

@@ -32,6 +32,9 @@ pub(super) fn text(description: &Description, report: &Report, out: Option<&Path
     if !description.sources.iter().any(|source| source.class == Class::Repeatable) {
         parts.push("The spec has no repeatable source: there is nothing to compensate.\n".to_owned());
     }
+    let from = "Corrected are the errors of the machine alone, as its frame F_0 sees them: not where it stands before an \
+                instrument, and not where targets are mounted.";
+    parts.push(wrapped(from, 0) + "\n");
     parts.push(commands(description, report));
     parts.push(done(description, report, out));
     parts.join("\n")

@@ -6,9 +6,10 @@ mod text;
 use std::path::Path;
 
 use abbe::identify::Loss;
-use abbe_study::Machine;
+use abbe_codegen::spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Identify, Report, Settings};
+use abbe_study::{Acceptance, Machine};
 
 use crate::arguments::{self, Robust, Terms};
 use crate::console::Console;
@@ -32,23 +33,55 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let data = Data::read(&arguments.data, &map)?;
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
     let settings = Settings { loss: loss(arguments.robust), prior: arguments.prior, folds: arguments.folds };
-    let job = Identify { machine, map, data, test, terms: families(&arguments.terms), settings };
+    let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
+    let job = Identify { machine, map, data, test, terms: families(&arguments.terms), settings, accept };
     let report = job.run(&mut Console::default())?;
-    let written = arguments.out.as_ref().map(|file| write_spec(file, &job.machine, &report)).transpose()?;
+    let written =
+        arguments.out.as_ref().map(|file| write_found(file, arguments, &job, &report)).transpose()?;
+    let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
     if arguments.json {
         report.notes.iter().for_each(|line| note(line));
-        return Ok(Outcome::passed(json(&report)?));
+        return Ok(Outcome::checked(json(&report)?, accepted));
     }
-    Ok(Outcome::passed(text::text(&job.machine.spec, &report, written.as_deref())))
+    Ok(Outcome::checked(text::text(&job.machine.spec, &report, written.as_deref()), accepted))
 }
 
-/// Writes the spec of the identified machine; what was added to it comes back, line by line.
-fn write_spec(file: &Path, machine: &Machine, report: &Report) -> Result<String, Failure> {
+/// The limits that are given, or those of the map.
+pub(crate) fn accept(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Failure> {
+    let Some(text) = text else { return Ok(map.accept.clone()) };
+    Ok(Acceptance::read("--accept", text, spec.length)?)
+}
+
+/// Writes the spec of the identified machine and its map; what was added to the spec comes back, line by line.
+fn write_found(
+    file: &Path,
+    arguments: &arguments::Identify,
+    job: &Identify,
+    report: &Report,
+) -> Result<String, Failure> {
+    let machine = &job.machine;
+    let map_file = file.with_extension("map.toml");
+    let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if same(&map_file, &arguments.map) {
+        let message = format!("the map of this run is {}, which would be overwritten", map_file.display());
+        return Err(Failure::of("--out", message).help("name another file"));
+    }
     let spec = report.found.written(&machine.spec, &machine.text()?, &file.display().to_string())?;
+    let (found, name) = (&report.found, map_file.display().to_string());
+    let map = found.placed.written(&job.map, &machine.spec, &found.reference, &name)?;
     write(file, &spec.text)?;
+    write(&map_file, &map)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned() + "\n");
     let lines: String = lines.collect();
-    Ok(format!("Written to {}: the nominal spec and these lines\n{lines}", file.display()))
+    let beside = format!(
+        "Beside it {name}: the map with where the machine stands and what is mounted on its tool. Give `measure`, \
+         `simulate`, `compensate` and `plan` both."
+    );
+    Ok(format!(
+        "Written to {}: the nominal spec and these lines\n{lines}{}\n",
+        file.display(),
+        crate::table::wrapped(&beside, 0)
+    ))
 }
 
 fn loss(robust: Robust) -> Loss {

@@ -1,7 +1,7 @@
 //! What comes out, for people.
 
 use abbe_codegen::spec::Spec;
-use abbe_study::identify::{Report, Sizes, shown_lines};
+use abbe_study::identify::{Kind, NotKnown, Report, Sizes, shown_lines};
 use abbe_study::number::{self, digits, fixed};
 
 use super::alike;
@@ -15,6 +15,7 @@ pub(super) fn text(spec: &Spec, report: &Report, written: Option<&str>) -> Strin
     }
     parts.push(known(report));
     parts.push(parameters(spec, report));
+    parts.push(placed(spec, report));
     parts.push(errors(spec, report));
     if !report.terms.is_empty() || report.cross_validation.constant.is_some() {
         parts.push(terms(spec, report));
@@ -56,9 +57,39 @@ fn known(report: &Report) -> String {
 }
 
 fn parameters(spec: &Spec, report: &Report) -> String {
+    let table = table(spec, report, |kind| kind == Kind::Machine);
+    let mut text = format!("Errors of the machine, all others held at zero\n{table}");
+    if !report.meanings.is_empty() {
+        let sentences: String =
+            report.meanings.iter().map(|meaning| format!("  {}\n", meaning.sentence)).collect();
+        text +=
+            &format!("The same in numbers of the chain, each in place of the error in brackets\n{sentences}");
+    }
+    if report.parameters.iter().any(|parameter| parameter.hardly_known) {
+        let line = "Hardly known: the data say less of it than that it is small; `--prior` says how small.";
+        text += &format!("{line}\n");
+    }
+    text += &not_known(spec, report);
+    if !report.correlations.is_empty() {
+        let shown = report.correlations.iter().take(8);
+        let pairs: Vec<String> = shown
+            .map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)))
+            .collect();
+        let more = report.correlations.len().saturating_sub(8);
+        let more = if more > 0 { format!("; {more} more pairs") } else { String::new() };
+        text += &format!(
+            "{}\n",
+            wrapped(&format!("Correlated by more than 0.9: {}{more}.", pairs.join(", ")), 0)
+        );
+    }
+    text
+}
+
+/// What was found of some of the unknowns.
+fn table(spec: &Spec, report: &Report, wanted: impl Fn(Kind) -> bool) -> Table {
     let mut table = Table::new(&["error", "of", "value", "standard deviation", "", ""]);
     let decimals = number::error_decimals(spec.length);
-    for parameter in &report.parameters {
+    for parameter in report.parameters.iter().filter(|parameter| wanted(parameter.kind)) {
         let (unit, factor, decimals) = match parameter.unit {
             "rad" => ("mrad", 1e3, 4),
             "" => ("", 1.0, 4),
@@ -78,30 +109,49 @@ fn parameters(spec: &Spec, report: &Report) -> String {
             remark.to_owned(),
         ]);
     }
-    let mut text = format!("Errors of the machine, all others held at zero\n{}", table.right(&[2, 3]));
-    if !report.meanings.is_empty() {
-        let sentences: String =
-            report.meanings.iter().map(|meaning| format!("  {}\n", meaning.sentence)).collect();
-        text +=
-            &format!("The same in numbers of the chain, each in place of the error in brackets\n{sentences}");
+    table.right(&[2, 3])
+}
+
+/// Where the machine stands and what is mounted on its tool.
+fn placed(spec: &Spec, report: &Report) -> String {
+    let is_placed = |kind: Kind| kind != Kind::Machine;
+    if !report.parameters.iter().any(|parameter| is_placed(parameter.kind)) {
+        return "Where the machine stands and what is mounted on its tool is taken as the map has it.\n"
+            .to_owned();
     }
-    if report.parameters.iter().any(|parameter| parameter.hardly_known) {
-        let line = "Hardly known: the data say less of it than that it is small; `--prior` says how small.";
-        text += &format!("{line}\n");
+    let words = "What acts alike before the first joint and where the machine stands is taken as where it stands; what acts \
+                 alike behind the last joint and where targets are mounted, as where they are mounted. Neither is an error \
+                 of the machine: it does not go into the spec and is not compensated.";
+    format!(
+        "Where the machine stands and what is mounted on its tool\n{}{}\n",
+        table(spec, report, is_placed),
+        wrapped(words, 0)
+    )
+}
+
+/// What is held because the data say less of it than was known before.
+fn not_known(spec: &Spec, report: &Report) -> String {
+    if report.not_known.is_empty() {
+        return String::new();
     }
-    if !report.correlations.is_empty() {
-        let shown = report.correlations.iter().take(8);
-        let pairs: Vec<String> = shown
-            .map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)))
-            .collect();
-        let more = report.correlations.len().saturating_sub(8);
-        let more = if more > 0 { format!("; {more} more pairs") } else { String::new() };
-        text += &format!(
-            "{}\n",
-            wrapped(&format!("Correlated by more than 0.9: {}{more}.", pairs.join(", ")), 0)
-        );
-    }
-    text
+    let one = |not_known: &NotKnown| {
+        let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
+        let told = digits(not_known.told * factor, 2);
+        format!(
+            "{} (± {told} {unit}, expected ± {} {unit})",
+            not_known.name,
+            digits(not_known.expected * factor, 2)
+        )
+    };
+    let all: Vec<String> = report.not_known.iter().map(one).collect();
+    let line = format!(
+        "Not known from these data: {}. The data alone would tell them to what stands first, which is worse than what is \
+         expected: they are held at zero and not written. Other configurations, a target farther from the axes or a finer \
+         instrument tell more: `abbe plan {}` says how much.",
+        all.join(", "),
+        spec.name
+    );
+    wrapped(&line, 0) + "\n"
 }
 
 fn errors(spec: &Spec, report: &Report) -> String {
@@ -141,6 +191,9 @@ fn errors(spec: &Spec, report: &Report) -> String {
         _ => "What is left is what the instrument explains.".to_owned(),
     };
     text += &format!("{}\n", wrapped(&line, 0));
+    if let Some(accepted) = &report.accepted {
+        text += &format!("{}\n", wrapped(&accepted.sentence(spec.length), 0));
+    }
     if !report.rejected.is_empty() {
         let line = format!(
             "Left out as gross errors: {} rows, lines {}.",

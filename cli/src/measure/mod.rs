@@ -9,14 +9,17 @@ use abbe_study::measure::Measure;
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::identify::accept;
 use crate::output::{Outcome, cannot_write, json, write};
 
 pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let mut machine = Machine::find(&arguments.spec)?;
     machine.change(&arguments.changes.read(&machine.spec)?);
     let map = Map::find(&arguments.map, &machine.spec)?;
+    let map = if arguments.station.is_some() { map.newly_stationed() } else { map };
     let data = Data::read(&arguments.data, &map)?;
-    let job = Measure { machine, map, data };
+    let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
+    let job = Measure { machine, map, data, accept };
     let report = job.run(&mut Console::default())?;
     let spec = &job.machine.spec;
     if let Some(folder) = &arguments.out {
@@ -24,5 +27,6 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
         write(&folder.join("errors.csv"), &report.table().csv())?;
         write(&folder.join("report.html"), &abbe_report::measurement(spec, &report))?;
     }
-    Ok(Outcome::passed(if arguments.json { json(&report)? } else { text::text(spec, &report) }))
+    let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
+    Ok(Outcome::checked(if arguments.json { json(&report)? } else { text::text(spec, &report) }, accepted))
 }

@@ -13,7 +13,7 @@ pub(super) fn text(spec: &Spec, report: &Report) -> String {
     }
     if report.base_fitted {
         parts[0] += &(wrapped(
-            "Where the instrument stands was fitted: what all rows have in common is not in the errors.",
+            "Where the instrument stands was found from these rows, for the machine as its spec has it: what all rows have in common is not in the errors.",
             0,
         ) + "\n");
     }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::robust::robust_scale;
 use super::solver::Solver;
-use super::{Failure, Identifiable, Loss, Model, Observation, Options, identifiable};
+use super::{Failure, Identifiable, Loss, Model, Observation, Options, identifiable, knowable};
 
 /// An observation with less weight than this counts as left out.
 pub(super) const REJECTED: f64 = 0.05;
@@ -93,7 +93,11 @@ impl Fit {
 pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit, Failure> {
     let mut at = options.at.clone();
     at.resize(model.unknowns.len(), 0.0);
-    let identifiable = identifiable(&model.without_known_sources(), data, &at)?;
+    let plain = model.without_known_sources();
+    let identifiable = match options.expected.is_empty() {
+        true => identifiable(&plain, data, &at)?,
+        false => knowable(&plain, data, &at, &options.expected, options.noise)?,
+    };
     let numbers = data.iter().map(Observation::count).sum();
     if numbers <= identifiable.rank {
         return Err(Failure::TooFew { numbers, rank: identifiable.rank });

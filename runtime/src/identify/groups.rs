@@ -109,7 +109,6 @@ fn at_targets(model: &Model, tool: &Pose, last: &dyn Fn(Component) -> Unknown) -
                     [0, 1, 2].map(|axis| (Unknown::Target(j, axis), shift[axis] + by[axis]))
                 });
                 let act_as: Vec<_> = moves.filter(|(_, factor)| *factor != 0.0).collect();
-                // Shifts are kept as errors of the frame, turns as what they do to the targets.
                 Group { these: named(&twist, last), act_as, reason: Reason::Tool }
             })
             .collect();

@@ -99,7 +99,7 @@ pub use figures::Figures;
 pub use fit::{Fit, fit};
 pub use folds::{Folds, cross_validate};
 pub use groups::{Group, Reason, groups};
-pub use identifiable::{Identifiable, THRESHOLD, identifiable};
+pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
 pub use model::Model;
 pub use observation::{Measurement, Observation, Uncertainty};
 pub use options::Options;

@@ -1,6 +1,6 @@
 //! The real machine with unknown errors: residuals of measurements, and their exact derivatives.
 //!
-//! `B E_0 · A_1 E_1 … A_n E_n · T E_T`: `B` is where `F_0` stands as the instrument sees it from a station, `E_0` what is unknown of
+//! `B E_0 · A_1 E_1 … A_n E_n · T M E_T`: `B` is where `F_0` stands as the instrument sees it from a station, `E_0` what is unknown of
 //! that, `E_T` what is unknown of the tool where whole poses are measured; where points are, a target is at `d_j` in
 //! the frame of the tool. [Fixtures](Fixture) stand in `F_0`, before `B E_0`. ε is the sum of the sources that are known, of the unknown constants, and of the sources
 //! whose magnitude is unknown.
@@ -22,6 +22,8 @@ pub struct Model<'a> {
     pub fixtures: Vec<Fixture>,
     /// What the numbers of an observation are that has [readings](super::Measurement::Readings).
     pub readings: Vec<Reading>,
+    /// `M`: where whole poses are measured, from the frame that is seen to that of the tool, before any unknown.
+    pub mounting: Pose,
     /// What the instrument's numbers are worth; readings have their own.
     pub uncertainty: Uncertainty,
     /// The unknowns, in order.
@@ -42,6 +44,7 @@ impl<'a> Model<'a> {
             targets,
             fixtures: Vec::new(),
             readings: Vec::new(),
+            mounting: Pose::IDENTITY,
             uncertainty,
             unknowns: Vec::new(),
             roles: vec![Role::Off; description.sources.len()],
@@ -118,6 +121,24 @@ impl<'a> Model<'a> {
             _ => None,
         };
         Ok(self.unknowns.iter().map(prior).collect())
+    }
+
+    /// What is expected of the unknowns before anything is measured, by index: against this it is held what data tell.
+    ///
+    /// A prior where there is one. Where there is none, an error of the machine may be as large as the machine, and what is
+    /// told of base and tool to no better than a hundredth of it is not worth having. Magnitudes may be anything.
+    pub fn expected(&self, priors: &[Option<f64>]) -> Result<Vec<Option<f64>>, Failure> {
+        let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
+        let expected = |(k, unknown): (usize, &Unknown)| {
+            let of = |share: f64, rotation: bool| Some(if rotation { share } else { share * length });
+            priors.get(k).copied().flatten().or(match unknown {
+                Unknown::Error(_, component) => of(1.0, component.is_rotation()),
+                Unknown::Base(_, component) | Unknown::Tool(component) => of(0.01, component.is_rotation()),
+                Unknown::Target(..) => of(0.01, false),
+                Unknown::Magnitude(_) | Unknown::Fixture(..) | Unknown::Zero(_) => None,
+            })
+        };
+        Ok(self.unknowns.iter().enumerate().map(expected).collect())
     }
 
     /// Repeatable sources of the manipulator.

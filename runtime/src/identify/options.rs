@@ -14,6 +14,11 @@ pub struct Options {
     pub loss: Loss,
     /// A standard deviation about zero for some unknowns, by index; none where nothing is known before.
     pub priors: Vec<Option<f64>>,
+    /// What is expected of the unknowns, see [`Model::expected`](super::Model::expected): what the data tell worse than that
+    /// is held at zero. If empty, everything is fitted that the data tell at all.
+    pub expected: Vec<Option<f64>>,
+    /// How many times the stated uncertainty the data are worth, when it is judged what they tell: 1 if they are as good.
+    pub noise: f64,
     /// The bounds of some unknowns, by index.
     pub bounds: Vec<Option<[f64; 2]>>,
     /// The most steps.
@@ -22,6 +27,14 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { at: Vec::new(), loss: Loss::Squares, priors: Vec::new(), bounds: Vec::new(), steps: 100 }
+        Self {
+            at: Vec::new(),
+            loss: Loss::Squares,
+            priors: Vec::new(),
+            expected: Vec::new(),
+            noise: 1.0,
+            bounds: Vec::new(),
+            steps: 100,
+        }
     }
 }

@@ -86,7 +86,7 @@ impl Model<'_> {
             room.frames.push(Frame::new(&before, &room.errors[i]));
         }
         let tool = room.frames[room.errors.len()].after.then(&room.transforms[room.errors.len()]);
-        room.frames.push(Frame::new(&tool, &room.tool));
+        room.frames.push(Frame::new(&tool.then(&self.mounting), &room.tool));
         Ok(())
     }
 

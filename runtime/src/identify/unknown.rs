@@ -21,6 +21,18 @@ pub enum Unknown {
     Zero(usize),
 }
 
+impl Unknown {
+    /// Whether it is where the machine or a fixture stands, or what is mounted on its tool: no error of the machine.
+    pub fn is_placement(self) -> bool {
+        matches!(self, Self::Base(..) | Self::Fixture(..) | Self::Zero(_)) || self.is_tool()
+    }
+
+    /// Whether it is what is mounted on the tool.
+    pub fn is_tool(self) -> bool {
+        matches!(self, Self::Target(..) | Self::Tool(_))
+    }
+}
+
 /// What part a source has in a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {

@@ -2,7 +2,8 @@
 
 mod rows;
 
-use abbe::identify::Figures;
+use abbe::Pose;
+use abbe::identify::{Figures, Measurement};
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
@@ -47,6 +48,9 @@ pub struct Report {
     /// The file.
     #[serde(skip)]
     pub file: Summary,
+    /// The names of its stations.
+    #[serde(skip)]
+    pub stations: Vec<String>,
 }
 
 /// Figures of the norms of ΔX: lengths in the spec's unit, angles in rad.
@@ -79,6 +83,7 @@ impl Compensate {
         }
         let manipulator = machine.evaluator(true);
         let mut data = self.data.clone();
+        in_f0(map, &mut data);
         let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         warn_of_extrapolation(&machine.spec, "rows", places, notes);
         let rows = rows::rows(&*manipulator, &mut data, self.poses, *tolerance)?;
@@ -91,14 +96,29 @@ impl Compensate {
             after: Size::new(rows.iter().map(|row| row.after)),
             file: Summary { rows: rows.len(), ..data.summary() },
             unusable: data.unusable,
+            stations: data.stations,
             rows,
         })
     }
 }
 
+/// Poses as the tool has them in `F_0`: without the station from where they are seen and what is mounted on the tool.
+fn in_f0(map: &Map, data: &mut Data) {
+    let stands = |station: usize| data.stations.get(station).and_then(|name| map.stations.pose(name));
+    let stations: Vec<Pose> =
+        (0..data.stations.len().max(1)).map(|i| stands(i).unwrap_or(Pose::IDENTITY).inverse()).collect();
+    let mounting = map.mounting().inverse();
+    for row in &mut data.observations {
+        if let Measurement::Pose(pose) = &mut row.measured {
+            *pose = stations[row.station].then(pose).then(&mounting);
+        }
+    }
+}
+
 /// Whether a map has poses to which the tool can be brought.
 pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
-    if map.is_pose() && map.base != Base::Unknown {
+    let known = map.base != Base::Unknown || !map.stations.stated.is_empty();
+    if map.is_pose() && known {
         return Ok(());
     }
     let help = "name the columns of position and orientation; or leave `--poses` out to correct joints";
@@ -124,6 +144,7 @@ impl Report {
             values.extend(added.map(Some));
             values
         });
-        Table { heading, rows: rows.collect() }
+        let labels = map.labels(self.rows.iter().map(|row| &row.corrected), &self.stations);
+        Table { heading, rows: rows.collect(), labels }
     }
 }

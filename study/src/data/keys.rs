@@ -3,7 +3,8 @@
 abbe_codegen::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
     FORMS: ["the file"], ["point", "difference", "target", "pose"];
-    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "time"];
+    STANDS: ["the file"], ["station", "placement", "accept"];
+    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "time", "station", "placement"];
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
 
     POINT: ["[point]"], ["columns", "unit"];
@@ -13,4 +14,8 @@ abbe_codegen::tables! {
     TURN: ["[pose]"], ["quaternion", "matrix", "euler"];
     QUATERNION: ["[pose.quaternion]"], ["columns", "order"];
     EULER: ["[pose.euler]"], ["columns", "order", "unit"];
+
+    STATION: ["[[station]]"], ["name", "position", "quaternion", "covariance"];
+    ACCEPT: ["[accept]"], ["mean", "rms", "p95", "max"];
+    PLACEMENT: ["[placement]"], ["targets", "position", "quaternion", "covariance"];
 }

@@ -34,11 +34,26 @@ impl Map {
 
     /// The heading: joints and inputs, and what is measured unless this is a plan.
     pub fn heading(&self, measured: bool) -> Vec<String> {
-        let mut names: Vec<String> = self.commanded().map(|column| column.name.clone()).collect();
+        let station = self.stations.column.iter();
+        let mut names: Vec<String> =
+            station.chain(self.commanded()).map(|column| column.name.clone()).collect();
         if measured {
             names.extend(self.measured().into_iter().map(|column| column.name.clone()));
         }
         names
+    }
+
+    /// The names of the stations of rows, if they have a column; `names` by index.
+    pub fn labels<'o>(
+        &self,
+        rows: impl IntoIterator<Item = &'o Observation>,
+        names: &[String],
+    ) -> Vec<String> {
+        let name = |row: &Observation| names.get(row.station).cloned().unwrap_or_default();
+        match self.stations.column {
+            Some(_) => rows.into_iter().map(name).collect(),
+            None => Vec::new(),
+        }
     }
 
     /// The numbers of a row; `ideal` is the commanded tool point, for differences.

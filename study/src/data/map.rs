@@ -9,9 +9,10 @@ use abbe_codegen::spec::Spec;
 
 use super::column::{Channel, Column};
 use super::configurations::resolution;
+use super::station::{Placement, Stations};
 use super::turn::Turn;
-use crate::Machine;
 use crate::workspace::has_range;
+use crate::{Acceptance, Machine};
 
 /// A target on the end effector.
 #[derive(Clone, Debug)]
@@ -57,6 +58,12 @@ pub struct Map {
     pub uncertainty: Uncertainty,
     /// Where the instrument stands.
     pub base: Base,
+    /// Where the machine stands before it.
+    pub stations: Stations,
+    /// What is mounted on the tool.
+    pub placement: Placement,
+    /// Limits for rows that nothing is fitted to.
+    pub accept: Acceptance,
     /// By variable of the spec.
     pub joints: Vec<Channel>,
     /// By input of the spec.
@@ -87,6 +94,9 @@ impl Map {
             title: String::new(),
             uncertainty: Uncertainty { length: 1.0, angle: 1.0 },
             base: Base::Known,
+            stations: Stations::default(),
+            placement: Placement::default(),
+            accept: Acceptance::default(),
             joints: joints.collect(),
             inputs: inputs.collect(),
             layout: Layout::Point([(); 3].map(|()| column("")), 1.0),
@@ -110,10 +120,33 @@ impl Map {
 
     /// The targets in the frame of the tool: the tool point itself if there are no others.
     pub fn targets(&self) -> Vec<[f64; 3]> {
-        match &self.layout {
-            Layout::Targets(targets) => targets.iter().map(|target| target.position).collect(),
+        match (&self.placement.targets, &self.layout) {
+            (Some(targets), _) => targets.clone(),
+            (None, Layout::Targets(targets)) => targets.iter().map(|target| target.position).collect(),
             _ => vec![[0.0; 3]],
         }
+    }
+
+    /// From the frame that is seen to that of the tool: identity unless poses are measured and it is known.
+    pub fn mounting(&self) -> Pose {
+        self.placement.mounting.unwrap_or(Pose::IDENTITY)
+    }
+
+    /// The names of the stations that it states, or a single one without a name.
+    pub fn station_names(&self) -> Vec<String> {
+        let names = self.stations.names();
+        if names.is_empty() { vec![String::new()] } else { names }
+    }
+
+    /// The same for an instrument that stands elsewhere: where, the data are to tell.
+    pub fn newly_stationed(self) -> Self {
+        let stations = Stations { stated: Vec::new(), ..self.stations };
+        Self { base: Base::Unknown, stations, ..self }
+    }
+
+    /// The text of its file.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// The variables that have a column.

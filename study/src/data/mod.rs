@@ -9,6 +9,8 @@
 //!                                      # given, it sees in F_0 but for small errors of the base
 //! # group = "pose"                     # rows with the same text there are visits of one configuration
 //! # time = "minute"                    # rows are in the order of that column
+//! # station = "setup"                  # the column that says where the instrument stood
+//! # placement = "exact"                # the targets are on the tool where the map says
 //!
 //! [joints]                             # every variable of the spec; sign = -1 turns one round
 //! q1 = { column = "joint_1", unit = "deg" }
@@ -37,6 +39,13 @@
 //! quaternion = { columns = ["a", "b", "c", "d"], order = "wxyz" }       # or "xyzw"
 //! # matrix = ["r11", "r12", … "r33"]                                    # row by row
 //! # euler = { columns = ["a", "b", "c"], order = "zyx", unit = "deg" }   # Rz(a) Ry(b) Rx(c)
+//!
+//! [[station]]                          # what `abbe identify --out` writes: from F_0 to the frame of the instrument
+//! position = ["1200 mm", "-340 mm", "15 mm"]
+//! quaternion = [0.99, 0, 0, 0.141]     # w x y z
+//!
+//! [placement]                          # … and where the targets are on the tool, or the frame that is seen
+//! targets = [["1.2 mm", "0.3 mm", "80 mm"]]
 //! ```
 
 mod column;
@@ -50,6 +59,7 @@ mod outside;
 mod read;
 mod rotation;
 mod rows;
+mod station;
 mod table;
 mod turn;
 
@@ -58,5 +68,8 @@ pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use outside::warn_of_extrapolation;
 pub use rows::{Data, Summary, Unusable};
+pub use station::{Placement, StatedStation, Stations};
 pub use table::Table;
 pub use turn::{Order, Turn};
+
+pub(crate) use rotation::quaternion;

@@ -10,20 +10,10 @@ pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, Str
     match turn {
         Turn::Quaternion(_, order) => {
             let [a, b, c, d] = numbers.try_into().unwrap_or([0.0; 4]);
-            let [w, x, y, z] = match order {
-                Order::Wxyz => [a, b, c, d],
-                Order::Xyzw => [d, a, b, c],
-            };
-            let length = (w * w + x * x + y * y + z * z).sqrt();
-            if !(0.99..1.01).contains(&length) {
-                return Err(format!("the quaternion has length {length:.3}, not 1"));
+            match order {
+                Order::Wxyz => from_quaternion(&[a, b, c, d]),
+                Order::Xyzw => from_quaternion(&[d, a, b, c]),
             }
-            let [w, x, y, z] = [w, x, y, z].map(|v| v / length);
-            Ok([
-                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)],
-                [2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)],
-                [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
-            ])
         }
         Turn::Matrix(_) => {
             let column = |j: usize| [numbers[j], numbers[3 + j], numbers[6 + j]];
@@ -44,6 +34,21 @@ pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, Str
             Ok(turns.fold(about(0, 0.0), |product, turn| times(&product, &turn)))
         }
     }
+}
+
+/// The rotation of a quaternion w x y z, or why it is none.
+pub(super) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
+    let [w, x, y, z] = numbers.try_into().unwrap_or([0.0; 4]);
+    let length = (w * w + x * x + y * y + z * z).sqrt();
+    if !(0.99..1.01).contains(&length) {
+        return Err(format!("the quaternion has length {length:.3}, not 1"));
+    }
+    let [w, x, y, z] = [w, x, y, z].map(|v: f64| v / length);
+    Ok([
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)],
+        [2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)],
+        [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ])
 }
 
 /// The numbers of a rotation, as they are written.
@@ -74,7 +79,8 @@ fn times(a: &Rotation, b: &Rotation) -> Rotation {
     b.map(|column| std::array::from_fn(|i| (0..3).map(|k| a[k][i] * column[k]).sum()))
 }
 
-fn quaternion(r: &Rotation) -> [f64; 4] {
+/// The quaternion w x y z of a rotation.
+pub(crate) fn quaternion(r: &Rotation) -> [f64; 4] {
     let trace = r[0][0] + r[1][1] + r[2][2];
     let largest = [trace, r[0][0], r[1][1], r[2][2]];
     let k = (0..4).max_by(|a, b| largest[*a].total_cmp(&largest[*b])).unwrap_or(0);

@@ -31,6 +31,8 @@ pub struct Data {
     pub observations: Vec<Observation>,
     /// Those that cannot.
     pub unusable: Vec<Unusable>,
+    /// The names of the stations that rows were measured at; none if that is not said.
+    pub stations: Vec<String>,
 }
 
 /// Which columns are read.
@@ -69,15 +71,18 @@ impl Data {
         let commanded: Vec<&Column> = map.commanded().collect();
         let measured = if columns == Columns::Measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
+        let station = map.stations.column.as_ref();
         let beside = map.group.iter().chain(&map.time).filter(|_| once);
-        let wanted = commanded.iter().chain(&measured).copied().chain(beside);
+        let wanted = commanded.iter().chain(&measured).copied().chain(beside).chain(station);
         let missing: Vec<&Column> = wanted.filter(|column| place(column).is_none()).collect();
         if !missing.is_empty() {
             return Err(map.missing(file, &missing, header));
         }
         let places = |columns: &[&Column]| columns.iter().filter_map(place).collect::<Vec<_>>();
+        let station = station.as_ref().and_then(place);
         let (commanded, measured) = (places(&commanded), places(&measured));
-        let mut data = Self { file: file.display().to_string(), ..Self::default() };
+        let stations = map.stations.names();
+        let mut data = Self { file: file.display().to_string(), stations, ..Self::default() };
         let (group, time) =
             (map.group.as_ref().and_then(|c| place(&c)), map.time.as_ref().and_then(|c| place(&c)));
         let mut groups = Vec::new();
@@ -95,7 +100,8 @@ impl Data {
             let row = row.and_then(|row| Ok((row, time.map(|place| record.number(place)).transpose()?)));
             match row {
                 Ok((observation, time)) => {
-                    data.observations.push(Observation { time, ..observation });
+                    let station = station.map_or(0, |place| data.station(record.text(place)));
+                    data.observations.push(Observation { time, station, ..observation });
                     groups.extend(group.map(|place| record.text(place).to_owned()));
                 }
                 Err(reason) => data.unusable.push(Unusable { line: record.line, reason }),
@@ -116,6 +122,26 @@ impl Data {
             let message = format!("there is no row in it that can be used{}", why.unwrap_or_default());
             let help = "one row of numbers in every line below the heading";
             return Err(mistake::with_help(file.display(), message, help));
+        }
+        Ok(data)
+    }
+
+    /// The index of a station; one of that name is added if there is none.
+    fn station(&mut self, name: &str) -> usize {
+        self.stations.iter().position(|station| station == name).unwrap_or_else(|| {
+            self.stations.push(name.to_owned());
+            self.stations.len() - 1
+        })
+    }
+
+    /// The same rows with their stations numbered as in `other`, or the first name that is not there.
+    pub fn at_stations(&self, other: &Self) -> Result<Self, String> {
+        let mut data = Self { stations: other.stations.clone(), ..self.clone() };
+        for row in &mut data.observations {
+            let name = self.stations.get(row.station).map_or("", |name| name);
+            let found = other.stations.iter().position(|station| station == name);
+            row.station =
+                found.or((other.stations.is_empty() && name.is_empty()).then_some(0)).ok_or(name)?;
         }
         Ok(data)
     }

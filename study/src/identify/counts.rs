@@ -20,8 +20,7 @@ impl Counts {
     pub(crate) fn new(model: &Model, identifiable: &Identifiable) -> Self {
         let machine = |unknown: &Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Error(..));
         Self {
-            // Those of the tool are kept last: only for what no error of a frame stands for.
-            rank: identifiable.kept.iter().filter(|k| machine(&model.unknowns[**k])).count(),
+            rank: identifiable.errors,
             unknowns: model.unknowns.iter().filter(|unknown| machine(unknown)).count(),
             base: model.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Base(..))),
         }

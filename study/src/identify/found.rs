@@ -5,6 +5,7 @@ use abbe::identify::Unknown;
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::spec::{Fitted, Spec};
 
+use super::placed::Placed;
 use super::solve::Solved;
 use super::terms::Term;
 use crate::data::Data;
@@ -15,8 +16,8 @@ use crate::number::digits;
 pub struct FoundModel {
     /// From what it was found, and how well it fits.
     pub reference: String,
-    /// Where the machine stands, as the instrument sees it; nothing if that is exact.
-    pub base: Vec<FoundError>,
+    /// Where the machine stands and what is mounted on its tool: no part of its spec.
+    pub placed: Placed,
     /// The errors of every frame.
     pub frames: Vec<Vec<FoundError>>,
     /// The richer terms.
@@ -49,13 +50,13 @@ pub struct FoundTerm {
 
 impl FoundModel {
     /// `left` is the root mean square position error of the rows that were used.
-    pub(super) fn new(spec: &Spec, solved: &Solved, data: &Data, left: f64) -> Self {
+    pub(super) fn new(spec: &Spec, solved: &Solved, data: &Data, pose: bool, left: f64) -> Self {
         let Solved { model, fit, .. } = solved;
         let deviations = fit.standard_deviations();
-        let mut found = Self { frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
+        let placed = Placed::new(model, fit, pose);
+        let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
         for k in &fit.identifiable.kept {
             let (list, component) = match model.unknowns[*k] {
-                Unknown::Base(_, component) => (&mut found.base, component),
                 Unknown::Error(frame, component) => (&mut found.frames[frame], component),
                 _ => continue,
             };

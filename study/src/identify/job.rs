@@ -10,15 +10,16 @@ use super::counts::Counts;
 use super::extended::extended;
 use super::found::FoundModel;
 use super::meaning::meanings;
+use super::not_known::NotKnown;
 use super::readings::check_readings;
 use super::report::{
-    Compared, CrossValidation, Held, Indices, LeftOut, Pair, Parameter, Report, Sizes, TermGain,
+    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Pair, Parameter, Report, Sizes, TermGain,
 };
 use super::setup::Setup;
 use super::solve::{Settings, Solved, solve};
 use super::terms::{Family, candidates};
 use crate::data::{Data, Map, Summary};
-use crate::{Machine, Notes, mistake};
+use crate::{Acceptance, Machine, Notes, mistake};
 
 /// Which errors has this machine?
 pub struct Identify {
@@ -34,6 +35,8 @@ pub struct Identify {
     pub terms: Vec<Family>,
     /// How it is done.
     pub settings: Settings,
+    /// Limits for rows that nothing was fitted to.
+    pub accept: Acceptance,
 }
 
 impl Identify {
@@ -44,8 +47,9 @@ impl Identify {
         let terms = candidates.concat();
         let spec = extended(&machine.spec, &terms);
         let interpreter = Interpreter::new(spec);
-        let setup = Setup::new(&interpreter, map, data, terms.len())?;
+        let mut setup = Setup::new(&interpreter, map, data, terms.len())?;
         check_readings(&setup, map, data)?;
+        setup.come_near(data).map_err(|failure| mistake::whole(&data.file, failure))?;
         let solved = solve(&setup, data, &candidates, &self.settings, notes)?;
         report(self, &setup, &solved)
     }
@@ -60,13 +64,21 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
     let rows = &data.observations;
     let alike = groups(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, error))?;
-    let compared_fit = compared(solved, &setup.ideal, data, &fit.kept(rows).collect::<Vec<_>>())?;
-    let judged =
-        |test: &Data| compared(solved, &setup.ideal, test, &test.observations.iter().collect::<Vec<_>>());
+    let compared_fit = compared(solved, &setup.delivered, data, &fit.kept(rows).collect::<Vec<_>>())?;
+    let judged = |test: &Data| {
+        let test = test.at_stations(data).map_err(|name| elsewhere(test, &name))?;
+        compared(solved, &setup.delivered, &test, &test.observations.iter().collect::<Vec<_>>())
+    };
     let o = identifiable.observability;
     let length = map.uncertainty.length;
+    let test_sizes = test.as_ref().map(judged).transpose()?;
+    let accepted = match &test_sizes {
+        Some(test) => job.accept.judge("the test rows", &test.after),
+        None => job.accept.judge("rows left out in turn", &solved.crossed.into()),
+    };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
+    let found = FoundModel::new(spec, solved, data, setup.pose, compared_fit.after.rms);
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -77,7 +89,9 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
         gap: Some(identifiable.gap).filter(|gap| gap.is_finite()),
         condition: o.condition,
         observability: Indices { o1: o.o1, o2: o.o2, o3: o.o3, o4: o.o4, o5: o.o5 },
-        unexplained: (model.unknowns.len() - identifiable.rank).saturating_sub(alike.len()),
+        unexplained: (model.unknowns.len() - identifiable.rank)
+            .saturating_sub(alike.len() + identifiable.weak.len()),
+        not_known: NotKnown::all(model, identifiable, spec.length),
         groups: alike.iter().map(|group| Alike::new(group, model, setup.description)).collect(),
         meanings: meanings(spec, model, fit),
         parameters,
@@ -97,7 +111,8 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
         uncertainty_factor: fit.sigma,
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
-        test: test.as_ref().map(judged).transpose()?,
+        test: test_sizes,
+        accepted,
         cross_validation: CrossValidation {
             folds: (*folds).min(rows.len()),
             constant: solved.constant.map(Sizes::from),
@@ -119,7 +134,8 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
         notes: solved.notes.clone(),
         files,
-        found: FoundModel::new(spec, solved, data, compared_fit.after.rms),
+        placed: found.placed.clone(),
+        found,
     })
 }
 
@@ -140,7 +156,13 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
         };
         let frame_name =
             |frame: usize| frame.checked_sub(1).map_or("base", |i| &setup.description.frames[i].name);
+        let kind = match unknown {
+            Unknown::Base(..) => Kind::Station,
+            unknown if unknown.is_placement() => Kind::Placement,
+            _ => Kind::Machine,
+        };
         Parameter {
+            kind,
             name: model.name(unknown),
             frame,
             frame_name: frame.map(|frame| frame_name(frame).to_owned()),
@@ -157,9 +179,15 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
     fit.identifiable.kept.iter().map(parameter).collect()
 }
 
+fn elsewhere(test: &Data, name: &str) -> Diagnostics {
+    let message = format!("rows of station `{}`, where none of the data was measured", name.escape_debug());
+    let help = "`abbe measure --station new` finds a station for the machine that is identified";
+    mistake::with_help(&test.file, message, help)
+}
+
 fn compared(
     solved: &Solved,
-    ideal: &Model,
+    delivered: &Model,
     data: &Data,
     rows: &[&Observation],
 ) -> Result<Compared, Diagnostics> {
@@ -169,7 +197,7 @@ fn compared(
     };
     Ok(Compared {
         rows: rows.len(),
-        before: sizes(ideal, &[])?,
+        before: sizes(delivered, &[])?,
         base_and_tool: sizes(&solved.simple, &solved.simple_fit.x)?,
         after: sizes(&solved.model, &solved.fit.x)?,
     })

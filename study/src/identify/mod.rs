@@ -2,7 +2,7 @@
 //!
 //! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant; `terms`
 //! are candidates for richer models, `extended` the spec that has them; `solve` fits, judges and chooses, on the data
-//! alone, `gross` looks for gross errors. `found` is the identified machine, `written` its spec; `report` is what comes out,
+//! alone, `gross` looks for gross errors. `found` is the identified machine, `written` its spec, `placed` where it stands and what is mounted on its tool; `report` is what comes out,
 //! with `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
 
 mod alike;
@@ -12,6 +12,9 @@ mod found;
 mod gross;
 mod job;
 mod meaning;
+mod not_known;
+mod placed;
+mod priors;
 mod readings;
 mod report;
 mod setup;
@@ -25,8 +28,12 @@ pub use extended::extended;
 pub use found::{FoundError, FoundModel, FoundTerm};
 pub use gross::shown_lines;
 pub use job::Identify;
+pub use not_known::NotKnown;
+pub use placed::{Placed, PlacedStation};
+pub use priors::Prior;
 pub use report::{
-    Compared, CrossValidation, Held, Indices, LeftOut, Meaning, Pair, Parameter, Report, Sizes, TermGain,
+    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Meaning, Pair, Parameter, Report, Sizes,
+    TermGain,
 };
 pub use solve::Settings;
 pub use terms::{Basis, Family, Place, Term, candidates};

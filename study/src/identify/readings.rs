@@ -4,7 +4,7 @@ use abbe::identify::{Measurement, Model, Observation, Options, Station, Uncertai
 use abbe::{Pose, VariableKind};
 use abbe_codegen::diagnostic::Diagnostics;
 
-use super::setup::{Setup, station};
+use super::setup::{Setup, registered};
 use crate::data::{Data, Layout, Map, Order, Turn};
 use crate::{mistake, number};
 
@@ -54,15 +54,15 @@ fn missed(setup: &Setup, rows: &[Observation]) -> Option<f64> {
         Measurement::Points(_) | Measurement::Readings(_) => row.clone(),
     };
     let rows: Vec<Observation> = rows.iter().map(points).collect();
-    let mut model = Model {
-        uncertainty: Uncertainty { length: 1.0, angle: 1.0 },
-        stations: vec![Station::at(Pose::IDENTITY)],
-        ..setup.ideal.clone()
-    };
+    let mut model = Model { uncertainty: Uncertainty { length: 1.0, angle: 1.0 }, ..setup.ideal.clone() };
     if setup.pose {
         model.targets = corners.to_vec();
     }
-    model.stations[0].pose = station(&model, &rows).ok()??;
+    for i in 0..model.stations.len() {
+        // Of few rows at a station nothing is told.
+        let pose = registered(&model, &rows, i).ok()??;
+        model.stations[i] = Station { pose, exact: false, ..model.stations[i].clone() };
+    }
     let model = model.with(model.base_and_tool(false));
     let found = fit(&model, &rows, &Options::default()).ok()?;
     model.figures(&rows, &found.x).ok().map(|figures| figures.rms)

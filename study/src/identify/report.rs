@@ -6,6 +6,9 @@ use serde::Serialize;
 use super::alike::Alike;
 use super::counts::Counts;
 use super::found::FoundModel;
+use super::not_known::NotKnown;
+use super::placed::Placed;
+use crate::Accepted;
 use crate::data::{Summary, Unusable};
 
 /// What is found, how well it is known, and how good it is.
@@ -37,6 +40,8 @@ pub struct Report {
     pub parameters: Vec<Parameter>,
     /// Joints' zeros, parameters and Denavit-Hartenberg numbers that can stand in the place of some of these.
     pub meanings: Vec<Meaning>,
+    /// Errors of which these data tell less than is known before; they are held at zero.
+    pub not_known: Vec<NotKnown>,
     /// The others.
     pub held: Vec<Held>,
     /// Parameters that are correlated by more than 0.9, either sign.
@@ -45,12 +50,16 @@ pub struct Report {
     pub uncertainty_factor: f64,
     /// Where `F_0` stands as the instrument sees it, errors of the base aside: rows of a homogeneous matrix.
     pub base: [[f64; 4]; 4],
+    /// Where the machine stands and what is mounted on its tool, as found.
+    pub placed: Placed,
     /// How good it is on the data, gross errors left out.
     pub fit: Compared,
     /// How good it is on the test data.
     pub test: Option<Compared>,
     /// How good it is on rows left out in turn.
     pub cross_validation: CrossValidation,
+    /// Whether it is within the limits that were declared, if any were.
+    pub accepted: Option<Accepted>,
     /// The richer terms that were taken in, in the order of their gain.
     pub terms: Vec<TermGain>,
     /// Rows that cannot be used.
@@ -78,11 +87,25 @@ pub struct Indices {
     pub o5: f64,
 }
 
+/// What an unknown belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// The machine: it goes into the spec.
+    Machine,
+    /// Where the machine stands.
+    Station,
+    /// What is mounted on its tool.
+    Placement,
+}
+
 /// An unknown that stands for a combination that is known.
 #[derive(Clone, Debug, Serialize)]
 pub struct Parameter {
     /// `e_x1`, of the base `e_x0`.
     pub name: String,
+    /// Whether it is an error of the machine, where it stands, or what is mounted on its tool.
+    pub kind: Kind,
     /// The frame of an error, from 1; 0 is the base.
     pub frame: Option<usize>,
     /// What that is called.
@@ -148,7 +171,7 @@ pub struct Sizes {
 pub struct Compared {
     /// How many rows.
     pub rows: usize,
-    /// As delivered.
+    /// As delivered: with the sources that the spec has itself.
     pub before: Sizes,
     /// With base and tool fitted.
     pub base_and_tool: Sizes,

@@ -1,8 +1,10 @@
 //! The models that measurements are compared with.
 
 use abbe::analysis::sampling;
-use abbe::identify::{Measurement, Model, Observation, Role, Station, Unknown, register};
-use abbe::{Class, Description, Manipulator, Pose, VariableKind};
+use abbe::identify::{
+    Failure, Measurement, Model, Observation, Options, Role, Station, Unknown, fit, register,
+};
+use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_codegen::diagnostic::Diagnostics;
 
 use crate::data::{Base, Data, Map};
@@ -13,10 +15,14 @@ pub(crate) struct Setup<'a> {
     pub(crate) description: &'a Description,
     /// Whether whole poses are measured.
     pub(crate) pose: bool,
+    /// Whether nothing of what is mounted on the tool is unknown.
+    placement: bool,
     /// The ideal chain, without any source.
     pub(crate) ideal: Model<'a>,
     /// The chain with the repeatable sources of its spec.
     pub(crate) real: Model<'a>,
+    /// The same before a far start was brought near.
+    pub(crate) delivered: Model<'a>,
     /// The sum of the lengths of the chain.
     pub(crate) arm: f64,
 }
@@ -30,29 +36,39 @@ impl<'a> Setup<'a> {
         data: &Data,
         terms: usize,
     ) -> Result<Self, Diagnostics> {
-        let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
-        let base = match map.base {
-            Base::Known | Base::Exact => Pose::IDENTITY,
-            Base::Unknown => station(&ideal, &data.observations)
-                .map_err(|failure| mistake::whole(&data.file, failure))?
-                .ok_or_else(|| {
-                    let message = "where the instrument stands needs three points that are not in line";
-                    let help = "measure more, or say `base = \"known\"` in the map if it sees in F_0";
-                    mistake::with_help(&data.file, message, help)
-                })?,
-        };
-        let stations = vec![Station { exact: map.base == Base::Exact, ..Station::at(base) }];
-        Self::placed(Model { stations, ..ideal }, map, terms)
+        let mut setup = Self::placed(manipulator, map, terms)?;
+        let unnamed = [String::new()];
+        let names = if data.stations.is_empty() { &unnamed[..] } else { &data.stations };
+        let stations = names.iter().enumerate().map(|(i, name)| {
+            let pose = match (map.stations.pose(name), map.base) {
+                (Some(pose), _) => pose,
+                (None, Base::Known | Base::Exact) => Pose::IDENTITY,
+                (None, Base::Unknown) => registered(&setup.real, &data.observations, i)
+                    .map_err(|failure| mistake::whole(&data.file, failure))?
+                    .ok_or_else(|| in_line(data, name))?,
+            };
+            Ok(Station { name: name.clone(), pose, exact: map.base == Base::Exact })
+        });
+        let stations = stations.collect::<Result<Vec<_>, Diagnostics>>()?;
+        setup.stand_at(stations);
+        Ok(setup)
     }
 
-    /// Seen from `F_0` itself.
+    /// Seen from where the map says, or from `F_0` itself.
     pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self, Diagnostics> {
-        let stations = vec![Station { exact: map.base == Base::Exact, ..Station::at(Pose::IDENTITY) }];
-        let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
-        Self::placed(Model { stations, ..ideal }, map, 0)
+        let mut setup = Self::placed(manipulator, map, 0)?;
+        let station = |name: String| Station {
+            pose: map.stations.pose(&name).unwrap_or(Pose::IDENTITY),
+            name,
+            exact: map.base == Base::Exact,
+        };
+        setup.stand_at(map.station_names().into_iter().map(station).collect());
+        Ok(setup)
     }
 
-    fn placed(ideal: Model<'a>, map: &Map, terms: usize) -> Result<Self, Diagnostics> {
+    fn placed(manipulator: &'a dyn Manipulator, map: &Map, terms: usize) -> Result<Self, Diagnostics> {
+        let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
+        let ideal = Model { mounting: map.mounting(), ..ideal };
         let description = ideal.manipulator.description();
         let mut real = ideal.clone();
         let own = description.sources.len() - terms;
@@ -61,17 +77,79 @@ impl<'a> Setup<'a> {
         }
         let arm = sampling::arm_length(ideal.manipulator, &ideal.s);
         let arm = arm.map_err(|error| mistake::whole(&description.name, error))?;
-        Ok(Self { description, pose: map.is_pose(), ideal, real, arm })
+        let placement = map.placement.exact;
+        let delivered = real.clone();
+        Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm })
+    }
+
+    fn stand_at(&mut self, stations: Vec<Station>) {
+        for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
+            model.stations.clone_from(&stations);
+        }
+    }
+
+    /// Brings a start near that the data miss by far, in closed form: where the machine stands and what is mounted on its tool
+    /// in turn, each the rigid motion that explains the data best beside the other.
+    pub(crate) fn come_near(&mut self, data: &Data) -> Result<(), Failure> {
+        let rows = &data.observations;
+        let far = |model: &Model| Ok(model.figures(rows, &[])?.rms > FAR * self.arm);
+        if !far(&self.real)? {
+            return Ok(());
+        }
+        let mut near = self.real.clone();
+        for _ in 0..ROUNDS {
+            for i in 0..near.stations.len() {
+                if !near.stations[i].exact
+                    && let Some(pose) = registered(&near, rows, i)?
+                {
+                    near.stations[i].pose = pose;
+                }
+            }
+            if !self.placement {
+                mount(&mut near, rows, self.arm)?;
+            }
+            if !far(&near)? {
+                break;
+            }
+        }
+        for model in [&mut self.ideal, &mut self.real] {
+            model.stations.clone_from(&near.stations);
+            model.targets.clone_from(&near.targets);
+            model.mounting = near.mounting;
+        }
+        Ok(())
+    }
+
+    /// Finds the stations that the map does not state, for the machine as its spec has it.
+    pub(crate) fn find_stations(&mut self, map: &Map, data: &Data) -> Result<bool, Diagnostics> {
+        let open =
+            |station: &Station| map.base == Base::Unknown && map.stations.pose(&station.name).is_none();
+        let names = self.real.stations.iter().enumerate().filter(|(_, station)| open(station));
+        let unknowns: Vec<Unknown> =
+            names.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component))).collect();
+        if unknowns.is_empty() {
+            return Ok(false);
+        }
+        let model = self.real.with(unknowns);
+        let fit = fit(&model, &data.observations, &Options::default());
+        let fit = fit.map_err(|failure| mistake::whole(&data.file, failure))?;
+        self.stand_at(found_stations(&model, &fit.x));
+        Ok(true)
     }
 
     /// What is unknown of base and tool.
     pub(crate) fn base_and_tool(&self) -> Vec<Unknown> {
-        self.ideal.base_and_tool(self.pose)
+        self.but_exact(self.ideal.base_and_tool(self.pose))
     }
 
     /// What is unknown of base, frames and tool.
     pub(crate) fn constants(&self) -> Vec<Unknown> {
-        self.ideal.constants(self.pose)
+        self.but_exact(self.ideal.constants(self.pose))
+    }
+
+    fn but_exact(&self, mut unknowns: Vec<Unknown>) -> Vec<Unknown> {
+        unknowns.retain(|unknown| !(self.placement && unknown.is_tool()));
+        unknowns
     }
 
     /// The variables that the data move.
@@ -90,16 +168,80 @@ impl<'a> Setup<'a> {
     }
 }
 
-/// Where `F_0` is as the instrument sees it, from all points that were measured: the rigid motion from where they should be.
-/// None if they are in line.
-pub(super) fn station(ideal: &Model, data: &[Observation]) -> Result<Option<Pose>, abbe::identify::Failure> {
-    let mut room = ideal.room();
+/// A start that misses by more than this share of the arm is far.
+const FAR: f64 = 0.01;
+
+/// How often station and tool are found in turn.
+const ROUNDS: usize = 50;
+
+/// Puts on the tool what explains the data best: targets at their mean place, or the motion of the frame that is seen.
+fn mount(model: &mut Model, rows: &[Observation], arm: f64) -> Result<(), Failure> {
+    let mut room = model.room();
+    let corners = [[0.0; 3], [arm, 0.0, 0.0], [0.0, arm, 0.0], [0.0, 0.0, arm]];
+    let bare = Model { mounting: Pose::IDENTITY, ..model.clone() };
     let (mut from, mut to) = (Vec::new(), Vec::new());
-    for observation in data {
-        let pose = ideal.pose(&mut room, observation, &[])?;
+    let mut sums = vec![([0.0; 3], 0.0); model.targets.len()];
+    for row in rows {
+        let back = bare.pose(&mut room, row, &[])?.inverse();
+        match &row.measured {
+            Measurement::Points(points) => {
+                for ((sum, count), point) in sums.iter_mut().zip(points) {
+                    let Some(point) = point else { continue };
+                    let place = back.apply(*point);
+                    *sum = std::array::from_fn(|i| sum[i] + place[i]);
+                    *count += 1.0;
+                }
+            }
+            Measurement::Readings(_) => {}
+            Measurement::Pose(pose) => {
+                let seen = back.then(pose);
+                from.extend(corners);
+                to.extend(corners.map(|corner| seen.apply(corner)));
+            }
+        }
+    }
+    for (target, (sum, count)) in model.targets.iter_mut().zip(sums) {
+        if count > 0.0 {
+            *target = sum.map(|v| v / count);
+        }
+    }
+    if let Some(found) = register(&from, &to) {
+        model.mounting = found.pose;
+    }
+    Ok(())
+}
+
+/// The stations of a model with what was found of them.
+pub(super) fn found_stations(model: &Model, x: &[f64]) -> Vec<Station> {
+    let mut stations = model.stations.clone();
+    for (i, station) in stations.iter_mut().enumerate() {
+        let of = |component| Unknown::Base(i, component);
+        station.pose = station.pose.then(&displaced(model, x, of));
+    }
+    stations
+}
+
+/// The motion that six unknowns are.
+pub(super) fn displaced(model: &Model, x: &[f64], of: impl Fn(Component) -> Unknown) -> Pose {
+    let value = |component| model.unknowns.iter().position(|u| *u == of(component)).map_or(0.0, |k| x[k]);
+    real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[Component::ALL.map(value)])
+}
+
+/// Where `F_0` is as the instrument sees it from a station, from all points that were measured there: the rigid motion from
+/// where they should be. None if they are in line.
+pub(super) fn registered(
+    model: &Model,
+    data: &[Observation],
+    station: usize,
+) -> Result<Option<Pose>, Failure> {
+    let mut room = model.room();
+    let model = Model { stations: vec![Station::at(Pose::IDENTITY); station + 1], ..model.clone() };
+    let (mut from, mut to) = (Vec::new(), Vec::new());
+    for observation in data.iter().filter(|row| row.station == station) {
+        let pose = model.pose(&mut room, observation, &vec![0.0; model.unknowns.len()])?;
         match &observation.measured {
             Measurement::Points(points) => {
-                for (target, point) in ideal.targets.iter().zip(points) {
+                for (target, point) in model.targets.iter().zip(points) {
                     if let Some(point) = point {
                         from.push(pose.apply(*target));
                         to.push(*point);
@@ -113,7 +255,12 @@ pub(super) fn station(ideal: &Model, data: &[Observation]) -> Result<Option<Pose
             Measurement::Readings(_) => {}
         }
     }
-    Ok(register(&from, &to)
-        .filter(|found| found.breadth > 1e-6)
-        .map(|found| found.pose.then(&ideal.stations[0].pose)))
+    Ok(register(&from, &to).filter(|found| found.breadth > 1e-6).map(|found| found.pose))
+}
+
+fn in_line(data: &Data, name: &str) -> Diagnostics {
+    let at = if name.is_empty() { String::new() } else { format!(" (station `{name}`)") };
+    let message = format!("where the instrument stands needs three points that are not in line{at}");
+    let help = "measure more, or say `base = \"known\"` in the map if it sees in F_0";
+    mistake::with_help(&data.file, message, help)
 }

@@ -6,9 +6,11 @@ use abbe::identify::{
 use abbe_codegen::diagnostic::Diagnostics;
 
 use super::gross;
+use super::priors::Prior;
 use super::setup::Setup;
 use super::terms::Term;
 use crate::data::Data;
+use crate::number::digits;
 use crate::{Notes, mistake};
 
 /// How it is done.
@@ -16,8 +18,8 @@ use crate::{Notes, mistake};
 pub struct Settings {
     /// What a residual costs.
     pub loss: Loss,
-    /// How large errors are expected to be, as a share of the arm's length and in rad; 0 for no expectation.
-    pub prior: f64,
+    /// How large errors are expected to be.
+    pub prior: Prior,
     /// Into how many parts the rows are dealt, each left out in turn.
     pub folds: usize,
 }
@@ -53,19 +55,28 @@ pub(super) fn solve<'a>(
     let rows = &data.observations;
     let explained = |cause: Failure| explained(&cause, data);
     let options = Options { loss: settings.loss, ..Options::default() };
-    let simple = setup.ideal.with(setup.base_and_tool());
-    let simple_fit = fit(&simple, rows, &options).map_err(explained)?;
+    let simple = setup.real.with(setup.base_and_tool());
+    let expected = simple.expected(&[]).map_err(explained)?;
+    let simple_fit = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(explained)?;
 
-    let fitted = |model: &Model| -> Result<Fit, Failure> {
-        let priors = if settings.prior > 0.0 { model.priors(settings.prior)? } else { Vec::new() };
+    let fitted = |model: &Model, prior: Prior| -> Result<Fit, Failure> {
+        let priors = prior.of_model(model)?;
         let at = embedded(&simple, &simple_fit.x, model);
-        fit(model, rows, &Options { at, priors, ..options.clone() })
+        let expected = model.expected(&priors)?;
+        let options = Options { at, priors, expected, ..options.clone() };
+        let found = fit(model, rows, &options)?;
+        // What is worse than stated tells less.
+        if found.sigma < 1.5 {
+            return Ok(found);
+        }
+        fit(model, rows, &Options { noise: found.sigma, at: found.x, ..options })
     };
     let crossed =
         |model: &Model, fit: &Fit| cross_validate(model, rows, fit, settings.folds).map_err(explained);
     let constants = setup.constants();
     let model = setup.real.with(constants.clone());
-    let found = fitted(&model);
+    let prior = settings.prior.chosen(&model, rows, settings.folds, fitted).map_err(explained)?;
+    let found = fitted(&model, prior);
     let warning = match settings.loss {
         Loss::Squares => gross::warning(&model, data, found.as_ref().ok()),
         _ => None,
@@ -85,6 +96,13 @@ pub(super) fn solve<'a>(
         terms: Vec::new(),
         notes: warning.into_iter().map(|warning| format!("note: {warning}")).collect(),
     };
+    if let (Prior::Auto, Prior::Share(share)) = (settings.prior, prior) {
+        solved.notes.push(format!(
+            "note: errors are expected to be {} of the arm's length: of all that was tried, rows left out in turn fit \
+             best with it, or as well as with less",
+            format!("{} %", digits(100.0 * share, 2))
+        ));
+    }
     if candidates.is_empty() {
         return Ok(solved);
     }
@@ -111,7 +129,7 @@ pub(super) fn solve<'a>(
     let taken: Vec<(Term, Unknown)> = taken.flat_map(|i| magnitudes[i].clone()).collect();
     if !taken.is_empty() {
         solved.model = with(&taken);
-        solved.fit = fitted(&solved.model).map_err(explained)?;
+        solved.fit = fitted(&solved.model, prior).map_err(explained)?;
         solved.crossed = crossed(&solved.model, &solved.fit)?;
     }
     solved.terms = taken.into_iter().map(|(term, _)| term).collect();

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::{Document, Section};
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::spec::{Fitted, Spec, VariableKind};
 
@@ -25,18 +24,12 @@ impl FoundModel {
     ///
     /// What is written is a spec, or it is not written: files of tables must be where they are looked for from there.
     pub fn written(&self, spec: &Spec, text: &str, path: &str) -> Result<WrittenSpec, Diagnostics> {
-        let base = free_name(spec, "measured from");
-        let frame = format!(
-            "# Where the machine stands, as the instrument sees it: no error of the machine itself.\n[[frame]]\n\
-             name = {base:?}\norigin = {{ xyz = [0, 0, 0] }}\n\n"
-        );
-        let sources = self.sources(spec, &base);
+        let sources = self.sources(spec);
         let kept = without_fitted(text);
         let text = kept.as_str();
         let fitted = self.fitted_table(spec);
-        let at = before_frames(text);
-        let mut new = format!("{}{frame}{}\n{sources}\n{fitted}", &text[..at], text[at..].trim_end());
-        let mut added = format!("{frame}{}\n{fitted}", sources.trim_start());
+        let mut new = format!("{}\n{sources}\n{fitted}", text.trim_end());
+        let mut added = format!("{}\n{fitted}", sources.trim_start());
         if self.terms.iter().any(|found| found.term.basis == Basis::Moment) {
             let [load, gravity] = weight(spec);
             new = format!("{gravity}{}\n{load}", new.trim_end());
@@ -46,10 +39,9 @@ impl FoundModel {
         Ok(WrittenSpec { text: new, added })
     }
 
-    fn sources(&self, spec: &Spec, base: &str) -> String {
-        let names = std::iter::once(base).chain(spec.frames.iter().map(|frame| frame.name.as_str()));
-        let errors = std::iter::once(&self.base).chain(&self.frames);
-        let constants = names.zip(errors).filter(|(_, errors)| !errors.is_empty());
+    fn sources(&self, spec: &Spec) -> String {
+        let names = spec.frames.iter().map(|frame| frame.name.as_str());
+        let constants = names.zip(&self.frames).filter(|(_, errors)| !errors.is_empty());
         let constants = constants.map(|(frame, errors)| self.constant(spec, frame, errors));
         constants.chain(self.terms.iter().map(|found| self.term(spec, found))).collect()
     }
@@ -176,33 +168,6 @@ fn without_fitted(text: &str) -> String {
         !inside && !line.starts_with("# The ranges of joints and inputs on which the errors were fitted.")
     });
     kept.collect()
-}
-
-/// Where the first frame begins, the comments above it included.
-fn before_frames(text: &str) -> usize {
-    let mut document = Document::new("", text);
-    let tables = document.tables(text);
-    let first = tables.as_ref().and_then(|tables| {
-        let item = Section::root(tables).get("frame")?;
-        let items = document.array(&item, "frames")?;
-        items.first().map(|item| item.span().start.min(item.key_span.start))
-    });
-    let mut at = first.map_or(text.len(), |at| text[..at].rfind('\n').map_or(0, |newline| newline + 1));
-    while at > 0 {
-        let line = text[..at - 1].rfind('\n').map_or(0, |newline| newline + 1);
-        if !text[line..at].starts_with('#') {
-            break;
-        }
-        at = line;
-    }
-    at
-}
-
-/// A name that no frame has.
-fn free_name(spec: &Spec, name: &str) -> String {
-    let taken = |name: &str| spec.frames.iter().any(|frame| frame.name == name);
-    let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} {i}")));
-    names.into_iter().find(|name| !taken(name)).unwrap_or_default()
 }
 
 /// A name that no source has.

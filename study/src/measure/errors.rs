@@ -1,6 +1,6 @@
 //! ΔX of every row, equation (5): measured minus ideal.
 
-use abbe::identify::{Measurement, Observation, register};
+use abbe::identify::{Measurement, Model, Observation, register};
 use abbe::{Orientation, Pose, deviation};
 use abbe_codegen::diagnostic::Diagnostics;
 
@@ -26,14 +26,23 @@ impl RowError {
     }
 }
 
+/// The model whose tool point is the target, if that is the only one: its place on the tool is no error.
+pub(super) fn at_single_target<'a>(model: &Model<'a>) -> Model<'a> {
+    let [target] = model.targets[..] else { return model.clone() };
+    let mut mounting = model.mounting;
+    mounting.0[3] = mounting.apply(target);
+    Model { mounting, targets: vec![[0.0; 3]], ..model.clone() }
+}
+
 /// The errors of all rows; those that show too little of the tool go to the unusable ones.
 pub(super) fn row_errors(setup: &Setup, data: &mut Data) -> Result<Vec<RowError>, Diagnostics> {
     let mut rows = Vec::new();
-    let mut room = setup.ideal.room();
+    let seen = at_single_target(&setup.ideal);
+    let mut room = seen.room();
     for observation in std::mem::take(&mut data.observations) {
-        let ideal = setup.ideal.pose(&mut room, &observation, &[]);
+        let ideal = seen.pose(&mut room, &observation, &[]);
         let ideal = ideal.map_err(|failure| mistake::whole(&data.file, failure))?;
-        match pose(&setup.ideal.targets, &observation.measured, &ideal) {
+        match pose(&seen.targets, &observation.measured, &ideal) {
             Some(real) => rows.push(RowError {
                 error: deviation(Orientation::RotationVector, &ideal, &real),
                 point: real.position(),

@@ -4,16 +4,18 @@ use abbe::Class;
 use abbe::identify::{Failure, Figures, Unknown};
 use serde::Serialize;
 
-use super::errors::{RowError, norm};
+use super::errors::{RowError, at_single_target};
 use crate::identify::Setup;
 
 /// How far the sources of the spec go.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Explained {
-    /// The mean norm of what is left when the repeatable sources are taken off.
+    /// The mean norm of what is left when the repeatable sources are taken off, of every point that was measured.
     pub left_mean: f64,
     /// The root mean square of that.
     pub left_rms: f64,
+    /// What 95 % of them do not exceed.
+    pub left_p95: f64,
     /// The largest.
     pub left_max: f64,
     /// Which share of the sum of squares the repeatable sources explain; below 0 they make it worse.
@@ -35,10 +37,11 @@ pub(super) fn explained(setup: &Setup, rows: &[RowError]) -> Result<Explained, F
             Class::Repeatable => None,
         })
         .collect();
-    let model = setup.real.with(random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect());
+    let unknowns = random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect();
+    let model = at_single_target(&setup.real).with(unknowns);
     let mut room = model.room();
     let zero = vec![0.0; random.len()];
-    let (mut left, mut inside) = (Vec::new(), 0);
+    let (mut before, mut left, mut inside) = (Vec::new(), Vec::new(), 0);
     for row in rows {
         let (pose, moves) = model.tool(&mut room, &row.observation, &zero)?;
         let rest: [f64; 3] = std::array::from_fn(|k| row.point[k] - pose.position()[k]);
@@ -48,15 +51,17 @@ pub(super) fn explained(setup: &Setup, rows: &[RowError]) -> Result<Explained, F
             rest[k].abs() <= squares.sqrt() + 3.0 * model.uncertainty.length
         };
         inside += usize::from((0..3).all(within));
-        left.push(norm(rest));
+        // Where it was measured: at every target.
+        left.extend(setup.real.distances(&mut room, &row.observation, &[])?);
+        before.extend(setup.ideal.distances(&mut room, &row.observation, &[])?);
     }
-    let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>();
-    let before = squares(&mut rows.iter().map(RowError::distance));
-    let share = 1.0 - squares(&mut left.iter().copied()) / before.max(f64::MIN_POSITIVE);
+    let squares = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
+    let share = 1.0 - squares(&left) / squares(&before).max(f64::MIN_POSITIVE);
     let figures = Figures::from_norms(left);
     Ok(Explained {
         left_mean: figures.mean,
         left_rms: figures.rms,
+        left_p95: figures.p95,
         left_max: figures.max,
         share,
         inside: inside as f64 / rows.len().max(1) as f64,

@@ -9,12 +9,14 @@ mod repeated;
 mod sentences;
 
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::expr::LengthUnit;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
-use crate::data::{Base, Data, Map, Summary, Table, warn_of_extrapolation};
+use crate::data::{Data, Map, Summary, Table, warn_of_extrapolation};
+use crate::identify::Sizes;
 use crate::identify::{Setup, check_readings};
-use crate::{Machine, Notes, mistake};
+use crate::{Acceptance, Accepted, Machine, Notes, mistake};
 
 pub use errors::RowError;
 pub use explained::Explained;
@@ -28,6 +30,8 @@ pub struct Measure {
     pub map: Map,
     /// The measurements.
     pub data: Data,
+    /// Limits for what the sources of the spec leave.
+    pub accept: Acceptance,
 }
 
 /// What was measured.
@@ -47,8 +51,13 @@ pub struct Report {
     pub explained: Explained,
     /// Configurations that were visited again.
     pub repeated: Repeated,
+    /// Whether what the spec leaves is within the limits that were declared, if any were.
+    pub accepted: Option<Accepted>,
     /// How many rows could not be used.
     pub unusable: usize,
+    /// The length unit as such.
+    #[serde(skip)]
+    pub unit: LengthUnit,
     /// The file.
     #[serde(skip)]
     pub file: Summary,
@@ -99,10 +108,11 @@ impl Size {
 impl Measure {
     /// Compares every row with the ideal machine and with the predicted one.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        let Self { machine, map, data } = self;
+        let Self { machine, map, data, accept } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
-        let setup = Setup::new(&interpreter, map, data, 0)?;
+        let mut setup = Setup::new(&interpreter, map, data, 0)?;
         check_readings(&setup, map, data)?;
+        let base_fitted = setup.find_stations(map, data)?;
         let mut data = data.clone();
         let rows = errors::row_errors(&setup, &mut data)?;
         let places = rows.iter().map(|row| (&row.observation.q[..], &row.observation.u[..]));
@@ -120,17 +130,22 @@ impl Measure {
             errors.extend(names.map(|(i, name)| Size::new(name, "rad", &along(3 + i))));
         }
         let explained = explained::explained(&setup, &rows);
+        let explained = explained.map_err(|failure| mistake::whole(&data.file, failure))?;
+        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = explained;
+        let accepted = accept.judge("these rows", &Sizes { mean, rms, max, p95 });
         Ok(Report {
             name: machine.spec.name.clone(),
             length: unit,
+            unit: machine.spec.length,
             title: map.title.clone(),
             rows: rows.len(),
             errors,
-            explained: explained.map_err(|failure| mistake::whole(&data.file, failure))?,
+            explained,
+            accepted,
             repeated: repeated::repeated(&rows),
             unusable: data.unusable.len(),
             file: Summary { rows: rows.len(), ..data.summary() },
-            base_fitted: map.base == Base::Unknown,
+            base_fitted,
             about_barycentres: repeated::about_barycentres(&rows),
             row_errors: rows,
         })
@@ -147,6 +162,7 @@ impl Report {
             let values = row.error[..names.len() - 1].iter().map(|value| Some(*value));
             std::iter::once(Some(row.observation.line as f64)).chain(values).collect()
         });
-        Table { heading: names.iter().map(|name| (*name).to_owned()).collect(), rows: rows.collect() }
+        let heading = names.iter().map(|name| (*name).to_owned()).collect();
+        Table { heading, rows: rows.collect(), ..Table::default() }
     }
 }

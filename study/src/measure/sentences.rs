@@ -61,6 +61,7 @@ impl Report {
         };
         let inside = percent(explained.inside, 1.0);
         all.push(format!("{inside} of the rows are within {allow} about that: {verdict}."));
+        all.extend(self.accepted.iter().map(|accepted| accepted.sentence(self.unit)));
         all
     }
 

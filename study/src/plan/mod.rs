@@ -6,7 +6,7 @@ mod sets;
 use abbe::analysis::{Configuration, Workspace, joint_samples};
 use abbe::identify::{
     Design, Failure, Figures, Identifiable, Measurement, Model, Observation, Unknown, d_optimal, groups,
-    identifiable, predicted, whole,
+    knowable, predicted, whole,
 };
 use abbe::{Description, Manipulator};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -14,7 +14,7 @@ use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 use crate::data::{Map, Table};
-use crate::identify::{Alike, Counts, Setup};
+use crate::identify::{Alike, Counts, NotKnown, Setup};
 use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, mistake, number};
 
@@ -23,6 +23,10 @@ pub use sets::{Counted, Sets};
 
 /// The most configurations of the workspace of use that are looked at.
 const USED: usize = 1000;
+
+/// How large errors are expected to be, as a share of the arm's length and in rad: what an identification expects that is
+/// told nothing else.
+const EXPECTED: f64 = 0.01;
 
 /// Where should this machine be measured?
 pub struct Plan {
@@ -71,6 +75,8 @@ pub struct Report {
     pub unknowns: usize,
     /// Of base and frames alone, without the targets on the tool.
     pub machine: Counts,
+    /// Errors of which these rows will tell less than is known before.
+    pub not_known: Vec<NotKnown>,
     /// The condition number.
     pub condition: f64,
     /// `ln det` of the information of columns of unit length.
@@ -149,8 +155,10 @@ impl Plan {
             return Err(mistake::with_help(&machine.origin, message, "plan more of them"));
         };
         let used = self.used(&interpreter, description)?;
-        let spread = Figures::from_norms(at_the_tool(&model, &identifiable, &design, &used).map_err(fail)?);
+        // What these rows tell, as an identification will judge it.
         let observed = determined(&model, &rows).map_err(fail)?;
+        let told = whole(&model, &rows, &observed).map_err(fail)?.unwrap_or(design.clone());
+        let spread = Figures::from_norms(at_the_tool(&model, &observed, &told, &used).map_err(fail)?);
         let moved = setup.moved(&rows);
         let alike = rows.first().map_or(Ok(Vec::new()), |row| groups(&model, &row.q, &moved, setup.pose));
         let alike = alike.map_err(|error| mistake::whole(&machine.origin, error))?;
@@ -161,9 +169,10 @@ impl Plan {
             rows: rows.len(),
             sets,
             inputs: self.inputs(&rows),
-            rank: identifiable.rank,
+            rank: observed.rank,
             unknowns: model.unknowns.len(),
-            machine: Counts::new(&model, &identifiable),
+            machine: Counts::new(&model, &observed),
+            not_known: NotKnown::all(&model, &observed, machine.spec.length),
             condition: observed.observability.condition,
             log_det: design.log_det,
             exchanges: design.exchanges,
@@ -254,12 +263,14 @@ impl Report {
     /// What is to be measured, in the columns and units of the map.
     pub fn table(&self, map: &Map) -> Table {
         let rows = self.observations.iter().map(|row| map.numbers(row, [0.0; 3], false));
-        Table { heading: map.heading(false), rows: rows.collect() }
+        let labels = map.labels(&self.observations, &map.station_names());
+        Table { heading: map.heading(false), rows: rows.collect(), labels }
     }
 }
 
 fn determined(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
-    identifiable(model, rows, &vec![0.0; model.unknowns.len()])
+    let expected = model.expected(&model.priors(EXPECTED)?)?;
+    knowable(model, rows, &vec![0.0; model.unknowns.len()], &expected, 1.0)
 }
 
 /// The standard deviation of the tool point: a target of its own, which nothing was measured with.

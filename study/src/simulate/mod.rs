@@ -90,7 +90,9 @@ impl Simulate {
             Ok(map.numbers(observation, ideal, true))
         };
         let rows: Result<Vec<_>, Failure> = observations.iter().map(row).collect();
-        let table = Table { heading: map.heading(true), rows: rows.map_err(fail)? };
+        let names = if list.stations.is_empty() { map.station_names() } else { list.stations.clone() };
+        let labels = map.labels(&observations, &names);
+        let table = Table { heading: map.heading(true), rows: rows.map_err(fail)?, labels };
         Ok(Report { table, observations })
     }
 
@@ -120,7 +122,16 @@ impl Simulate {
         let samples = random_joint_samples(manipulator, &moved, count, self.seed)
             .and_then(|samples| samples.inputs(manipulator, &inputs));
         let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
-        let rows = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
-        Ok(Data { file: "--samples".to_owned(), observations: rows.collect(), ..Data::default() })
+        let stations = self.map.station_names();
+        let rows = (1..).zip(samples).enumerate().map(|(i, (line, sample))| {
+            let station = i % stations.len();
+            Observation { station, ..self.map.planned(line, sample) }
+        });
+        Ok(Data {
+            file: "--samples".to_owned(),
+            observations: rows.collect(),
+            stations: stations.clone(),
+            ..Data::default()
+        })
     }
 }

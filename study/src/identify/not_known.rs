@@ -1,0 +1,46 @@
+//! What the data do not tell, and is therefore held at what was expected.
+
+use abbe::identify::{Identifiable, Model, Unknown};
+use abbe_codegen::expr::LengthUnit;
+use serde::Serialize;
+
+/// An error of which these data tell less than is known before: it is held at zero and not written.
+#[derive(Clone, Debug, Serialize)]
+pub struct NotKnown {
+    /// The error.
+    pub name: String,
+    /// The standard deviation that the data alone would give it, beside all that is found.
+    pub told: f64,
+    /// What is expected of it before: a standard deviation about zero.
+    pub expected: f64,
+    /// The length unit, or rad.
+    pub unit: &'static str,
+}
+
+impl NotKnown {
+    pub(crate) fn all(model: &Model, identifiable: &Identifiable, length: LengthUnit) -> Vec<Self> {
+        let weak = identifiable.weak.iter().filter(|weak| weak.expected.is_finite());
+        let not_known = weak.map(|weak| {
+            let unknown = model.unknowns[weak.unknown];
+            let rotation = match unknown {
+                Unknown::Base(_, component) | Unknown::Error(_, component) | Unknown::Tool(component) => {
+                    component.is_rotation()
+                }
+                Unknown::Target(..) | Unknown::Magnitude(_) | Unknown::Fixture(..) | Unknown::Zero(_) => {
+                    false
+                }
+            };
+            Self {
+                name: model.name(unknown),
+                told: weak.told,
+                expected: weak.expected,
+                unit: match unknown {
+                    Unknown::Magnitude(_) => "",
+                    _ if rotation => "rad",
+                    _ => length.symbol(),
+                },
+            }
+        });
+        not_known.collect()
+    }
+}

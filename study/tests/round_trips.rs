@@ -1,0 +1,290 @@
+//! What `identify` writes goes round: a spec of the machine, and a map of where it stands and what is mounted on it.
+
+use abbe::identify::Loss;
+use abbe_codegen::spec::Spec;
+use abbe_study::compensate::Compensate;
+use abbe_study::data::{Data, Map};
+use abbe_study::identify::{Identify, Prior, Report, Settings};
+use abbe_study::measure::Measure;
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Acceptance, Machine};
+
+/// A UR5 with errors of its own.
+const ERRORS: &str = r#"
+[[source]]
+name = "truth"
+class = "repeatable"
+
+[[source.effect]]
+frame = "shoulder"
+e_x = "0.6 mm"
+e_s = "0.8 mrad"
+
+[[source.effect]]
+frame = "elbow"
+e_y = "-0.5 mm"
+e_p = "-1.1 mrad"
+
+[[source.effect]]
+frame = "wrist 1"
+e_z = "0.3 mm"
+e_s = "0.7 mrad"
+"#;
+
+/// Where it stands: a metre and a half away, turned by 150 degrees.
+const STATION: &str = "[[station]]\nposition = [\"1200 mm\", \"-900 mm\", \"40 mm\"]\nquaternion = [0.2588190451, 0, 0, 0.9659258263]\n";
+
+fn ur5() -> Machine {
+    Machine::find("ur5").unwrap()
+}
+
+fn machine(name: &str, text: &str) -> Machine {
+    Machine::of_spec(Spec::parse(name, text).unwrap(), name)
+}
+
+fn real() -> Machine {
+    machine("real.toml", &format!("{}{ERRORS}", ur5().text().unwrap()))
+}
+
+/// One way to measure: what the file has, where targets were meant to be, and where they are.
+struct Way {
+    layout: String,
+    mounted: String,
+}
+
+/// A target beside the last axis.
+fn one() -> Way {
+    Way {
+        layout: "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n".to_owned(),
+        mounted: "[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n".to_owned(),
+    }
+}
+
+/// Three targets, each meant to be `off` mm from where it is.
+fn three(off: f64) -> Way {
+    let places = [[60.0, 10.0, 40.0], [-50.0, 20.0, 60.0], [0.0, -70.0, 30.0]];
+    let place = |at: [f64; 3]| {
+        let [x, y, z] = at.map(|v| format!("\"{v} mm\""));
+        format!("[{x}, {y}, {z}]")
+    };
+    let target = |(i, at): (usize, [f64; 3])| {
+        let designed = place(at.map(|v| v + off));
+        format!(
+            "[[target]]\ncolumns = [\"x{i}\", \"y{i}\", \"z{i}\"]\nunit = \"mm\"\nposition = {designed}\n"
+        )
+    };
+    Way {
+        layout: places.into_iter().enumerate().map(target).collect(),
+        mounted: format!("[placement]\ntargets = [{}]\n", places.map(place).join(", ")),
+    }
+}
+
+fn pose() -> Way {
+    Way {
+        layout: "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
+                 quaternion = { columns = [\"a\", \"b\", \"c\", \"d\"], order = \"wxyz\" }\n"
+            .to_owned(),
+        mounted: "[placement]\nposition = [\"3 mm\", \"-2 mm\", \"5 mm\"]\nquaternion = [0.99995, 0.005, -0.007, 0.005]\n"
+            .to_owned(),
+    }
+}
+
+impl Way {
+    /// A map; `data` are more lines under `[data]`, `more` more tables.
+    fn map(&self, data: &str, more: &str) -> Map {
+        let joints: String =
+            (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+        let head = format!(
+            "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.05 mrad\"\n{data}\n[joints]\n"
+        );
+        let text = format!("{head}{joints}\n{}\n{more}", self.layout);
+        Map::parse("map.toml", &text, &ur5().spec).unwrap()
+    }
+
+    /// As it is: what measures.
+    fn truth(&self, stands: &str) -> Map {
+        self.map("", &format!("{stands}{}", self.mounted))
+    }
+}
+
+fn measured(map: &Map, samples: usize, seed: u64) -> Data {
+    let job = Simulate {
+        machine: real(),
+        map: map.clone(),
+        at: Places::Samples(samples),
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed,
+    };
+    let report = job.run(&mut ()).unwrap();
+    Data {
+        file: "simulated".to_owned(),
+        observations: report.observations,
+        stations: map.station_names(),
+        ..Data::default()
+    }
+}
+
+fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10 };
+    let job = Identify {
+        machine: ur5(),
+        map: map.clone(),
+        data,
+        test,
+        terms: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    };
+    job.run(&mut ()).unwrap()
+}
+
+/// The spec and the map that are written.
+fn written(report: &Report, map: &Map) -> (Machine, Map) {
+    let nominal = ur5();
+    let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+    let found = machine("found.toml", &spec.text);
+    let text = report.placed.written(map, &nominal.spec, &report.found.reference, "found.map.toml").unwrap();
+    let map = Map::parse("found.map.toml", &text, &found.spec).unwrap();
+    (found, map)
+}
+
+/// The spec that is written, by its own name again.
+fn left(machine: Machine, map: Map, data: Data) -> [f64; 2] {
+    let report = Measure { machine, map, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
+    [report.explained.left_mean, report.explained.left_max]
+}
+
+fn alike(a: [f64; 2], b: [f64; 2], share: f64) {
+    for (a, b) in a.into_iter().zip(b) {
+        assert!((a - b).abs() <= share * b, "{a} {b}");
+    }
+}
+
+/// The figure that `identify` states of unseen rows is the one that `measure` finds with what it wrote; and the machine is as
+/// good at a station that nothing was known of.
+fn goes_round(way: &Way, known: bool) {
+    let (stands, base) = if known { ("", "") } else { (STATION, "base = \"unknown\"\n") };
+    let (truth, guess) = (way.truth(stands), way.map(base, ""));
+    let unseen = measured(&truth, 100, 2);
+    let report = identify(&guess, measured(&truth, 150, 1), Some(unseen.clone()));
+    let test = report.test.unwrap();
+    assert!(test.after.mean < 0.05 && test.before.mean > 0.3, "{test:?}");
+    let figure = [test.after.mean, test.after.max];
+    let (found, map) = written(&report, &guess);
+    alike(left(found.clone(), map.clone(), unseen), figure, 0.01);
+
+    let elsewhere =
+        STATION.replace("1200 mm", "-2500 mm").replace("0.2588190451, 0, 0,", "0, 0, 0.2588190451,");
+    let moved = measured(&way.truth(&elsewhere), 100, 2);
+    let [mean, _] = left(found, map.newly_stationed(), moved);
+    assert!((mean - figure[0]).abs() <= 0.1 * figure[0], "{mean} {figure:?}");
+}
+
+#[test]
+fn of_one_target() {
+    goes_round(&one(), true);
+    goes_round(&one(), false);
+}
+
+#[test]
+fn of_three_targets() {
+    goes_round(&three(0.4), true);
+    goes_round(&three(0.4), false);
+}
+
+#[test]
+fn of_poses() {
+    goes_round(&pose(), true);
+    goes_round(&pose(), false);
+}
+
+/// What is mounted wrong is not corrected: with targets guessed 200 mm off, commands change by no more than the machine's
+/// own errors.
+#[test]
+fn placement_is_not_compensated() {
+    let way = three(200.0);
+    let guess = way.map("", "");
+    let report = identify(&guess, measured(&way.truth(""), 150, 1), None);
+    let (found, _) = written(&report, &guess);
+    let commands = measured(&guess, 40, 3);
+    let compensated = |machine: Machine| {
+        let (map, data) = (guess.clone(), commands.clone());
+        Compensate { machine, map, data, poses: false, tolerance: 1e-3 }.run(&mut ()).unwrap().before
+    };
+    let (own, found) = (compensated(real()), compensated(found));
+    assert!(own.max > 1.0, "{own:?}");
+    assert!(found.max <= 1.1 * own.max && found.angle_max <= 1.1 * own.angle_max, "{found:?} {own:?}");
+}
+
+/// Two stations in one fit: each row at its own, found in closed form, a machine of errors that both see.
+#[test]
+fn of_two_stations() {
+    let way = one();
+    let second = STATION.replace("1200 mm", "-700 mm").replace("0.9659258263", "-0.9659258263");
+    let named = |station: &str, name: &str| station.replace("]]\n", &format!("]]\nname = {name:?}\n"));
+    let stands = format!("{}{}", named(STATION, "door"), named(&second, "wall"));
+    let column = "station = \"setup\"\n";
+    let truth = way.map(column, &format!("{stands}{}", way.mounted));
+    let guess = way.map(&format!("{column}base = \"unknown\"\n"), "");
+    let unseen = measured(&truth, 100, 2);
+    let report = identify(&guess, measured(&truth, 160, 1), Some(unseen.clone()));
+    let test = report.test.unwrap();
+    assert!(test.after.mean < 0.05, "{test:?}");
+    let names: Vec<&str> = report.placed.stations.iter().map(|station| &station.name[..]).collect();
+    assert_eq!(names, ["door", "wall"]);
+    assert!(report.parameters.iter().any(|parameter| parameter.name == "e_x0 wall"));
+    let (found, map) = written(&report, &guess);
+    alike(left(found, map, unseen), [test.after.mean, test.after.max], 0.01);
+}
+
+/// A reflector at the flange, on the last axis but for 0.3 mm: what it does not tell is held and named, not written.
+#[test]
+fn a_reflector_on_the_last_axis() {
+    let way = Way {
+        layout: one().layout,
+        mounted: "[placement]\ntargets = [[\"0.2 mm\", \"-0.2 mm\", \"0.1 mm\"]]\n".to_owned(),
+    };
+    let guess = way.map("", "");
+    let report = identify(&guess, measured(&way.truth(""), 60, 1), None);
+    assert!(report.condition < 1000.0, "{}", report.condition);
+    assert!(!report.not_known.is_empty());
+    for weak in &report.not_known {
+        assert!(weak.told > weak.expected, "{weak:?}");
+    }
+    let arm_share = 0.01;
+    for parameter in &report.parameters {
+        if parameter.unit == "rad" {
+            assert!(parameter.standard_deviation < arm_share, "{parameter:?}");
+        }
+    }
+    // What is written turns the tool no farther than the errors of the machine do.
+    let (found, _) = written(&report, &guess);
+    let commands = measured(&guess, 40, 3);
+    let compensated = |machine: Machine| {
+        let (map, data) = (guess.clone(), commands.clone());
+        Compensate { machine, map, data, poses: false, tolerance: 1e-3 }.run(&mut ()).unwrap().before
+    };
+    let (own, found) = (compensated(real()), compensated(found));
+    assert!(found.angle_max <= 1.2 * own.angle_max, "{found:?} {own:?}");
+}
+
+/// A start that is a metre and half a turn off is found, whatever the map says.
+#[test]
+fn from_a_far_start() {
+    let far = Way {
+        mounted: "[placement]\ntargets = [[\"600 mm\", \"-500 mm\", \"700 mm\"]]\n".to_owned(),
+        ..one()
+    };
+    let turned = Way {
+        mounted: "[placement]\nposition = [\"300 mm\", \"-200 mm\", \"800 mm\"]\nquaternion = [0.02, 0.9998, 0, 0]\n"
+            .to_owned(),
+        ..pose()
+    };
+    for way in [far, turned] {
+        // Said to be known, which is wrong.
+        let report = identify(&way.map("", ""), measured(&way.truth(STATION), 150, 1), None);
+        assert!(report.fit.after.mean < 0.05, "{:?}", report.fit);
+    }
+}
