@@ -105,13 +105,7 @@ fn elastic_terms_are_written_with_their_weight() -> Result<(), Missing> {
     let spec = fs::read_to_string(&out).unwrap();
     assert!(spec.contains("[[load]]") && spec.contains("compliance = ") && spec.starts_with("gravity = "));
     // The spec computes what was fitted: the model with all of it, base and tool included.
-    let joints: String =
-        (1..=7).map(|i| format!("q{i} = {{ column = \"joint_{i}\", unit = \"deg\" }}\n")).collect();
-    let exact = format!(
-        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\n\n[joints]\n{joints}\n[difference]\ntarget = [\"x_t\", \"y_t\", \"z_t\"]\ndifference = [\"x_dif\", \"y_dif\", \"z_dif\"]\nunit = \"mm\"\n"
-    );
-    let map = text(&folder.path().join("exact.toml"));
-    fs::write(&map, exact).unwrap();
+    let map = text(&folder.path().join("identified.map.toml"));
     let measured = json(&["measure", &out, &grid, "--map", &map, "--json"]);
     let left = number(&measured, &["explained", "left_rms"]);
     assert!((left - number(&report, &["fit", "after", "rms"])).abs() < 1e-4, "{left}");

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use abbe::identify::{Loss, Measurement, Observation};
 use abbe_codegen::spec::Spec;
 use abbe_study::compensate::Compensate;
-use abbe_study::data::{Base, Data, Map};
+use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Identify, Prior, Settings};
 use abbe_study::measure::Measure;
 use abbe_study::plan::{Choice, Plan};
@@ -122,16 +122,17 @@ fn what_is_found_is_the_machine() {
 /// What was found is a spec again, and predicts what was measured.
 #[test]
 fn the_identified_machine_is_measured_again() {
-    let mut exact = map(POINT);
-    exact.base = Base::Exact;
-    let data = measurements(&exact, 300, 1);
-    let mut job = identify(&exact, data.clone());
+    let map = map(POINT);
+    let data = measurements(&map, 300, 1);
+    let mut job = identify(&map, data.clone());
     job.terms = vec![Family::Joint, Family::Elastic];
     let report = job.run(&mut ()).unwrap();
     let nominal = ur5();
     let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
-    let measured = Measure { machine, map: exact, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
+    let text = report.placed.written(&map, &nominal.spec, &report.found.reference, "found.map.toml").unwrap();
+    let map = Map::parse("found.map.toml", &text, &nominal.spec).unwrap();
+    let measured = Measure { machine, map, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
     assert_eq!(measured.row_errors.len(), 300);
     assert!(measured.explained.share > 0.99, "{:?}", measured.explained);
 }

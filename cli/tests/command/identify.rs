@@ -164,11 +164,9 @@ fn the_result_is_a_spec() {
     json(&["analyze", path(&out), "--json"]);
 
     // It predicts what was measured: the same chain, so the same errors to the digits that are written.
-    let joints: String =
-        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
-    let exact = format!("[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\n\n[joints]\n{joints}{POINT}");
-    let exact = bench.file("exact.toml", &exact);
-    let measured = json(&["measure", path(&out), path(&data), "--map", path(&exact), "--json"]);
+    let map = out.with_extension("map.toml");
+    assert!(text.contains("found.map.toml: the map with where the machine stands"), "{text}");
+    let measured = json(&["measure", path(&out), path(&data), "--map", path(&map), "--json"]);
     let fitted = bench.identify(&data, &[]);
     let left = number(&measured, &["explained", "left_rms"]);
     assert!((left - number(&fitted, &["fit", "after", "rms"])).abs() < 1e-5);

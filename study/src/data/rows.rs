@@ -71,7 +71,9 @@ impl Data {
         let commanded: Vec<&Column> = map.commanded().collect();
         let measured = if columns == Columns::Measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
-        let station = map.stations.column.as_ref();
+        // A plan says only if it can where it is for.
+        let is_there = |column: &&Column| columns == Columns::Measured || place(column).is_some();
+        let station = map.stations.column.as_ref().filter(is_there);
         let beside = map.group.iter().chain(&map.time).filter(|_| once);
         let wanted = commanded.iter().chain(&measured).copied().chain(beside).chain(station);
         let missing: Vec<&Column> = wanted.filter(|column| place(column).is_none()).collect();
