@@ -332,15 +332,19 @@ fn mistakes_in_a_file_have_their_line() {
         ("340,30", "300,30", "line 5 of `rail.csv`: x is the same as in the row before"),
         ("340,30", "290,30", "line 5 of `rail.csv`: x turns back"),
         ("d1,dz", "d1,d_z", "`rail.csv` has no column `dz`"),
-        ("300,31,20.2", "300,31", "`rail.csv` is not a table"),
+        ("300,31,20.2", "300,31", "`rail.csv` is not a table: line 4 has 2 cells, those before it 3"),
     ] {
         let shown = mistakes(rail.replace(from, to).as_bytes());
         assert!(shown.contains(expected) && shown.contains("help"), "{shown}");
     }
+    let semicolons = mistakes(rail.replace(',', ";").replace('.', ",").as_bytes());
+    let form = "commas stand between cells, and decimals have a point";
+    assert!(semicolons.contains(form), "{semicolons}");
+    assert!(mistakes(b"d1;dz\n1;2\n").contains(form));
     assert!(mistakes(b"d1,dz\n").contains("has no points"));
     assert!(mistakes(b"d1,dz\n1,2\n").contains("has one point"));
     assert!(mistakes(b"").contains("no column `d1`"));
-    assert!(mistakes(b"d1,dz\n1,\xff\n").contains("is not a table"));
+    assert!(mistakes(b"d1,dz\n1,\xff\n").contains("is not a table: line 2 is no UTF-8 text"));
     fs::remove_file(folder.path().join("rail.csv")).unwrap();
     let shown = Spec::read(folder.path().join("measured.toml")).unwrap_err().to_string();
     assert!(shown.contains("cannot read `rail.csv`") && shown.contains("relative to the folder"), "{shown}");

@@ -61,11 +61,7 @@ impl Columns {
         match result {
             Ok((names, rows)) => Some(Self { file, span, names, rows }),
             Err(error) => {
-                fail(
-                    document,
-                    format!("`{file}` is not a table: {error}"),
-                    "a CSV file has a line of names, then rows",
-                );
+                fail(document, format!("`{file}` is not a table: {}", in_words(&error)), FORM);
                 None
             }
         }
@@ -77,8 +73,11 @@ impl Columns {
         let Some(index) = self.names.iter().position(|known| *known == name) else {
             let known: Vec<&str> = self.names.iter().map(String::as_str).collect();
             let message = format!("`{}` has no column `{}`", self.file, name.escape_debug());
-            document
-                .mistake(Diagnostic::new(item.span(), message).help(suggestion(&name, &known, "columns")));
+            let help = match &known[..] {
+                [only] if only.contains([';', '\t']) => FORM.to_owned(),
+                _ => suggestion(&name, &known, "columns"),
+            };
+            document.mistake(Diagnostic::new(item.span(), message).help(help));
             return None;
         };
         let mut numbers = Vec::with_capacity(self.rows.len());
@@ -96,6 +95,20 @@ impl Columns {
             }
         }
         Some(numbers)
+    }
+}
+
+/// What a file of points must be.
+const FORM: &str = "a CSV file of a spec has a line of names, then rows; commas stand between cells, and decimals have a point";
+
+/// What is wrong with the form of a file.
+fn in_words(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths { pos: Some(place), expected_len, len } => {
+            format!("line {} has {len} cells, those before it {expected_len}", place.line())
+        }
+        csv::ErrorKind::Utf8 { pos: Some(place), .. } => format!("line {} is no UTF-8 text", place.line()),
+        _ => error.to_string(),
     }
 }
 

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use abbe_codegen::diagnostic::Diagnostics;
-use csv::{ReaderBuilder, StringRecord, Trim};
+use csv::StringRecord;
 
+use super::dialect::Dialect;
 use crate::mistake;
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
@@ -13,6 +14,7 @@ const WANTED: &str = "give a CSV file with a heading in its first line";
 pub(super) struct File {
     file: String,
     bytes: Vec<u8>,
+    pub(super) dialect: Dialect,
     pub(super) heading: Vec<String>,
 }
 
@@ -21,6 +23,7 @@ pub(super) struct Record<'t> {
     /// Its line in the file, from 1.
     pub(super) line: u64,
     heading: &'t [String],
+    dialect: Dialect,
     fields: StringRecord,
 }
 
@@ -29,24 +32,21 @@ impl File {
     pub(super) fn read(file: &Path) -> Result<Self, Diagnostics> {
         let file_name = file.display().to_string();
         let bytes = std::fs::read(file).map_err(|error| unreadable(&file_name, &error.into()))?;
-        let mut table = Self { file: file_name, bytes, heading: Vec::new() };
-        let mut reader = table.reader();
+        let dialect = Dialect::detect(&bytes);
+        let mut table = Self { file: file_name, bytes, dialect, heading: Vec::new() };
+        let mut reader = dialect.reader(&table.bytes);
         let heading = reader.headers().map_err(|error| unreadable(&table.file, &error))?;
         table.heading = heading.iter().map(str::to_owned).collect();
         Ok(table)
     }
 
-    fn reader(&self) -> csv::Reader<&[u8]> {
-        ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).flexible(true).from_reader(&self.bytes[..])
-    }
-
     /// Every record below the heading.
     pub(super) fn records(&self) -> impl Iterator<Item = Result<Record<'_>, Diagnostics>> {
         let mut lines = Lines { bytes: &self.bytes, at: 0, line: 1 };
-        self.reader().into_records().map(move |record| {
+        self.dialect.reader(&self.bytes).into_records().map(move |record| {
             let fields = record.map_err(|error| unreadable(&self.file, &error))?;
             let line = fields.position().map_or(0, |position| lines.of_record(position.byte()));
-            Ok(Record { line, heading: &self.heading, fields })
+            Ok(Record { line, heading: &self.heading, dialect: self.dialect, fields })
         })
     }
 }
@@ -80,6 +80,18 @@ impl Lines<'_> {
 }
 
 impl Record<'_> {
+    /// Whether there are cells beyond the heading, and how many in all. Empty ones do not count.
+    pub(super) fn too_long(&self) -> Option<String> {
+        let cells = (1..=self.fields.len()).rev().find(|cells| !self.is_empty(cells - 1))?;
+        let columns = self.heading.len();
+        (cells > columns).then(|| {
+            let between = self.dialect.delimiter();
+            format!(
+                "it has {cells} cells, the heading {columns}: is there one of the {between} inside a cell?"
+            )
+        })
+    }
+
     /// Whether there is nothing at a place.
     pub(super) fn is_empty(&self, place: usize) -> bool {
         self.fields.get(place).is_none_or(str::is_empty)
@@ -101,10 +113,10 @@ impl Record<'_> {
         match self.fields.get(place) {
             None => Err(format!("it ends before `{name}`")),
             Some("") => Err(format!("`{name}` is missing")),
-            Some(text) => match text.parse::<f64>() {
-                Ok(value) if value.is_finite() => Ok(value),
-                Ok(_) => Err(format!("`{name}` is `{}`", text.escape_debug())),
-                Err(_) => Err(format!("`{name}` is `{}`, not a number", text.escape_debug())),
+            Some(text) => match self.dialect.number(text) {
+                Some(value) if value.is_finite() => Ok(value),
+                Some(_) => Err(format!("`{name}` is `{}`", text.escape_debug())),
+                None => Err(format!("`{name}` is `{}`, not a number", text.escape_debug())),
             },
         }
     }

@@ -12,6 +12,27 @@ impl Map {
     pub(super) fn missing(&self, file: &Path, columns: &[&Column], header: &[String]) -> Diagnostics {
         let wanted: Vec<&str> =
             self.commanded().chain(self.measured()).map(|column| column.name.as_str()).collect();
+        // Many at once have one cause.
+        if let [first, .., last] = columns
+            && columns.len() > 3
+        {
+            let name = |column: &Column| column.name.escape_debug().to_string();
+            let message = format!(
+                "{} columns of the map are not in {}: `{}` … `{}`",
+                columns.len(),
+                file.display(),
+                name(first),
+                name(last)
+            );
+            let help = match header {
+                [only] => format!("its first line has one cell, `{}`", only.escape_debug()),
+                _ => format!("its first line has: {}", header.join(", ")),
+            };
+            let span = first.span.clone();
+            let mistake =
+                Diagnostic { span, ..Diagnostic::whole_file(message) }.label("the first of them").help(help);
+            return Diagnostics { path: self.path.clone(), text: self.text.clone(), list: vec![mistake] };
+        }
         let list = columns.iter().map(|column| {
             // Those that the map has found are not what is missing.
             let free = header.iter().filter(|name| !wanted.contains(&name.as_str()));

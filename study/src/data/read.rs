@@ -41,8 +41,40 @@ impl Map {
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
         let map = tables.and_then(|tables| read_map(&Section::root(&tables), &mut document, spec));
+        gather_alike(&mut document);
         document.finish(map)
     }
+}
+
+/// Of mistakes with the same message only the first is shown, with the lines of the others.
+fn gather_alike(document: &mut Document) {
+    let line = |mistake: &Diagnostic| {
+        let start = mistake.span.as_ref().map_or(0, |span| span.start.min(document.text.len()));
+        document.text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count() + 1
+    };
+    let mut kept: Vec<(Diagnostic, Vec<String>)> = Vec::new();
+    for mistake in std::mem::take(&mut document.found) {
+        let same =
+            kept.iter_mut().find(|(first, _)| first.message == mistake.message && first.help == mistake.help);
+        match same {
+            Some((_, others)) => others.push(line(&mistake).to_string()),
+            None => kept.push((mistake, Vec::new())),
+        }
+    }
+    document.found = kept
+        .into_iter()
+        .map(|(mut first, others)| {
+            if !others.is_empty() {
+                let more = format!(
+                    "the same in line{} {}",
+                    if others.len() == 1 { "" } else { "s" },
+                    others.join(", ")
+                );
+                first.help = Some(first.help.map_or(more.clone(), |help| format!("{help}; {more}")));
+            }
+            first
+        })
+        .collect();
 }
 
 fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Map> {
@@ -199,6 +231,17 @@ fn columns<const N: usize>(section: &Section<'_>, key: &str, document: &mut Docu
 fn unit(section: &Section<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<f64> {
     let item = section.required("unit", document)?;
     let name = document.string(&item)?;
+    if name.trim().is_empty() {
+        let help = match dimension {
+            Dimension::NONE => "write `rad` or `deg`, or `1` for a pure number",
+            _ => "write `mm`, `m`, `kg` …: what the numbers of the file are in",
+        };
+        document.mistake(Diagnostic::new(item.span(), "this unit is empty").help(help));
+        return None;
+    }
+    if name.trim() == "1" && dimension == Dimension::NONE {
+        return Some(1.0);
+    }
     let text = format!("1 {name}");
     let mut line = Document::new("", text.as_str());
     let what = format!("the unit `{}`", name.escape_debug());

@@ -3,7 +3,7 @@
 use super::turn::{Order, Turn};
 
 /// The columns of a rotation matrix.
-type Rotation = [[f64; 3]; 3];
+pub(crate) type Rotation = [[f64; 3]; 3];
 
 /// The rotation, or why the numbers are none.
 pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, String> {
@@ -49,6 +49,11 @@ pub(super) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
         [2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)],
         [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
     ])
+}
+
+/// The rotation if its numbers were written as another kind.
+pub(crate) fn reread(turn: &Turn, other: &Turn, r: &Rotation) -> Rotation {
+    from_numbers(other, &to_numbers(turn, r)).unwrap_or(*r)
 }
 
 /// The numbers of a rotation, as they are written.

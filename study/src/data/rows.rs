@@ -27,6 +27,8 @@ pub struct Unusable {
 pub struct Data {
     /// The file's name.
     pub file: String,
+    /// How it is written, if not with commas between cells and points in decimals.
+    pub written: Option<&'static str>,
     /// Those that can be used, in order.
     pub observations: Vec<Observation>,
     /// Those that cannot.
@@ -80,11 +82,17 @@ impl Data {
         if !missing.is_empty() {
             return Err(map.missing(file, &missing, header));
         }
+        let wanted = commanded.iter().chain(&measured);
+        let twice = |column: &&&Column| header.iter().filter(|name| **name == column.name).count() > 1;
+        if let Some(column) = wanted.into_iter().find(twice) {
+            let message = format!("two columns are called `{}`", column.name.escape_debug());
+            return Err(mistake::with_help(file.display(), message, "rename one of them in the heading"));
+        }
         let places = |columns: &[&Column]| columns.iter().filter_map(place).collect::<Vec<_>>();
         let station = station.as_ref().and_then(place);
         let (commanded, measured) = (places(&commanded), places(&measured));
-        let stations = map.stations.names();
-        let mut data = Self { file: file.display().to_string(), stations, ..Self::default() };
+        let (stations, written) = (map.stations.names(), table.dialect.words());
+        let mut data = Self { file: file.display().to_string(), written, stations, ..Self::default() };
         let (group, time) =
             (map.group.as_ref().and_then(|c| place(&c)), map.time.as_ref().and_then(|c| place(&c)));
         let mut groups = Vec::new();
@@ -156,7 +164,12 @@ impl Data {
 
     /// How many rows there are, and what is wrong with the others.
     pub fn summary(&self) -> Summary {
-        Summary { file: self.file.clone(), rows: self.observations.len(), unusable: self.unusable.clone() }
+        Summary {
+            file: self.file.clone(),
+            written: self.written,
+            rows: self.observations.len(),
+            unusable: self.unusable.clone(),
+        }
     }
 }
 
@@ -165,6 +178,9 @@ impl Data {
 pub struct Summary {
     /// The file's name.
     pub file: String,
+    /// How it is written, if not with commas between cells and points in decimals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub written: Option<&'static str>,
     /// How many rows can be used.
     pub rows: usize,
     /// Those that cannot.
@@ -175,7 +191,8 @@ impl Summary {
     /// In words, one line each and not too many.
     pub fn lines(&self) -> Vec<String> {
         const SHOWN: usize = 10;
-        let mut lines = vec![format!("{}: {} rows", self.file, self.rows)];
+        let written = self.written.map(|written| format!(" ({written})")).unwrap_or_default();
+        let mut lines = vec![format!("{}: {} rows{written}", self.file, self.rows)];
         if !self.unusable.is_empty() {
             lines[0] += &format!(", {} more that cannot be used:", self.unusable.len());
             lines.extend(
@@ -199,6 +216,9 @@ fn row(
     measured: Option<&[usize]>,
     map: &Map,
 ) -> Result<(Bits, Observation), String> {
+    if let Some(reason) = record.too_long() {
+        return Err(reason);
+    }
     let commanded = record.numbers(commanded)?;
     let mut values = commanded.iter().copied();
     let mut channel = |channel: &Channel| match channel {

@@ -80,6 +80,7 @@ impl Term {
         Source {
             name: self.name(spec),
             class: Class::Repeatable,
+            degrees_of_freedom: f64::INFINITY,
             enabled: true,
             description: String::new(),
             reference: String::new(),

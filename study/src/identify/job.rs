@@ -19,7 +19,7 @@ use super::setup::Setup;
 use super::solve::{Settings, Solved, solve};
 use super::terms::{Family, candidates};
 use crate::data::{Data, Map, Summary};
-use crate::{Acceptance, Machine, Notes, mistake};
+use crate::{Acceptance, Machine, Notes, mistake, number};
 
 /// Which errors has this machine?
 pub struct Identify {
@@ -65,6 +65,7 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
     let alike = groups(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, error))?;
     let compared_fit = compared(solved, &setup.delivered, data, &fit.kept(rows).collect::<Vec<_>>())?;
+    refuse_worse(&compared_fit, data, setup, map)?;
     let judged = |test: &Data| {
         let test = test.at_stations(data).map_err(|name| elsewhere(test, &name))?;
         compared(solved, &setup.delivered, &test, &test.observations.iter().collect::<Vec<_>>())
@@ -137,6 +138,28 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
         placed: found.placed.clone(),
         found,
     })
+}
+
+/// A fit that ends worse than it began has nothing to say: the model cannot be that of these data.
+fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup, map: &Map) -> Result<(), Diagnostics> {
+    let (before, after) = (compared.before.rms, compared.after.rms);
+    if after <= 1.5 * before || after <= 10.0 * map.uncertainty.length {
+        return Ok(());
+    }
+    let length = |value| number::length(value, setup.description.length);
+    let message = format!(
+        "the fit ends worse than it began: the machine as its spec has it misses the positions by {} (root mean square), \
+         the fitted one by {}",
+        length(before),
+        length(after)
+    );
+    let help = match setup.pose {
+        true => {
+            "positions and orientations contradict each other: is the orientation read as it was written, and `angle_uncertainty` right?"
+        }
+        false => "is `uncertainty` right, and are these measurements of this machine?",
+    };
+    Err(mistake::with_help(&data.file, message, help))
 }
 
 fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Parameter> {

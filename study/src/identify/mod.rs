@@ -1,6 +1,6 @@
 //! The generalized errors of a real machine, from measurements.
 //!
-//! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant; `terms`
+//! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant, `reading` has other ways to read them; `terms`
 //! are candidates for richer models, `extended` the spec that has them; `solve` fits, judges and chooses, on the data
 //! alone, `gross` looks for gross errors. `found` is the identified machine, `written` its spec, `placed` where it stands and what is mounted on its tool; `report` is what comes out,
 //! with `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
@@ -15,6 +15,7 @@ mod meaning;
 mod not_known;
 mod placed;
 mod priors;
+mod reading;
 mod readings;
 mod report;
 mod setup;

@@ -1,46 +1,135 @@
-//! Whether the data are read as they were meant: units, signs, the order of a quaternion.
+//! Whether the data are read as they were meant: units, signs, orders.
 
 use abbe::identify::{Measurement, Model, Observation, Options, Station, Uncertainty, fit};
-use abbe::{Pose, VariableKind};
 use abbe_codegen::diagnostic::Diagnostics;
 
+use super::reading::{Change, orders, orientations, units};
 use super::setup::{Setup, registered};
-use crate::data::{Data, Layout, Map, Order, Turn};
+use crate::data::{Data, Map};
 use crate::{mistake, number};
 
-/// The most rows that are looked at.
+/// The most rows that are looked at; and at which combinations of changes are told apart.
 const ROWS: usize = 150;
+const FEW: usize = 24;
+/// The nominal machine misses no more of its arm: nobody has to ask.
+const NEAR: f64 = 2e-3;
+/// From here on combinations of changes are tried.
+const FAR: f64 = 2e-2;
+/// A combination of changes must come as near as this.
+const LIKELY: f64 = 1e-2;
+/// How many combinations are fitted.
+const FITTED: usize = 12;
+/// The signs of no more joints are combined.
+const SIGNS: usize = 8;
 
-/// Refuses data that the nominal machine misses by far, if they would fit read otherwise.
-pub(crate) fn check_readings(setup: &Setup, map: &Map, data: &Data) -> Result<(), Diagnostics> {
-    let step = data.observations.len().div_ceil(ROWS).max(1);
-    let rows: Vec<Observation> = data.observations.iter().step_by(step).cloned().collect();
-    let Some(here) = missed(setup, &rows) else { return Ok(()) };
-    if here < 2e-3 * setup.arm {
-        return Ok(());
+/// Refuses data that the nominal machine misses by far, if they would fit read otherwise. Returns by how much it misses, base
+/// and tool fitted: the root mean square of a point; none if no fit is found.
+pub(crate) fn check_readings(setup: &Setup, map: &Map, data: &Data) -> Result<Option<f64>, Diagnostics> {
+    let rows = some(&data.observations, ROWS);
+    let here = missed(setup, &rows);
+    if here.is_some_and(|here| here < NEAR * setup.arm) {
+        return Ok(here);
     }
-    let mut best: Option<(f64, String)> = None;
-    for (help, change) in alternatives(setup, map) {
-        let changed: Vec<Observation> = rows.iter().map(|row| change(row.clone())).collect();
-        if let Some(there) = missed(setup, &changed)
-            && there < here / 5.0
-            && best.as_ref().is_none_or(|(least, _)| there < *least)
-        {
-            best = Some((there, help));
-        }
-    }
-    let Some((there, help)) = best else { return Ok(()) };
+    let Some((there, changes)) = better(setup, map, &rows, here.unwrap_or(f64::INFINITY)) else {
+        return Ok(here);
+    };
     let unit = setup.description.length;
-    let message = format!(
-        "read as the map says, the machine misses these data by {} (root mean square), base and tool fitted; read \
-         otherwise, by {}",
-        number::length(here, unit),
-        number::length(there, unit)
-    );
-    Err(mistake::with_help(&data.file, message, help))
+    let there = number::length(there, unit);
+    let message = match here {
+        Some(here) => format!(
+            "read as the map says, the machine misses these data by {} (root mean square), base and tool fitted; read \
+             otherwise, by {there}",
+            number::length(here, unit),
+        ),
+        None => format!(
+            "read as the map says, no place of base and tool brings the machine near these data; read otherwise, it misses \
+             them by {there} (root mean square)"
+        ),
+    };
+    let questions = changes.iter().map(|change| change.question(setup)).collect::<Vec<_>>();
+    Err(mistake::with_help(&data.file, message, questions.join("; ")))
 }
 
-/// By how much the nominal machine misses, base and tool fitted: root mean square of a point.
+/// The reading that fits best, if one fits far better than the map's: a single change, or else a combination of units,
+/// reversed joints, swapped columns and orders of the orientation.
+fn better(setup: &Setup, map: &Map, rows: &[Observation], here: f64) -> Option<(f64, Vec<Change>)> {
+    let best = |readings: Vec<Vec<Change>>, limit: f64| {
+        let fitted = readings.into_iter().filter_map(|changes| {
+            let there = missed(setup, &read(rows, &changes, setup, map))?;
+            (there < limit).then_some((there, changes))
+        });
+        // Of several that fit about as well the one with the fewest changes.
+        let rank = |(there, changes): &(f64, Vec<Change>)| there * (1.0 + 0.2 * size(changes) as f64);
+        fitted.min_by(|a, b| rank(a).total_cmp(&rank(b)))
+    };
+    let reversed = (0..setup.description.variables.len()).map(|i| Change::Reversed(vec![i]));
+    let singles =
+        units(setup).into_iter().flatten().chain(reversed).chain(orders(setup)).chain(orientations(map));
+    let single = best(singles.map(|change| vec![change]).collect(), here / 5.0);
+    if single.as_ref().is_some_and(|(there, _)| *there < LIKELY * setup.arm) || here < FAR * setup.arm {
+        return single;
+    }
+    let combined = best(combinations(setup, map, rows), (here / 5.0).min(LIKELY * setup.arm));
+    combined.or(single.filter(|_| here.is_finite()))
+}
+
+/// Combinations of changes by which the machine comes nearest the positions, its tool where the map says; each with every
+/// order of the orientation.
+fn combinations(setup: &Setup, map: &Map, rows: &[Observation]) -> Vec<Vec<Change>> {
+    let few = some(rows, FEW);
+    let moved = setup.moved(rows);
+    let signs = 1_usize << moved.len().min(SIGNS);
+    let reversed = |signs: usize| {
+        let joints: Vec<usize> =
+            moved.iter().enumerate().filter(|(k, _)| signs >> k & 1 == 1).map(|(_, i)| *i).collect();
+        (!joints.is_empty()).then_some(Change::Reversed(joints))
+    };
+    let others = units(setup).into_iter().chain(orders(setup).into_iter().map(|order| vec![order]));
+    let all =
+        others.flat_map(|others| (0..signs).map(move |signs| (others.clone(), signs)).collect::<Vec<_>>());
+    let mut ranked = all
+        .filter_map(|(mut changes, signs)| {
+            changes.extend(reversed(signs));
+            Some((aligned(setup, &read(&few, &changes, setup, map))?, changes))
+        })
+        .collect::<Vec<_>>();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.truncate(FITTED);
+    let orientations = orientations(map).into_iter().map(|change| vec![change]);
+    let orientations: Vec<Vec<Change>> = std::iter::once(Vec::new()).chain(orientations).collect();
+    let with = |(_, changes): (f64, Vec<Change>)| {
+        orientations.iter().map(move |turned| [&changes[..], &turned[..]].concat()).collect::<Vec<_>>()
+    };
+    ranked.into_iter().flat_map(with).collect()
+}
+
+/// How many things are changed.
+fn size(changes: &[Change]) -> usize {
+    let one = |change: &Change| if let Change::Reversed(joints) = change { joints.len() } else { 1 };
+    changes.iter().map(one).sum()
+}
+
+/// No more rows than these, from everywhere.
+fn some(rows: &[Observation], count: usize) -> Vec<Observation> {
+    rows.iter().step_by(rows.len().div_ceil(count).max(1)).cloned().collect()
+}
+
+fn read(rows: &[Observation], changes: &[Change], setup: &Setup, map: &Map) -> Vec<Observation> {
+    let read =
+        |row: &Observation| changes.iter().fold(row.clone(), |row, change| change.apply(row, setup, map));
+    rows.iter().map(read).collect()
+}
+
+/// By how much the nominal machine misses the points that were measured, its stations in closed form: root mean square.
+fn aligned(setup: &Setup, rows: &[Observation]) -> Option<f64> {
+    let mut model = setup.ideal.clone();
+    for i in 0..model.stations.len() {
+        model.stations[i].pose = registered(&model, rows, i).ok()??;
+    }
+    model.figures(rows, &[]).ok().map(|figures| figures.rms)
+}
+
+/// By how much the nominal machine misses, base and tool fitted: root mean square of a point. None if no fit is found.
 fn missed(setup: &Setup, rows: &[Observation]) -> Option<f64> {
     // Poses as four points: one number says how well position and orientation fit.
     let reach = setup.arm / 4.0;
@@ -66,108 +155,4 @@ fn missed(setup: &Setup, rows: &[Observation]) -> Option<f64> {
     let model = model.with(model.base_and_tool(false));
     let found = fit(&model, &rows, &Options::default()).ok()?;
     model.figures(&rows, &found.x).ok().map(|figures| figures.rms)
-}
-
-/// Another way to read a row.
-type Reading = Box<dyn Fn(Observation) -> Observation>;
-
-/// What may have been meant, each with what to change in the map.
-fn alternatives(setup: &Setup, map: &Map) -> Vec<(String, Reading)> {
-    let mut all: Vec<(String, Reading)> = Vec::new();
-    let variables: Vec<(String, VariableKind)> = setup
-        .description
-        .variables
-        .iter()
-        .map(|variable| (variable.name.to_string(), variable.kind))
-        .collect();
-    for (factor, help) in [
-        (1e3, "are the measured lengths in m, not mm? set `unit` accordingly"),
-        (1e-3, "are the measured lengths in mm, not m? set `unit` accordingly"),
-    ] {
-        all.push((
-            help.to_owned(),
-            Box::new(move |row| Observation { measured: scaled(row.measured, factor), ..row }),
-        ));
-    }
-    let of = |kind: VariableKind| {
-        variables.iter().enumerate().filter(move |(_, v)| v.1 == kind).map(|(i, _)| i).collect::<Vec<_>>()
-    };
-    let degree = std::f64::consts::PI / 180.0;
-    for (kind, factor, help) in [
-        (VariableKind::Revolute, degree, "are the joint angles in deg, not rad? set `unit = \"deg\"`"),
-        (VariableKind::Revolute, 1.0 / degree, "are the joint angles in rad, not deg? set `unit = \"rad\"`"),
-        (VariableKind::Prismatic, 1e3, "are the joint travels in m, not mm? set `unit` accordingly"),
-        (VariableKind::Prismatic, 1e-3, "are the joint travels in mm, not m? set `unit` accordingly"),
-    ] {
-        let which = of(kind);
-        if !which.is_empty() {
-            all.push((help.to_owned(), Box::new(move |row| times(row, &which, factor))));
-        }
-    }
-    for (i, (name, _)) in variables.iter().enumerate() {
-        let help = format!("does `{name}` count the other way round? set `sign = -1` there");
-        all.push((help, Box::new(move |row| times(row, &[i], -1.0))));
-    }
-    if let Layout::Pose(_, _, Turn::Quaternion(_, order)) = &map.layout {
-        let (other, order) = match order {
-            Order::Wxyz => ("xyzw", Order::Wxyz),
-            Order::Xyzw => ("wxyz", Order::Xyzw),
-        };
-        let help = format!("is the quaternion in the order `{other}`?");
-        all.push((
-            help,
-            Box::new(move |row| Observation { measured: reordered(row.measured, order), ..row }),
-        ));
-    }
-    if setup.pose {
-        let help = "are the orientations the other way round, of F_0 as the tool sees it? turn them round in the file";
-        all.push((
-            help.to_owned(),
-            Box::new(|row| Observation { measured: transposed(row.measured), ..row }),
-        ));
-    }
-    all
-}
-
-fn scaled(measured: Measurement, factor: f64) -> Measurement {
-    let larger = |point: [f64; 3]| point.map(|coordinate| coordinate * factor);
-    match measured {
-        Measurement::Points(points) => {
-            Measurement::Points(points.into_iter().map(|point| point.map(larger)).collect())
-        }
-        Measurement::Pose(Pose([x, y, z, position])) => Measurement::Pose(Pose([x, y, z, larger(position)])),
-        Measurement::Readings(_) => measured,
-    }
-}
-
-fn times(mut row: Observation, which: &[usize], factor: f64) -> Observation {
-    which.iter().for_each(|i| row.q[*i] *= factor);
-    row
-}
-
-/// What the pose is if its quaternion was read in the wrong order.
-fn reordered(measured: Measurement, order: Order) -> Measurement {
-    let Measurement::Pose(pose) = measured else { return measured };
-    let q = pose.isometry().rotation;
-    let (w, [x, y, z]) = (q.w, [q.i, q.j, q.k]);
-    // As they stand in the file, and then as the other order has them.
-    let [w, x, y, z] = match order {
-        Order::Wxyz => [z, w, x, y],
-        Order::Xyzw => [x, y, z, w],
-    };
-    let column = [
-        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)],
-        [2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)],
-        [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)],
-    ];
-    Measurement::Pose(Pose([column[0], column[1], column[2], pose.position()]))
-}
-
-fn transposed(measured: Measurement) -> Measurement {
-    let Measurement::Pose(mut pose) = measured else { return measured };
-    let position = pose.position();
-    pose.0[3] = [0.0; 3];
-    let mut back = pose.inverse();
-    back.0[3] = position;
-    Measurement::Pose(back)
 }

@@ -16,7 +16,7 @@ use serde::Serialize;
 use crate::data::{Data, Map, Summary, Table, warn_of_extrapolation};
 use crate::identify::Sizes;
 use crate::identify::{Setup, check_readings};
-use crate::{Acceptance, Accepted, Machine, Notes, mistake};
+use crate::{Acceptance, Accepted, Machine, Notes, mistake, number};
 
 pub use errors::RowError;
 pub use explained::Explained;
@@ -105,13 +105,34 @@ impl Size {
     }
 }
 
+/// Errors of more than this share of the arm are none of a machine.
+const LARGE: f64 = 1e-2;
+
+/// What is to be said of errors that are too large for a machine; `fitted` is what is left with base and tool fitted.
+fn far(rms: f64, fitted: Option<f64>, setup: &Setup) -> String {
+    let length = |value| number::length(value, setup.description.length);
+    let share = number::percent(rms, setup.arm);
+    let said = format!("these errors are {} (root mean square), {share} of the arm:", length(rms));
+    match fitted {
+        Some(left) if left < rms / 5.0 => format!(
+            "{said} with base and tool fitted {} are left. Where does the instrument stand (`base = \"unknown\"` in the map finds \
+             it), and where does the target sit?",
+            length(left)
+        ),
+        _ => format!(
+            "{said} neither another place of base and tool nor another reading (units, signs, orders of columns) that was tried brings \
+             the machine near them. Are they measurements of this machine?"
+        ),
+    }
+}
+
 impl Measure {
     /// Compares every row with the ideal machine and with the predicted one.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, data, accept } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let mut setup = Setup::new(&interpreter, map, data, 0)?;
-        check_readings(&setup, map, data)?;
+        let fitted = check_readings(&setup, map, data)?;
         let base_fitted = setup.find_stations(map, data)?;
         let mut data = data.clone();
         let rows = errors::row_errors(&setup, &mut data)?;
@@ -124,7 +145,11 @@ impl Measure {
             .enumerate()
             .map(|(i, name)| Size::new(name, unit, &along(i)))
             .collect();
-        errors.push(Size::new("norm", unit, &rows.iter().map(RowError::distance).collect::<Vec<_>>()));
+        let norm = Size::new("norm", unit, &rows.iter().map(RowError::distance).collect::<Vec<_>>());
+        if norm.rms > LARGE * setup.arm {
+            notes.warn(&far(norm.rms, fitted, &setup));
+        }
+        errors.push(norm);
         if setup.pose || setup.ideal.targets.len() > 1 {
             let names = ["about x", "about y", "about z"].into_iter().enumerate();
             errors.extend(names.map(|(i, name)| Size::new(name, "rad", &along(3 + i))));

@@ -1,22 +1,6 @@
 //! Sets of configurations to be measured: a plan file.
 //!
-//! ```toml
-//! [plan]
-//! title = "Two sets"
-//! repeat = 2                     # how often every row is measured, 1 if not given
-//!
-//! [[set]]
-//! name = "treatment volume"
-//! workspace.joints = { samples = 50 }      # any form that a study's workspace has; inputs that it does not name stay
-//!                                          # nominal here, for each value is measured
-//!
-//! [[set]]
-//! name = "one axis at a time"              # all others at home
-//! axes = { d1 = { from = 0, to = 100, step = 10 } }
-//!
-//! [inputs]                                 # every set is measured with each of these
-//! payload = ["0 kg", "70 kg"]
-//! ```
+//! `docs/reference/plan.md` has every key.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -1,0 +1,102 @@
+//! How a data file is written: what stands between its cells, and how its decimals are written.
+
+use csv::{ReaderBuilder, Trim};
+
+/// How many records are looked at.
+const LOOKED_AT: usize = 200;
+
+/// How a CSV file is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Dialect {
+    /// Between cells: a comma, a semicolon or a tab.
+    delimiter: u8,
+    /// Whether decimals have a comma.
+    decimal_comma: bool,
+}
+
+impl Dialect {
+    /// Of a file's text. The first line that is no comment has the names of the columns: whatever it has most of stands
+    /// between them. Decimals have a comma if a cell is a number with a comma and none is one with a point.
+    pub(super) fn detect(bytes: &[u8]) -> Self {
+        let mut lines = bytes.split(|byte| matches!(byte, b'\n' | b'\r'));
+        let heading = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")).unwrap_or_default();
+        let count = |delimiter: u8| heading.iter().filter(|byte| **byte == delimiter).count();
+        // Of equals the last is taken.
+        let delimiter = [b'\t', b';', b','].into_iter().max_by_key(|delimiter| count(*delimiter));
+        let plain = Self { delimiter: delimiter.unwrap_or(b','), decimal_comma: false };
+        let records =
+            plain.reader(bytes).into_records().take(LOOKED_AT).filter_map(Result::ok).collect::<Vec<_>>();
+        let any = |mark: char| {
+            let mut cells = records.iter().flatten();
+            cells
+                .any(|cell| cell.matches(mark).count() == 1 && cell.replace(mark, ".").parse::<f64>().is_ok())
+        };
+        Self { decimal_comma: any(',') && !any('.'), ..plain }
+    }
+
+    pub(super) fn reader<'t>(&self, bytes: &'t [u8]) -> csv::Reader<&'t [u8]> {
+        let mut builder = ReaderBuilder::new();
+        builder
+            .trim(Trim::All)
+            .comment(Some(b'#'))
+            .flexible(true)
+            .delimiter(self.delimiter)
+            .from_reader(bytes)
+    }
+
+    /// The number in a cell.
+    pub(super) fn number(&self, cell: &str) -> Option<f64> {
+        match self.decimal_comma {
+            true if cell.contains('.') => None,
+            true => cell.replacen(',', ".", 1).parse().ok(),
+            false => cell.parse().ok(),
+        }
+    }
+
+    /// What is not as usual, in words.
+    pub(super) fn words(&self) -> Option<&'static str> {
+        Some(match (self.delimiter, self.decimal_comma) {
+            (b',', false) => return None,
+            (b',', true) => "its decimals have a comma",
+            (b';', false) => "its cells stand between semicolons",
+            (b';', true) => "its cells stand between semicolons, its decimals have a comma",
+            (_, false) => "its cells stand between tabs",
+            (_, true) => "its cells stand between tabs, its decimals have a comma",
+        })
+    }
+
+    /// The name of what stands between cells.
+    pub(super) fn delimiter(&self) -> &'static str {
+        match self.delimiter {
+            b';' => "semicolons",
+            b'\t' => "tabs",
+            _ => "commas",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Dialect;
+
+    #[test]
+    fn delimiters_and_decimals() {
+        for (text, delimiter, decimal_comma) in [
+            ("a,b\n1.5,2\n", b',', false),
+            ("a;b\n1,5;2\n", b';', true),
+            ("a;b\n1.5;2\n", b';', false),
+            ("# made; by, an; instrument\r\n\r\na\tb\r\n1,5\t-2,0e3\r\n", b'\t', true),
+            // A name may have a comma in it, and a text one that is no decimal.
+            ("a;b, measured;c\n1.5;x,y;3\n", b';', false),
+            ("a;b\n1,5;2.5\n", b';', false),
+            ("a\n1\n", b',', false),
+        ] {
+            assert_eq!(Dialect::detect(text.as_bytes()), Dialect { delimiter, decimal_comma }, "{text:?}");
+        }
+        let comma = Dialect { delimiter: b';', decimal_comma: true };
+        assert_eq!(
+            ["1,5", "-2,5e-3", "7", "1.5", "1.234,5", "1,2,3"].map(|cell| comma.number(cell)),
+            [Some(1.5), Some(-2.5e-3), Some(7.0), None, None, None]
+        );
+    }
+}

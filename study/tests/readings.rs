@@ -1,0 +1,217 @@
+//! Data that are read otherwise than they were meant: files, units, signs, orders.
+
+use std::path::PathBuf;
+
+use abbe::Pose;
+use abbe::identify::{Loss, Measurement};
+use abbe_codegen::spec::Spec;
+use abbe_study::data::{Data, Map};
+use abbe_study::identify::{Identify, Prior, Settings};
+use abbe_study::measure::Measure;
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Acceptance, Machine, Notes};
+use tempfile::{TempDir, tempdir};
+
+const POINT: &str = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
+
+fn ur5() -> Machine {
+    Machine::find("ur5").unwrap()
+}
+
+/// A UR5 with an error of its own.
+fn real() -> Machine {
+    let text = ur5().text().unwrap()
+        + "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ne_x = \"0.6 mm\"\ne_s = \"0.8 mrad\"\n";
+    Machine::of_spec(Spec::parse("real.toml", &text).unwrap(), "real.toml")
+}
+
+fn euler(order: &str) -> String {
+    format!(
+        "[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\neuler = {{ columns = [\"a\", \"b\", \"c\"], order = \"{order}\", unit = \"deg\" }}\n"
+    )
+}
+
+/// A map whose joints are in a unit; these are reversed.
+fn map(unit: &str, reversed: &[usize], layout: &str) -> Map {
+    let sign = |i: &usize| if reversed.contains(i) { -1 } else { 1 };
+    let joint =
+        |i: usize| format!("q{i} = {{ column = \"j{i}\", unit = \"{unit}\", sign = {} }}\n", sign(&i));
+    let joints: String = (1..=6).map(joint).collect();
+    let head = "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.05 mrad\"\nbase = \"unknown\"\n\n[joints]\n";
+    Map::parse("map.toml", &format!("{head}{joints}{layout}"), &ur5().spec).unwrap()
+}
+
+/// What an instrument writes down of the real machine, as that map has it.
+fn written(map: &Map, seed: u64) -> String {
+    let job = Simulate {
+        machine: real(),
+        map: map.clone(),
+        at: Places::Samples(60),
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed,
+    };
+    job.run(&mut ()).unwrap().table.csv()
+}
+
+/// A file in a folder of its own.
+fn file(text: &str) -> (TempDir, PathBuf) {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("data.csv");
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+fn read(text: &str, map: &Map) -> Result<Data, String> {
+    let (_folder, path) = file(text);
+    Data::read(&path, map).map_err(|mistake| mistake.to_string())
+}
+
+fn identified(map: &Map, text: &str) -> Result<f64, String> {
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5 };
+    let data = read(text, map)?;
+    let job = Identify {
+        machine: ur5(),
+        map: map.clone(),
+        data,
+        test: None,
+        terms: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    };
+    job.run(&mut ()).map(|report| report.fit.after.rms).map_err(|mistake| mistake.to_string())
+}
+
+#[derive(Default)]
+struct Heard(Vec<String>);
+
+impl Notes for Heard {
+    fn note(&mut self, text: &str) {
+        self.0.push(text.to_owned());
+    }
+
+    fn warn(&mut self, text: &str) {
+        self.0.push(text.to_owned());
+    }
+}
+
+/// Every wrong reading is refused, with all that must be changed in the map and nothing else.
+#[test]
+fn combinations_of_wrong_readings_are_named() {
+    let metres = POINT.replace("mm", "m");
+    let swapped = POINT.replace("\"x\", \"y\"", "\"y\", \"x\"");
+    let (deg, rad) =
+        (|reversed: &[usize], layout: &str| map("deg", reversed, layout), map("rad", &[], POINT));
+    let angles = "angles in rad, not deg";
+    for (meant, taken, expected) in [
+        (rad, deg(&[], POINT), vec![angles]),
+        (deg(&[], POINT), map("rad", &[], POINT), vec!["angles in deg, not rad"]),
+        (deg(&[2, 5], POINT), deg(&[], POINT), vec!["`q2`, `q5` count the other way round"]),
+        (map("rad", &[3], POINT), deg(&[], POINT), vec![angles, "`q3` count the other way round"]),
+        (deg(&[2], &metres), deg(&[], POINT), vec!["lengths in m, not mm", "`q2` count"]),
+        (deg(&[], &swapped), deg(&[], POINT), vec!["two of the measured columns x, y and z swapped"]),
+        (deg(&[], &euler("xyz")), deg(&[], &euler("zyx")), vec!["Euler angles in the order `xyz`"]),
+        (deg(&[1, 4], &euler("zxy")), deg(&[], &euler("zyx")), vec!["order `zxy`", "`q1`, `q4` count"]),
+    ] {
+        let text = written(&meant, 3);
+        assert!(identified(&meant, &text).unwrap() < 0.05);
+        let refused = identified(&taken, &text).unwrap_err();
+        assert!(expected.iter().all(|said| refused.contains(said)), "{expected:?}: {refused}");
+        assert_eq!(refused.matches('?').count(), expected.len(), "{refused}");
+    }
+    // The columns of two joints.
+    let meant = deg(&[], POINT);
+    let text = written(&meant, 4).replacen("j1,j2,j3", "j1,j3,j2", 1);
+    let refused = identified(&meant, &text).unwrap_err();
+    assert!(refused.contains("columns of `q2` and `q3` swapped"), "{refused}");
+}
+
+/// Errors that no machine has are not printed without a word.
+#[test]
+fn errors_near_a_metre_are_doubted() {
+    let map = map("deg", &[], POINT);
+    let known = Map::parse("map.toml", &map_text().replace("base = \"unknown\"\n", ""), &ur5().spec).unwrap();
+    let mut data = read(&written(&map, 5), &map).unwrap();
+    let measured = |data: &Data| {
+        let mut heard = Heard::default();
+        let report =
+            Measure { machine: ur5(), map: known.clone(), data: data.clone(), accept: Acceptance::default() }
+                .run(&mut heard)
+                .unwrap();
+        (report, heard.0.join("\n"))
+    };
+    let (_, said) = measured(&data);
+    assert!(!said.contains("of the arm"), "{said}");
+    // The instrument stands elsewhere.
+    let (s, c) = 0.4_f64.sin_cos();
+    let station = Pose([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
+    let points = data.observations.iter_mut().filter_map(|row| match &mut row.measured {
+        Measurement::Points(points) => points[0].as_mut(),
+        _ => None,
+    });
+    points.for_each(|point| *point = station.apply([point[0] + 700.0, point[1], point[2]]));
+    let (report, said) = measured(&data);
+    assert!(report.errors[3].rms > 400.0);
+    assert!(said.contains("with base and tool fitted") && said.contains("`base = \"unknown\"`"), "{said}");
+    // Rows in any order are none of this machine.
+    let count = data.observations.len();
+    let shuffled: Vec<Measurement> =
+        (0..count).map(|i| data.observations[(17 * i + 5) % count].measured.clone()).collect();
+    data.observations.iter_mut().zip(shuffled).for_each(|(row, other)| row.measured = other);
+    let (_, said) = measured(&data);
+    assert!(said.contains("Are they measurements of this machine?"), "{said}");
+}
+
+fn map_text() -> String {
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    format!("[data]\nuncertainty = \"0.02 mm\"\nbase = \"unknown\"\n\n[joints]\n{joints}{POINT}")
+}
+
+/// Semicolons and tabs between cells, commas in decimals: the same numbers, and it is said.
+#[test]
+fn files_are_read_as_they_are_written() {
+    let map = map("deg", &[], POINT);
+    let plain = written(&map, 6);
+    let expected = read(&plain, &map).unwrap();
+    assert_eq!(expected.written, None);
+    let decimals = |delimiter: &str| plain.replace(',', delimiter).replace('.', ",");
+    for (text, said) in [
+        (decimals(";"), "its cells stand between semicolons, its decimals have a comma"),
+        (decimals("\t"), "its cells stand between tabs, its decimals have a comma"),
+        (plain.replace(',', ";"), "its cells stand between semicolons"),
+        (
+            decimals(";").replace('\n', "\r\n"),
+            "its cells stand between semicolons, its decimals have a comma",
+        ),
+    ] {
+        let data = read(&text, &map).unwrap();
+        assert_eq!(data.written, Some(said));
+        assert!(data.summary().lines()[0].ends_with(&format!(": 60 rows ({said})")));
+        assert_eq!(data.observations, expected.observations);
+    }
+    // Cells too many, and what is no number, with their lines.
+    let mut lines: Vec<String> = plain.lines().map(str::to_owned).collect();
+    lines[10] += ",7.5";
+    lines[20] += ",,";
+    lines[30] = lines[30].replacen('.', ".1.", 1);
+    let data = read(&lines.join("\r\n"), &map).unwrap();
+    let unusable: Vec<_> = data.unusable.iter().map(|row| (row.line, row.reason.as_str())).collect();
+    let [(11, long), (31, wrong)] = unusable[..] else { panic!("{unusable:?}") };
+    assert!(long.contains("10 cells, the heading 9") && wrong.contains("not a number"), "{unusable:?}");
+    // Two columns of one name.
+    let refused = read(&plain.replacen("j2", "j1", 1), &map).unwrap_err();
+    assert!(refused.contains("there is no column `j2`"), "{refused}");
+    let refused = read(&plain.replacen(",z", ",z,z", 1), &map).unwrap_err();
+    assert!(refused.contains("two columns are called `z`"), "{refused}");
+    // Decimal commas between commas.
+    let refused = read(&plain.replace('.', ","), &map).unwrap_err();
+    assert!(refused.contains("line 2: it has ") && refused.contains("the commas inside a cell"), "{refused}");
+    // All columns are missing: one mistake.
+    let refused = read(&plain.replace("j", "joint "), &map).unwrap_err();
+    assert!(
+        refused.contains("6 columns of the map are not in") && refused.matches("error:").count() == 1,
+        "{refused}"
+    );
+}
