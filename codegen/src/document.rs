@@ -313,6 +313,9 @@ impl<'d> Item<'d> {
     }
 }
 
+/// What any table may say for people: nothing else may read it.
+const TEXTS: [&str; 2] = ["description", "reference"];
+
 /// A table of the file.
 #[derive(Clone, Debug)]
 pub struct Section<'d> {
@@ -361,14 +364,21 @@ impl<'d> Section<'d> {
         })
     }
 
-    /// The text of that key in one line, empty if there is none.
+    /// The text of that key in one line, empty if there is none. What is no text is a mistake, but for the [`TEXTS`], of which
+    /// [`check_keys`](Self::check_keys) says so.
     pub fn optional_text(&self, key: &str, document: &mut Document) -> String {
-        let text = self.get(key).and_then(|item| document.string(&item)).unwrap_or_default();
+        let item = self.get(key).filter(|item| item.is_text() || !TEXTS.contains(&key));
+        let text = item.and_then(|item| document.string(&item)).unwrap_or_default();
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Notes every key that is not known, with the nearest that is.
+    /// Notes every key that is not known, with the nearest that is, and [`TEXTS`] that are none.
     pub fn check_keys(&self, known: &[&Keys], document: &mut Document) {
+        for item in self.items().filter(|item| TEXTS.contains(&item.key.as_str())) {
+            if known.iter().any(|keys| keys.contain(&item.key)) {
+                document.string(&item);
+            }
+        }
         for item in self.items().filter(|item| !known.iter().any(|keys| keys.contain(&item.key))) {
             let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
             document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(

@@ -226,6 +226,9 @@ pub struct Source {
     pub name: Text,
     /// Repeatable, or random with a distribution.
     pub class: Class,
+    /// Of the standard deviation of a normal error that was estimated from few measurements (GUM, G.3); infinite if it is
+    /// known.
+    pub degrees_of_freedom: f64,
     /// What it is an error of: `joint q2`, `parameter a2`, `dh of elbow`, `frame elbow`.
     pub at: Text,
     /// Where its numbers come from.
@@ -233,11 +236,23 @@ pub struct Source {
 }
 
 impl Source {
-    /// All its fields, in their order.
+    /// All its fields but the degrees of freedom, in their order; these are infinite.
     pub const fn new(name: &'static str, class: Class, at: &'static str, reference: &'static str) -> Self {
+        Self::estimated(name, class, f64::INFINITY, at, reference)
+    }
+
+    /// All its fields, in their order.
+    pub const fn estimated(
+        name: &'static str,
+        class: Class,
+        degrees_of_freedom: f64,
+        at: &'static str,
+        reference: &'static str,
+    ) -> Self {
         Self {
             name: Text::Constant(name),
             class,
+            degrees_of_freedom,
             at: Text::Constant(at),
             reference: Text::Constant(reference),
         }

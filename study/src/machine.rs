@@ -5,10 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use abbe::analysis::Sweepable;
+use abbe::{Class, Distribution};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::Document;
 use abbe_codegen::expr::find_name;
-use abbe_codegen::spec::Spec;
+use abbe_codegen::spec::{Magnitude, Source, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, Shipped};
 
@@ -73,6 +74,18 @@ impl Machine {
         self.fixed_inputs.extend(changes.inputs());
     }
 
+    /// Adds what is not known of the magnitudes of repeatable sources: of each whose magnitude has a standard deviation σ a
+    /// random source, normal, whose errors are σ times those of magnitude 1.
+    pub fn add_magnitude_errors(&mut self) {
+        let errors = self.spec.sources.iter().filter_map(magnitude_error).collect::<Vec<_>>();
+        if self.spec.sources.iter().any(is_magnitude_error) || !errors.is_empty() {
+            let sources = &mut Arc::make_mut(&mut self.spec).sources;
+            sources.retain(|source| !is_magnitude_error(source));
+            sources.extend(errors);
+            self.changed = true;
+        }
+    }
+
     /// The inputs that changes have set: no workspace moves them.
     pub fn fixed_inputs(&self) -> &[usize] {
         &self.fixed_inputs
@@ -113,6 +126,26 @@ impl Deref for Evaluator {
             Self::Interpreted(interpreter) => &**interpreter,
         }
     }
+}
+
+fn magnitude_error(source: &Source) -> Option<Source> {
+    let Magnitude { standard_deviation, degrees_of_freedom, .. } = source.magnitude?;
+    Some(Source {
+        name: format!("{} (its magnitude)", source.name),
+        class: Class::Random(Distribution::Normal),
+        degrees_of_freedom,
+        magnitude: Some(Magnitude {
+            value: standard_deviation?,
+            standard_deviation: None,
+            degrees_of_freedom: f64::INFINITY,
+        }),
+        ..source.clone()
+    })
+}
+
+/// No random source of a file has a magnitude.
+fn is_magnitude_error(source: &Source) -> bool {
+    source.class != Class::Repeatable && source.magnitude.is_some()
 }
 
 fn unknown(argument: &str) -> Diagnostics {

@@ -1,6 +1,6 @@
 //! The verdict, and what is said of how sure it is.
 
-use abbe::analysis::Measurand;
+use abbe::analysis::{Compliance, Measurand, errors_at, normal_compliance};
 use abbe_codegen::document::Document;
 use abbe_codegen::spec::Spec;
 use abbe_study::analyze::figures::Gathered;
@@ -211,4 +211,135 @@ fn the_value_of_a_joint_is_its_angle() {
     assert!(close(&source["standard_uncertainty"][3], 0.03 / 6_f64.sqrt()));
     let table = contributions(&report, &report.stated[0]);
     assert_eq!(table.rows[0][1..5], ["0.3 mrad", "triangular", "√6", "0.1 mm/mrad"]);
+}
+
+/// A machine of its own text, with a study of so many random samples.
+fn analyzed(text: &str, study: &str) -> Report {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("machine.toml");
+    std::fs::write(&path, text).unwrap();
+    let machine = Machine::find(path.to_str().unwrap()).unwrap();
+    let study = format!("[study]\ntitle = \"t\"\n{study}");
+    let study = Study::read(Document::new("study.toml", study), &machine.spec).unwrap();
+    Analyze::new(machine, study).run(&mut ()).unwrap()
+}
+
+const SLIDE: &str = r#"
+    [manipulator]
+    name = "slide"
+    length = "mm"
+    [[frame]]
+    name = "slide"
+    variable = { name = "d1", kind = "prismatic", limits = ["0 mm", "100 mm"] }
+    transform = "Tx(d1)"
+    [[source]]
+    name = "scale"
+    class = "repeatable"
+    frame = "slide"
+    e_x = "0.1 mm"
+"#;
+
+/// A magnitude of 0.5 ± 0.2 of an error of 0.1 mm: 0.05 mm, and a normal error of 0.02 mm beside it.
+#[test]
+fn a_magnitude_is_not_known_exactly() {
+    let samples = "tolerance = \"0.0892 mm\"\n[workspace.joints]\nsamples = 5\n";
+    let magnitude = "magnitude = { value = 0.5, standard_deviation = 0.2 }\n";
+    let report = analyzed(&format!("{SLIDE}{magnitude}"), samples);
+    let names = report.sources().iter().map(|source| source.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names, ["scale", "scale (its magnitude)"]);
+    let statement = &report.stated[0].statement;
+    assert!((statement.standard[0] - 0.02).abs() < 1e-15 && (statement.bias[0] - 0.05).abs() < 1e-15);
+    let table = contributions(&report, &report.stated[0]);
+    assert_eq!(table.rows[0][..5], ["scale (its magnitude)", "0.2", "normal", "1", "0.1 mm"]);
+    // Φ((0.0892 − 0.05)/0.02) = Φ(1.96); the other end is far away. Nothing is certain any more.
+    let judged = &report.judged[0];
+    assert!((judged.compliance.probability - 0.975_002_1).abs() < 1e-6, "{judged:?}");
+    assert!(judged.largest.is_none() && (report.budget.combined.random_radius.value - 0.06).abs() < 1e-15);
+    // Without it the source is what it was, and if it is switched off nothing is left of it.
+    let plain = analyzed(SLIDE, samples);
+    assert_eq!((plain.sources().len(), plain.stated.len()), (1, 0));
+    let off = analyzed(&format!("{SLIDE}{magnitude}"), &format!("disable = [\"scale\"]\n{samples}"));
+    assert!(off.sources().is_empty());
+}
+
+/// Nine degrees of freedom: Student's t in k, in the table, in the verdict.
+#[test]
+fn few_measurements_are_said() {
+    let estimated = "[[source]]\nname = \"probing\"\nclass = \"random\"\ndistribution = \"normal\"\ndegrees_of_freedom = 9\n\
+                     frame = \"slide\"\ne_y = \"0.01 mm\"\n";
+    let text = SLIDE.replace("0.1 mm", "0 mm") + estimated;
+    let report = analyzed(&text, "tolerance = \"0.022621572 mm\"\n[workspace.joints]\nsamples = 5\n");
+    let (stated, judged) = (&report.stated[0], &report.judged[0]);
+    assert!((stated.statement.expanded()[3] - 0.022_621_572).abs() < 1e-9);
+    assert_eq!(contributions(&report, stated).rows[0][6], "9");
+    assert_eq!(abbe_study::analyze::totals(&report, stated).rows[3][2], "9");
+    let said = abbe_study::analyze::sentences(&report, stated).join(" ");
+    assert!(said.contains("Student's t") && said.contains("(2.262 × 0.01 mm)"), "{said}");
+    assert!(!said.contains("taken as infinite"), "{said}");
+    let Compliance { probability, error, draws } = judged.compliance;
+    assert!(draws.is_some() && (probability - 0.95).abs() < 4.0 * error, "{probability}");
+    let json = serde_json::to_value(&report).unwrap();
+    assert_eq!(json["uncertainty"]["sources"][0]["degrees_of_freedom"], 9.0);
+    assert!(json["uncertainty"]["effective_degrees_of_freedom"][0].is_null());
+}
+
+/// Arms with normal sources: p of the verdict is the least of all configurations, to 0.1 %.
+#[test]
+fn the_least_likely_configuration_is_found() {
+    let number = |seed: u64, i: u64| {
+        // Any numbers will do.
+        let mixed = (seed * 1000 + i).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        ((mixed ^ (mixed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut elsewhere = 0;
+    for seed in 0..10 {
+        let n = |i: u64| 2.0 * number(seed, i) - 1.0;
+        let mut text = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n".to_owned();
+        for i in 0..3 {
+            let motion = ["Rz", "Ry", "Rx"][(number(seed, 20 + i) * 3.0) as usize];
+            text += &format!(
+                "[[frame]]\nname = \"f{i}\"\nvariable = {{ name = \"q{i}\", kind = \"revolute\", limits = [\"-2 rad\", \"2 rad\"] }}\n\
+                 transform = \"{motion}(q{i}) Tx({})\"\n",
+                100.0 + 400.0 * number(seed, i)
+            );
+        }
+        for i in 0..6 {
+            let class = if i < 2 {
+                "class = \"repeatable\""
+            } else {
+                "class = \"random\"\ndistribution = \"normal\""
+            };
+            let size = if i < 2 { 0.2 } else { 0.05 };
+            text += &format!(
+                "[[source]]\nname = \"s{i}\"\n{class}\nframe = \"f{}\"\ne_x = \"{:.4} mm * (1 + sin(2*q0))\"\ne_r = \"{:.4} mrad * cos(q1)\"\n",
+                i % 3,
+                size * (1.0 + n(30 + i)),
+                size * (1.0 + n(40 + i)),
+            );
+        }
+        let of = |tolerance: f64| {
+            analyzed(
+                &text,
+                &format!(
+                    "tolerance = \"{tolerance} mm\"\n[workspace.random]\nsamples = 250\nseed = {seed}\n"
+                ),
+            )
+        };
+        let tolerance = (0.5 + 0.5 * number(seed, 60)) * of(1.0).budget.combined.radius.value;
+        let report = of(tolerance);
+        let machine = Machine::of_spec(Spec::parse("arm.toml", &text).unwrap(), "arm.toml");
+        let evaluator = machine.evaluator(true);
+        let workspace = report.study.region.workspace(&*evaluator, None).unwrap();
+        let likely = |index: usize| {
+            let errors = errors_at(&*evaluator, &workspace.configuration(index).unwrap()).unwrap();
+            normal_compliance(&errors, Measurand::Position, tolerance).probability
+        };
+        let least = (0..workspace.len()).map(likely).fold(1.0, f64::min);
+        let judged = &report.judged[0];
+        assert!(judged.compliance.probability < least + 1e-3, "{seed}: {judged:?}, {least}");
+        elsewhere += usize::from(likely(report.budget.combined.radius.configuration.unwrap()) > least + 1e-2);
+        assert!(report.verdict_sentences()[0].contains("the least of"), "{:?}", report.verdict_sentences());
+    }
+    // Otherwise this test would show nothing.
+    assert!(elsewhere > 0);
 }

@@ -4,7 +4,7 @@
 
 use std::time::Duration;
 
-use abbe::analysis::{error_budget, random_joint_samples};
+use abbe::analysis::{Asked, error_budget, random_joint_samples};
 use abbe_manipulators::SHIPPED;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
@@ -22,7 +22,9 @@ fn threads(criterion: &mut Criterion) {
         for threads in [1, 2] {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             group.bench_function(format!("{}/threads: {threads}", shipped.name), |bencher| {
-                bencher.iter(|| pool.install(|| error_budget(shipped.compiled, &workspace, None, &mut ())));
+                bencher.iter(|| {
+                    pool.install(|| error_budget(shipped.compiled, &workspace, Asked::default(), &mut ()))
+                });
             });
         }
     }

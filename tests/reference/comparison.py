@@ -45,6 +45,16 @@ class Comparison:
             if not difference <= TOLERANCE:
                 self.failures.append(f"{place}: {theirs!r}, expected {ours!r}")
 
+    def optional(self, place, ours, theirs):
+        """Numbers that may be missing on both sides."""
+        for i, (a, b) in enumerate(zip(ours, theirs, strict=True)):
+            if a is None or b is None:
+                self.compared += 1
+                if a is not b:
+                    self.failures.append(f"{place}[{i}]: {b!r}, expected {a!r}")
+            else:
+                self.numbers(f"{place}[{i}]", a, b)
+
     def drawn(self, place, ours, theirs, standard_error, size):
         """Two numbers with chance in them; what does not vary is the same to rounding of its size."""
         self.compared += 1

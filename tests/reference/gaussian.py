@@ -9,8 +9,45 @@ import math
 ROOT2 = math.sqrt(2)
 
 
-def chi(dimension, x):
-    """Distribution of the length of a standard Gaussian vector."""
+def incomplete_beta(a, b, x):
+    """The share of a beta distribution below x, by its continued fraction; x is below its mean."""
+    front = math.exp(a * math.log(x) + b * math.log1p(-x) + math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b)) / a
+    c, d, value = 1.0, 1 / (1 - (a + b) * x / (a + 1)), 1.0
+    value = d
+    for m in range(1, 10000):
+        for numerator in (
+            m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
+            -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1)),
+        ):
+            d, c = 1 / (1 + numerator * d), 1 + numerator / c
+            value *= c * d
+        if abs(c * d - 1) < 1e-15:
+            break
+    return front * value
+
+
+def student(x, freedom):
+    """The share of Student's t between -x and x."""
+    inside, outside = x * x / (freedom + x * x), freedom / (freedom + x * x)
+    if inside < 1 / (3 + freedom):
+        return incomplete_beta(0.5, freedom / 2, inside) if x > 0 else 0.0
+    return 1 - incomplete_beta(freedom / 2, 0.5, outside)
+
+
+def student_chi(dimension, x, freedom):
+    """Of a vector of Student's t: a standard Gaussian one over the root of a chi square over its degrees of freedom."""
+    if dimension == 2:
+        return -math.expm1(-freedom / 2 * math.log1p(x * x / freedom))
+    if dimension == 1:
+        return student(x, freedom)
+    scale = math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2) - math.log(freedom * math.pi) / 2
+    return student(x, freedom) - 2 * x * math.exp(scale - (freedom + 1) / 2 * math.log1p(x * x / freedom))
+
+
+def chi(dimension, x, freedom=math.inf):
+    """Distribution of the length of a standard Gaussian vector, or of one of Student's t."""
+    if freedom < math.inf:
+        return student_chi(dimension, x, freedom)
     if dimension == 1:
         return math.erf(x / ROOT2)
     if dimension == 2:
@@ -31,6 +68,7 @@ class Rule:
         self.quarter = [(math.sin(turn * b) ** 2, math.sin(turn * a) ** 2, w) for a, b, w in self.line]
 
 
+MANY = 1e5
 COARSE, FINE = Rule(0.14), Rule(0.05)
 
 
@@ -51,36 +89,42 @@ def eigenvectors(c):
     return [value for value, _ in pairs], [vector for _, vector in pairs]
 
 
-def probability(radius, values, rule=FINE):
+def probability(radius, values, rule=FINE, freedom=math.inf):
     """That a Gaussian vector with these principal variances is no longer than the radius."""
     values = [value for value in values if value > 1e-15 * max(values)]
     if len(values) == 1:
-        return chi(1, radius / math.sqrt(values[0]))
+        return chi(1, radius / math.sqrt(values[0]), freedom)
     if len(values) == 2:
         a, b = values
-        return sum(w * chi(2, radius / math.sqrt(a * c + b * s)) for c, s, w in rule.quarter)
+        return sum(w * chi(2, radius / math.sqrt(a * c + b * s), freedom) for c, s, w in rule.quarter)
     a, b, c = values
     total = 0.0
     # The height z on the sphere is uniform, so is the angle about it.
     for z, rest, weight in rule.line:
         flat = rest * (1 + z)
         total += weight * sum(
-            w * chi(3, radius / math.sqrt(flat * (a * cc + b * ss) + c * z * z)) for cc, ss, w in rule.quarter
+            w * chi(3, radius / math.sqrt(flat * (a * cc + b * ss) + c * z * z), freedom) for cc, ss, w in rule.quarter
         )
     return total
 
 
-def quantile(p, covariance):
+def quantile(p, covariance, freedom=math.inf):
     """The radius of the ball that holds the share p."""
     values, _ = eigenvectors(covariance)
     if values[2] == 0.0:
         return 0.0
+    if MANY < freedom < math.inf:
+        # In proportion to 1/freedom, to its square; the functions of student() lose digits here.
+        normal = quantile(p, covariance)
+        return normal + (quantile(p, covariance, MANY) - normal) * MANY / freedom
     low, high = 0.0, 10 * math.sqrt(sum(values))
-    below, above = -p, probability(high, values, COARSE) - p
+    while probability(high, values, COARSE, freedom) < p:
+        high *= 2
+    below, above = -p, probability(high, values, COARSE, freedom) - p
     # Illinois: the secant through both ends, an end that stays counts half.
     for _ in range(100):
         middle = (low * above - high * below) / (above - below)
-        error = probability(middle, values, COARSE) - p
+        error = probability(middle, values, COARSE, freedom) - p
         if abs(error) < 1e-12 or high - low < 1e-12 * high:
             break
         if error > 0:
@@ -88,6 +132,6 @@ def quantile(p, covariance):
         else:
             low, below, above = middle, error, above / 2
     # A step of Newton's with the fine rule.
-    ahead = probability(middle * (1 + 1e-5), values)
-    here = probability(middle, values)
+    ahead = probability(middle * (1 + 1e-5), values, FINE, freedom)
+    here = probability(middle, values, FINE, freedom)
     return middle + (p - here) * middle * 1e-5 / (ahead - here)

@@ -5,7 +5,7 @@ import math
 import monte_carlo
 from identifiable import ranks
 from kinematics import Configuration
-from uncertainty import DEVIATION, K, norm
+from uncertainty import DEVIATION, norm, probability_within
 
 DRAWS = 20_000
 
@@ -92,9 +92,10 @@ def gum(comparison, place, sweep, first, theirs, largest):
     combined, expanded = ours.combined(), ours.expanded()
     comparison.numbers(f"{place}, where it is largest", largest, theirs["standard_uncertainty"][3])
     comparison.numbers(f"{place}.combined", combined, theirs["standard_uncertainty"], combined[3])
+    freedoms = [None if freedom == math.inf else freedom for freedom in ours.freedom()]
+    comparison.optional(f"{place}.freedom", freedoms, theirs["effective_degrees_of_freedom"])
     comparison.numbers(f"{place}.expanded", expanded, theirs["expanded_uncertainty"], expanded[3])
-    factors = [K, K, K, expanded[3] / combined[3]]
-    comparison.numbers(f"{place}.coverage_factor", factors, theirs["coverage_factor"])
+    comparison.numbers(f"{place}.coverage_factor", ours.factors(), theirs["coverage_factor"])
     comparison.numbers(f"{place}.bias", [*ours.bias, norm(ours.bias)], theirs["bias"], combined[3])
     by_name = {source["source"]: source for source in theirs["sources"]}
     for (source, move), standard, share in zip(ours.random, ours.standard, ours.shares()):
@@ -105,6 +106,8 @@ def gum(comparison, place, sweep, first, theirs, largest):
         size = max(norm(standard), 1e-6 * combined[3])
         comparison.numbers(f"{there}.u", [*map(abs, standard), norm(standard)], entry["standard_uncertainty"], size)
         comparison.numbers(f"{there}.share", share, entry["share"], 1.0)
+        freedom = None if source.freedom == math.inf else source.freedom
+        comparison.optional(f"{there}.freedom", [freedom], [entry["degrees_of_freedom"]])
         comparison.numbers(f"{there}.divisor", 1 / DEVIATION[source.distribution], entry["divisor"])
         value = value_of(comparison, there, source, configuration, entry["value"])
         sensitivity = [abs(x / value) for x in move]
@@ -121,6 +124,9 @@ def value_of(comparison, place, source, configuration, theirs):
     """The value of a source is that of its only error, and otherwise 1: the magnitude of all of them."""
     if theirs is None:
         return 1.0
+    if source.value is not None:
+        comparison.numbers(f"{place}.value", source.value, theirs)
+        return source.value
     [effect] = source.effects
     number = configuration.effects[id(effect)]
     numbers = number.values() if effect.dh else number[0] if isinstance(number, tuple) else [number]
@@ -130,12 +136,9 @@ def value_of(comparison, place, source, configuration, theirs):
 
 
 def verdict(comparison, place, sweep, first, budgets, theirs, asked):
-    """Met for certain, met with a probability, or not met, where the radius is largest."""
+    """Met for certain, met with a probability, or not met, where that is least."""
     configuration = Configuration(sweep.spec, {**sweep.home_names, **theirs["at"]})
     row = sweep.moves_at(configuration)
-    repeatable, random, _, _ = sweep.sums(row, first)
-    radius = sweep.combined(first)["radius"]
-    comparison.numbers(f"{place}.at", norm(repeatable) + norm(random), radius)
     tolerance, budget = theirs["tolerance"], sweep.uncertainty(row, first)
     ends = [budget.largest() for budget in budgets]
     certain = None not in ends and max(ends) <= tolerance
@@ -144,6 +147,13 @@ def verdict(comparison, place, sweep, first, budgets, theirs, asked):
     probability, error = budget.probability(tolerance, DRAWS // 10, seed=4)
     if certain:
         probability = error = 0.0
+    else:
+        # As if all were normal, which tells one configuration from another well enough.
+        likely = [probability_within(tolerance, other.bias, other.covariance) for other in [budget, *budgets]]
+        room = 1e-6 if all(other.is_normal() for other in budgets) else 0.02
+        comparison.compared += 1
+        if likely[0] > min(likely) + room:
+            comparison.failures.append(f"{place}.at: {likely[0]} there, {min(likely)} elsewhere")
     error = math.hypot(error, theirs["error"])
     comparison.drawn(f"{place}.probability", 1.0 if certain else probability, theirs["probability"], error, 1.0)
     expected = "met" if certain else "met-with-probability" if theirs["probability"] >= asked else "not-met"

@@ -21,7 +21,7 @@ FORMS = {
     "axis x", "axis z", "axis given", "revolute", "prismatic", "home", "no home", "rotation-vector", "euler-yzx",
     "no tool", "tool product", "tool matrix", "tool dh", "tool origin", "beam x", "beam y", "beam z", "beam default", "weightless", "mass per length",
     "mass", "force", "force and moment", "load at a point", "load at the tool", "path", "grid", "inputs set", "inputs crossed", "inputs at both ends", "inputs beside", *FUNCTIONS, *UNITS,
-    "linear", "cubic", "errors of dh", "errors of mdh",
+    "estimated", "estimated magnitude", "magnitude known", "linear", "cubic", "errors of dh", "errors of mdh",
 }  # fmt: skip
 
 
@@ -268,6 +268,9 @@ class Writer:
         self.add("", "[[source]]", f'name = "source {k}"')
         if form in ("uniform", "normal", "triangular", "arcsine"):
             self.add('class = "random"', f'distribution = "{form}"')
+            if form == "normal" and self.seed % 2:
+                self.used.add("estimated")
+                self.add(f"degrees_of_freedom = {4 + self.seed % 9}")
         elif form == "random effects":
             self.add('class = "random"', f'distribution = "{self.pick("uniform", "normal", "triangular", "arcsine")}"')
         elif form in ("joint", "parameter", "dh source", "joint effects", "at", "beam") and self.random.random() < 0.4:
@@ -275,7 +278,9 @@ class Writer:
         else:
             self.add('class = "repeatable"')
         if form == "magnitude":
-            self.add(f"magnitude = {{ value = {self.number()}, standard_deviation = 0.2 }}")
+            freedom = ", degrees_of_freedom = 6" if self.seed % 2 else ""
+            self.used.add("estimated magnitude" if freedom else "magnitude known")
+            self.add(f"magnitude = {{ value = {self.number()}, standard_deviation = 0.2{freedom} }}")
         if form == "disabled":
             self.add("enabled = false")
         if "effects" in form:

@@ -1,5 +1,6 @@
 """A spec file as what it says: frames whose matrices are functions of named values, sources, loads."""
 
+import math
 import tomllib
 from dataclasses import dataclass, field
 
@@ -41,6 +42,8 @@ class Source:
     effects: list
     enabled: bool = True
     scale: float = 1.0
+    freedom: float = math.inf  # degrees of freedom of a standard deviation
+    value: float | None = None  # the standard deviation of a magnitude, of what is not known of one
 
 
 @dataclass
@@ -79,6 +82,7 @@ class Spec:
         self.tool = self.matrix(spec.get("tool", {"transform": "Tx(0)"}))
         self.loads = [self.load(table) for table in spec.get("load", [])]
         self.sources = [self.source(table) for table in spec.get("source", [])]
+        self.sources += [self.unknown(table) for table in spec.get("source", []) if "standard_deviation" in table.get("magnitude", {})]
 
     def home(self):
         return {variable["name"]: variable["home"] for variable in self.variables}
@@ -152,7 +156,17 @@ class Spec:
             [self.effect(effect) for effect in effects],
             table.get("enabled", True),
             table.get("magnitude", {}).get("value", 1.0),
+            table.get("degrees_of_freedom", math.inf),
         )
+
+    def unknown(self, table):
+        """What is not known of a magnitude: a normal source, so many times the errors of magnitude 1."""
+        source, magnitude = self.source(table), table["magnitude"]
+        source.name += " (its magnitude)"
+        source.repeatable, source.distribution = False, "normal"
+        source.scale = source.value = magnitude["standard_deviation"]
+        source.freedom = magnitude.get("degrees_of_freedom", math.inf)
+        return source
 
     def effect(self, table):
         read = self.read.expression

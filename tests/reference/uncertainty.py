@@ -1,6 +1,5 @@
 """The uncertainty budget of the GUM at one configuration, and how likely a tolerance is met there."""
 
-import itertools
 import math
 import random
 
@@ -32,21 +31,48 @@ class Uncertainty:
         """u along each row and of the norm."""
         return [math.sqrt(self.covariance[i][i]) for i in range(3)] + [math.sqrt(self.total)]
 
+    def freedom(self):
+        """Effective degrees of freedom: of the rows by the formula of Welch and Satterthwaite, of the norm their harmonic mean.
+
+        For the norm what a source does along a principal axis counts more where that axis is long."""
+        values, axes = eigenvectors(self.covariance)
+        weights = [1 + (K * K - 1) * value / values[2] for value in values]
+        squares = []
+        for u in self.standard:
+            along = [sum(a * b for a, b in zip(axis, u)) for axis in axes]
+            squares.append([x * x for x in u] + [sum(w * x * x for w, x in zip(weights, along))])
+        freedoms = [source.freedom for source, _ in self.random]
+        effective = []
+        for column in zip(*squares):
+            total, power = sum(column), 2 if len(effective) < 3 else 1
+            few = [(x / total, freedom) for x, freedom in zip(column, freedoms) if total and freedom < math.inf]
+            inverse = sum(share**power / freedom for share, freedom in few)
+            effective.append(1 / inverse if inverse > 0 else math.inf)
+        return effective
+
+    def factors(self):
+        """k of the rows, from Student's t, and of the norm, from a vector of it."""
+        freedoms = self.freedom()
+        line = [[1.0, 0.0, 0.0], [0.0] * 3, [0.0] * 3]
+        rows = [K if freedom == math.inf else quantile(COVERAGE, line, freedom) for freedom in freedoms[:3]]
+        return rows + [quantile(COVERAGE, self.covariance, freedoms[3]) / math.sqrt(self.total)]
+
     def expanded(self):
-        """U = k u: of the rows with k = 1.96, of the norm with the quantile of a normal vector."""
-        return [K * u for u in self.combined()[:3]] + [quantile(COVERAGE, self.covariance)]
+        """U = k u."""
+        return [k * u for k, u in zip(self.factors(), self.combined())]
+
+    def is_normal(self):
+        return all(s.distribution == "normal" and s.freedom == math.inf for s, _ in self.random)
 
     def largest(self):
-        """The largest error that bounded sources can make: at one of the corners of their box; none if one is not bounded."""
+        """What bounded sources cannot exceed: all bounds added, each in the worst direction; none if one is not bounded."""
         if any(s.distribution == "normal" for s, _ in self.random):
             return None
-        corners = itertools.product((-1, 1), repeat=len(self.random))
-        errors = ([b + sum(sign * move[i] for sign, (_, move) in zip(signs, self.random)) for i, b in enumerate(self.bias)] for signs in corners)
-        return max(map(norm, errors))
+        return norm(self.bias) + sum(norm(move) for _, move in self.random)
 
     def probability(self, tolerance, count, seed):
         """That the error is within a tolerance, bias and all, and how far that may be off."""
-        if all(s.distribution == "normal" for s, _ in self.random):
+        if self.is_normal():
             return probability_within(tolerance, self.bias, self.covariance), 0.0
         return self.share_within(tolerance, self.bias, count, seed)
 
@@ -57,7 +83,7 @@ class Uncertainty:
         return [sum(m * move[i] for m, (_, move) in drawn) for drawn in [self.magnitudes(generator)] for i in range(3)]
 
     def magnitudes(self, generator):
-        return [(DRAWS[s.distribution](generator), (s, move)) for s, move in self.random]
+        return [(draw(s, generator), (s, move)) for s, move in self.random]
 
     def share_within(self, radius, bias, count, seed):
         """The share of draws whose norm is within the radius, and its standard error."""
@@ -68,6 +94,14 @@ class Uncertainty:
             inside += norm(x) <= radius
         p = inside / count
         return p, math.sqrt(max(p * (1 - p), 1 / count) / count)
+
+
+def draw(source, generator):
+    """Of magnitude 1; after Student's t if the standard deviation was estimated from few measurements."""
+    drawn = DRAWS[source.distribution](generator)
+    if source.freedom == math.inf:
+        return drawn
+    return drawn / math.sqrt(generator.gammavariate(source.freedom / 2, 2 / source.freedom))
 
 
 def probability_within(radius, bias, covariance):

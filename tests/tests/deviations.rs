@@ -57,6 +57,7 @@ fn repeatable(name: String, number: ChainNumber, error: f64) -> Source {
     Source {
         name,
         class: Class::Repeatable,
+        degrees_of_freedom: f64::INFINITY,
         enabled: true,
         description: String::new(),
         reference: String::new(),

@@ -1,7 +1,9 @@
 //! Random sources of every kind: first order against a million draws on the exact chain.
 
 use abbe::Manipulator;
-use abbe::analysis::{Admissible, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo};
+use abbe::analysis::{
+    Admissible, Asked, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo,
+};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 
@@ -133,7 +135,7 @@ fn zero_and_one_sided_sources_have_clear_results() {
     "#);
     let robot = Interpreter::new(spec.clone());
     let workspace = joint_samples(&robot, &[0, 1], 500).unwrap();
-    let budget = error_budget(&robot, &workspace, None, &mut ()).unwrap();
+    let budget = error_budget(&robot, &workspace, Asked::default(), &mut ()).unwrap();
     let [nothing, one_sided] = &budget.sources[..] else { panic!("two sources") };
     assert_eq!((nothing.plain_max.norm, nothing.rms), (0.0, 0.0));
     // It never goes below nothing, so half of what it varies by is half of the largest.

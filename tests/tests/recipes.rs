@@ -42,6 +42,14 @@ fn every_recipe_gives_its_formula() {
     for (d1, q2, u) in [(700.0, 0.4, [3.0, 1.0, 80.0]), (1900.0, -2.1, [-7.0, -1.0, 15.0])] {
         let at = |source: &str, frame: usize| errors(&spec, source, frame, [d1, q2], u);
         let [temperature, approach, payload] = u;
+        // Fritsch and Butland's cubic goes through the points and stays between two neighbours.
+        let [_, y, ..] = at("rail, as measured", 0);
+        assert!(if d1 == 700.0 { 0.0125 < y && y < 0.018 } else { -0.0035 < y && y < 0.011 }, "{y}");
+        let [_, y, ..] = errors(&spec, "rail, as measured", 0, [1500.0, q2], u);
+        assert!((y - 0.011).abs() < 1e-15);
+        let arcsec = PI / 180.0 / 3600.0;
+        let turned = if u[1] == 1.0 { 0.9 * arcsec } else { -0.8 * arcsec };
+        close(at("hysteresis of the turntable", 1), [0.0, 0.0, 0.0, turned, 0.0, 0.0]);
         // The rotation is minus the slope of the translation, by central differences.
         let rail = at("rail profile", 0);
         let z = |d1: f64| errors(&spec, "rail profile", 0, [d1, q2], u)[2];
@@ -123,7 +131,7 @@ fn effects_of_one_source_go_together() {
         ],
     )
     .unwrap();
-    let budget = abbe::analysis::error_budget(&robot, &workspace, None, &mut ()).unwrap();
+    let budget = abbe::analysis::error_budget(&robot, &workspace, Default::default(), &mut ()).unwrap();
     // 3σ of 5 µm − 2 µm, not of √(5² + 2²).
     assert!((budget.combined.random_radius.value - 3.0 * 0.003).abs() < 1e-15);
 }

@@ -74,6 +74,7 @@ impl Spec {
                 .map(|source| Source {
                     name: source.name.as_str().into(),
                     class: source.class,
+                    degrees_of_freedom: source.degrees_of_freedom,
                     at: self.place(source).as_str().into(),
                     reference: source.reference.as_str().into(),
                 })

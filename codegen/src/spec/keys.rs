@@ -19,13 +19,16 @@ crate::tables! {
     ORIGIN: ["[frame.origin]"], ["xyz", "rpy"];
 
     SOURCE: ["[[source]]"],
-        ["name", "class", "distribution", "enabled", "magnitude", "description", "reference", "effect"];
+        [
+            "name", "class", "distribution", "degrees_of_freedom", "enabled", "magnitude", "description", "reference",
+            "effect",
+        ];
     PLACE: ["[[source]]", "[[source.effect]]"], ["frame", "at"];
     CAUSE: ["[[source]]", "[[source.effect]]"],
         ["e_x", "e_y", "e_z", "e_s", "e_r", "e_p", "beam", "compliance"];
     DEVIATION: ["[[source]]", "[[source.effect]]"], ["joint", "parameter", "error", "dh"];
     NUMBERS: ["[source.dh]", "[source.effect.dh]"], ["theta", "d", "a", "alpha"];
-    MAGNITUDE: ["[source.magnitude]"], ["value", "standard_deviation"];
+    MAGNITUDE: ["[source.magnitude]"], ["value", "standard_deviation", "degrees_of_freedom"];
     BEAM: ["[source.beam]", "[source.effect.beam]"],
         ["length", "axis", "EI_y", "EI_z", "GJ", "EA", "mass_per_length"];
     COMPLIANCE: ["[source.compliance]", "[source.effect.compliance]"], ["diagonal", "matrix"];

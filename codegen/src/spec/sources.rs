@@ -61,6 +61,7 @@ fn read_source(
     section.check_keys(&KNOWN, document);
     let class = section.required("class", document);
     let class = class.and_then(|class| read_class(&class, section, document));
+    let degrees_of_freedom = read_degrees_of_freedom(section, class, chain, document)?;
     let enabled = match section.get("enabled") {
         Some(item) => document.boolean(&item),
         None => Some(true),
@@ -90,7 +91,17 @@ fn read_source(
     if let Class::Random(distribution) = class {
         check_half_width(distribution, &effects, &deviations, document);
     }
-    Some(Source { name, class, enabled, description, reference, magnitude, effects, deviations })
+    Some(Source {
+        name,
+        class,
+        degrees_of_freedom,
+        enabled,
+        description,
+        reference,
+        magnitude,
+        effects,
+        deviations,
+    })
 }
 
 /// A half-width or standard deviation has no sign. The effects of a random source share one magnitude, so that their
@@ -137,7 +148,46 @@ impl Acts {
     }
 }
 
-/// `magnitude = { value, standard_deviation }`: pure numbers.
+/// `degrees_of_freedom` of a normal error; infinite if it is not there.
+fn read_degrees_of_freedom(
+    section: &Section<'_>,
+    class: Option<Class>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<f64> {
+    let Some(item) = section.get("degrees_of_freedom") else { return Some(f64::INFINITY) };
+    let (message, help) = match class {
+        None | Some(Class::Random(Distribution::Normal)) => return positive(&item, chain, document),
+        Some(Class::Repeatable) => (
+            "a repeatable error has no degrees of freedom",
+            "they say from how many measurements a standard deviation was estimated: leave them out, or write them into `magnitude`",
+        ),
+        Some(Class::Random(_)) => (
+            "limits have no degrees of freedom",
+            "they say from how many measurements a standard deviation was estimated: write distribution = \"normal\", or leave them out",
+        ),
+    };
+    document.mistake(Diagnostic::new(item.key_span, message).help(help));
+    None
+}
+
+/// A positive number of degrees of freedom.
+fn positive(item: &Item<'_>, chain: Chain<'_>, document: &mut Document) -> Option<f64> {
+    let what = "`degrees_of_freedom`";
+    let entry = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
+    let (number, _) = document.constant(item, chain.scope, entry)?;
+    if number > 0.0 {
+        return Some(number);
+    }
+    document.mistake(
+        Diagnostic::new(item.span(), "`degrees_of_freedom` must be positive").help(
+            "n measurements and their mean leave n - 1; leave it out if the standard deviation is known",
+        ),
+    );
+    None
+}
+
+/// `magnitude = { value, standard_deviation, degrees_of_freedom }`: pure numbers.
 fn read_magnitude(
     item: &Item<'_>,
     class: Option<Class>,
@@ -177,7 +227,18 @@ fn read_magnitude(
         }
         None => None,
     };
-    Some(Magnitude { value, standard_deviation })
+    let degrees_of_freedom = match table.get("degrees_of_freedom") {
+        Some(item) if standard_deviation.is_none() => {
+            document.mistake(
+                Diagnostic::new(item.key_span, "these are degrees of freedom of nothing")
+                    .help("they belong to a `standard_deviation`"),
+            );
+            return None;
+        }
+        Some(item) => positive(&item, chain, document)?,
+        None => f64::INFINITY,
+    };
+    Some(Magnitude { value, standard_deviation, degrees_of_freedom })
 }
 
 fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -> Option<Class> {

@@ -161,6 +161,8 @@ pub struct Source {
     pub name: String,
     /// Repeatable or random.
     pub class: Class,
+    /// Of the standard deviation of a normal error that was estimated from few measurements; infinite if it is known.
+    pub degrees_of_freedom: f64,
     /// Whether it takes part; a named alternative does not.
     pub enabled: bool,
     /// What it is.
@@ -345,4 +347,6 @@ pub struct Magnitude {
     pub value: f64,
     /// How well: its standard deviation; none if nothing is known.
     pub standard_deviation: Option<f64>,
+    /// Of that standard deviation; infinite if it is known.
+    pub degrees_of_freedom: f64,
 }

@@ -6,7 +6,7 @@
 //! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool |
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and shows every [`Row`] in order; nothing is stored |
 //! | `budget` | [`error_budget`]: what every source does alone ([`SourceErrors`]), all together ([`Combined`]), what is left after compensation ([`RemainingErrors`]), what a tolerance allows ([`Admissible`]) |
-//! | `normal` | [`NormalVector`]: how likely is a norm of a normal error, and which is not exceeded with a probability |
+//! | `normal` | [`NormalVector`]: how likely is a norm of a normal error, and which is not exceeded with a probability; [`StudentVector`]: of one whose variance is known from few measurements |
 //! | `uncertainty` | [`Statement`]: the budget of the GUM at one configuration; [`compliance()`]: how likely a tolerance is met |
 //! | `random` | [`monte_carlo`] draws errors on the exact chain |
 //!
@@ -17,12 +17,12 @@
 //! ```
 //! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
-//! use abbe::analysis::{Admissible, error_budget, random_joint_samples};
+//! use abbe::analysis::{Admissible, Asked, error_budget, random_joint_samples};
 //! use pps::{DESCRIPTION, Pps};
 //!
 //! let moved = [0, 1, 2, 3]; // the three slides and the spin; the other joints stay at home
 //! let workspace = random_joint_samples(&Pps, &moved, 10_000, 1)?;
-//! let budget = error_budget(&Pps, &workspace, None, &mut ())?;
+//! let budget = error_budget(&Pps, &workspace, Asked::default(), &mut ())?;
 //! for errors in &budget.sources {
 //!     println!("{}: {:.4} mm", DESCRIPTION.sources[errors.source].name, errors.plain_max.norm);
 //! }
@@ -51,17 +51,18 @@ pub(crate) mod by_hand;
 mod tests;
 
 pub use budget::{
-    Admissible, Budget, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, OrientationErrors,
+    Admissible, Asked, Budget, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, OrientationErrors,
     RemainingErrors, Residual, SourceErrors, Sphere, Watch, covariance, error_budget, variance,
 };
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
 pub use measurand::Measurand;
-pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal};
+pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use reach::{ReachError, Target, compensated, inverse};
 pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, sweep};
 pub use uncertainty::{
-    COVERAGE, Compliance, Contribution, DRAWS, ErrorsAt, Statement, compliance, errors_at,
+    COVERAGE, Compliance, Contribution, DRAWS, ErrorsAt, Statement, compliance, errors_at, normal_compliance,
+    student_95,
 };
 pub use workspace::{
     Axis, BaseBox, Configuration, JointGrid, JointSamples, Listed, Presentation, PresentedVolume, ReachedBox,

@@ -2,7 +2,7 @@
 
 use abbe::Description;
 use abbe::analysis::{
-    Admissible, Budget, Measurand, Row, Statement, Subset, Unevaluated, Watch, Workspace, compliance,
+    Admissible, Asked, Budget, Measurand, Row, Statement, Subset, Unevaluated, Watch, Workspace,
     error_budget, errors_at, monte_carlo,
 };
 use abbe_codegen::diagnostic::Diagnostics;
@@ -23,7 +23,7 @@ use crate::{data, mistake, number};
 const EXTRAPOLATED: usize = 2000;
 
 /// The draws of verdicts and budgets are always the same: they are to be as good as integrals.
-const SEED: u64 = 0;
+pub(super) const SEED: u64 = 0;
 
 /// What does every source do?
 #[derive(Clone)]
@@ -41,9 +41,11 @@ pub struct Analyze {
 }
 
 impl Analyze {
-    /// Asks that study of a manipulator, with the changes that the study makes to it.
+    /// Asks that study of a manipulator, with the changes that the study makes to it. What is not known of the magnitudes of
+    /// repeatable sources becomes random sources behind the others.
     pub fn new(mut machine: Machine, mut study: Study) -> Self {
         machine.change(&study.changes);
+        machine.add_magnitude_errors();
         study.fix(machine.fixed_inputs());
         Self { machine, study, monte_carlo: None, seed: None, interpret: false, figures: false }
     }
@@ -54,6 +56,7 @@ impl Analyze {
             notes.note("published figures are left out: --set, --enable and --disable make another machine");
         }
         self.machine.change(changes);
+        self.machine.add_magnitude_errors();
         self.study.fix(self.machine.fixed_inputs());
     }
 
@@ -91,7 +94,9 @@ impl Analyze {
         let gathering = self.figures.then(|| Gathering::new(study, description));
         let mut watching = Watching { rows, gathering, notes, total: workspace.len() };
         let residuals = study.compensation.as_ref().map(|left| left.of(description));
-        let budget = error_budget(manipulator, workspace, residuals.as_deref(), &mut watching);
+        let tolerances = [study.tolerance, study.orientation_tolerance];
+        let asked = Asked { residuals: residuals.as_deref(), tolerances };
+        let budget = error_budget(manipulator, workspace, asked, &mut watching);
         let Watching { gathering, notes, total, .. } = watching;
         notes.progress(total, total);
         let refused = |refused: Unevaluated| self.not_evaluated(workspace, &refused, description);
@@ -112,13 +117,11 @@ impl Analyze {
             errors_at(manipulator, &configuration)
                 .map_err(|error| refused(Unevaluated { configuration: index, error }))
         };
-        let tolerances = [study.tolerance, study.orientation_tolerance];
         let mut judged = Vec::new();
         for (measurand, tolerance) in Measurand::ALL.into_iter().zip(tolerances) {
-            let Some(tolerance) = tolerance else { continue };
-            judged.push(Judged::new(&budget, measurand, (tolerance, study.probability), |index| {
-                Ok::<_, Diagnostics>(compliance(&at(index)?, measurand, tolerance, SEED))
-            })?);
+            if let Some(tolerance) = tolerance {
+                judged.push(Judged::new(&budget, measurand, (tolerance, study.probability), &at)?);
+            }
         }
         let mut stated = Vec::new();
         for measurand in Measurand::ALL {
@@ -148,7 +151,7 @@ impl Analyze {
             home: workspace.home().clone(),
             varying: self.varying(),
             moving_inputs: self.moving_inputs(),
-            places: Places::new(&budget, workspace),
+            places: Places::new(&budget, &judged, workspace),
             admissible: study.tolerance.map(|tolerance| Admissible::new(&budget, tolerance)),
             admissible_orientation: study
                 .orientation_tolerance

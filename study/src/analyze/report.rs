@@ -74,7 +74,7 @@ impl Drawn {
 pub(super) struct Places(BTreeMap<usize, Configuration>);
 
 impl Places {
-    pub(super) fn new(budget: &Budget, workspace: &dyn Workspace) -> Self {
+    pub(super) fn new(budget: &Budget, judged: &[Judged], workspace: &dyn Workspace) -> Self {
         let combined = &budget.combined;
         let radii =
             [combined.repeatable_radius, combined.random_radius, combined.radius, combined.worst_case_radius];
@@ -83,6 +83,7 @@ impl Places {
         let radii = radii.into_iter().chain(turns).chain([combined.standard_radius]);
         let named = budget.sources.iter().chain(&budget.orientation.sources).map(|alone| alone.worst);
         let named = named.chain(radii.map(|radius| radius.configuration));
+        let named = named.chain(judged.iter().map(|judged| judged.configuration));
         let named = named.chain([combined.ellipsoid.configuration]).flatten();
         Self(named.filter_map(|index| Some((index, workspace.configuration(index).ok()?))).collect())
     }

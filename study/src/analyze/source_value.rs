@@ -26,10 +26,13 @@ pub(super) enum Kind<'a> {
 }
 
 impl<'a> SourceValue<'a> {
-    /// The error of a joint or parameter if that is all the source has and it is constant; else the one generalized error that it
+    /// The standard deviation of a magnitude, if that is what is not known; the error of a joint or parameter if that is all the source has and it is constant; else the one generalized error that it
     /// causes at the configuration.
     pub(super) fn new(report: &'a Report, one: &Contribution) -> Self {
         let source = report.source(one.source);
+        if let Some(magnitude) = source.magnitude {
+            return Self { value: magnitude.value, kind: Kind::Of("") };
+        }
         if let ([], [deviation]) = (&source.effects[..], &source.deviations[..])
             && let Some(value) = deviation.error.constant().filter(|value| *value != 0.0)
         {

@@ -1,7 +1,7 @@
 //! The uncertainty budget as the GUM states it, in tables and sentences.
 
 use abbe::Distribution;
-use abbe::analysis::{COVERAGE, Contribution, Measurand, Statement};
+use abbe::analysis::{COVERAGE, Contribution, Measurand, Statement, student_95};
 
 use super::report::Report;
 use super::source_value::{Kind, SourceValue};
@@ -10,12 +10,13 @@ use super::unit;
 use crate::listing::Listing;
 use crate::number;
 
-/// Every random source, the largest share first.
+/// Every random source, the largest share first; with its degrees of freedom if any are finite.
 pub fn contributions(report: &Report, stated: &Stated) -> Listing {
     let measurand = stated.statement.measurand;
+    let estimated = is_estimated(&stated.statement);
     let row = |one: &Contribution| {
         let source = SourceValue::new(report, one);
-        vec![
+        let mut row = vec![
             report.source(one.source).name.clone(),
             value(report, source),
             one.distribution.name().to_owned(),
@@ -23,43 +24,56 @@ pub fn contributions(report: &Report, stated: &Stated) -> Listing {
             sensitivity(report, measurand, source, one),
             unit::fixed(report, measurand, one.standard[3]),
             format!("{:.1} %", 100.0 * one.share),
-        ]
+        ];
+        if estimated {
+            row.insert(6, degrees_of_freedom(one.degrees_of_freedom));
+        }
+        row
     };
-    Listing {
-        header: vec!["source", "value", "distribution", "divisor", "sensitivity", "u", "share of u²"],
-        rows: stated.statement.contributions.iter().map(row).collect(),
-        numbers: 3..7,
+    let mut header = vec!["source", "value", "distribution", "divisor", "sensitivity", "u", "share of u²"];
+    if estimated {
+        header.insert(6, "ν");
     }
+    let numbers = 3..header.len();
+    Listing { header, rows: stated.statement.contributions.iter().map(row).collect(), numbers }
 }
 
-/// Bias, u, k and U along the rows and of the norm.
+/// Bias, u, k and U along the rows and of the norm; with the effective degrees of freedom if any are finite.
 pub fn totals(report: &Report, stated: &Stated) -> Listing {
-    let Statement { measurand, bias, standard, coverage_factors, .. } = &stated.statement;
+    let Statement { measurand, bias, standard, degrees_of_freedom: effective, coverage_factors, .. } =
+        &stated.statement;
+    let estimated = is_estimated(&stated.statement);
     let expanded = stated.statement.expanded();
     let names = unit::rows(report, *measurand).into_iter().chain(["norm"]);
     let row = |(i, name): (usize, &str)| {
         let show = |value: f64| unit::fixed(report, *measurand, value);
         let sum = bias[i].abs() + expanded[i];
-        vec![
+        let mut row = vec![
             name.to_owned(),
             show(standard[i]),
             format!("{:.3}", coverage_factors[i]),
             show(expanded[i]),
             show(bias[i]),
             show(sum),
-        ]
+        ];
+        if estimated {
+            row.insert(2, degrees_of_freedom(effective[i]));
+        }
+        row
     };
-    Listing {
-        header: vec!["", "u", "k", "U = k u", "bias", "|bias| + U"],
-        rows: names.enumerate().map(row).collect(),
-        numbers: 1..6,
+    let mut header = vec!["", "u", "k", "U = k u", "bias", "|bias| + U"];
+    if estimated {
+        header.insert(2, "ν");
     }
+    let numbers = 1..header.len();
+    Listing { header, rows: names.enumerate().map(row).collect(), numbers }
 }
 
 /// What the budget covers.
 pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     let Statement { measurand, coverage, coverage_factors, .. } = &stated.statement;
     let (_, combined, _) = report.budget.errors(*measurand);
+    let estimated = is_estimated(&stated.statement);
     let show = |value| unit::shown(report, *measurand, value);
     let at = report
         .configuration(stated.configuration)
@@ -68,28 +82,36 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     let holds = match coverage.draws {
         None => "U covers 95 % of the errors: all random sources are normal.".to_owned(),
         Some(draws) => format!(
-            "U would cover 95 % of a normal error; drawn as the sources are distributed, {} % of {} errors have a norm within it.",
+            "{}, {} % of {} errors have a norm within it.",
+            match estimated {
+                false => "U would cover 95 % of a normal error; drawn as the sources are distributed",
+                true => {
+                    "Of U of the norm: where all sources are drawn as they are distributed, those with few degrees of freedom after \
+                     Student's t (JCGM 101, 6.4.9)"
+                }
+            },
             number::trimmed(100.0 * coverage.probability, 1),
             number::short(draws as f64),
         ),
     };
-    // Whatever the shape of a covariance, the quantile of its norm is no more than that of a line.
-    let largest = LINE_95 * combined.standard_radius.value;
+    let factor = format!("{:.3}", coverage_factors[3]);
+    let percent = number::short(100.0 * COVERAGE);
+    let factors = match estimated {
+        false => format!(
+            "k is that of {percent} % of a normal error: {factor} of the norm of a vector with this covariance. Degrees of freedom are taken as infinite."
+        ),
+        true => format!(
+            "k is that of {percent} % of Student's t with ν effective degrees of freedom, along each axis after Welch and Satterthwaite (G.4.1): \
+             {factor} of the norm of a vector with this covariance, whose ν is the harmonic mean of the sources by their shares."
+        ),
+    };
     let mut sentences = vec![
         format!(
-            "After the GUM (JCGM 100), where u is largest ({at}): u = value × sensitivity / divisor, added as root sum of squares. k is that \
-             of {} % of a normal error: {:.3} of the norm of a vector with this covariance. Degrees of freedom are taken as infinite.",
-            number::short(100.0 * COVERAGE),
-            coverage_factors[3],
+            "After the GUM (JCGM 100), where u is largest ({at}): u = value × sensitivity / divisor, added as root sum of squares. {factors}"
         ),
         holds,
-        format!(
-            "At none of the {} configurations is the U of the norm more than {} (1.960 × {}).",
-            report.budget.configurations,
-            show(largest),
-            show(combined.standard_radius.value)
-        ),
     ];
+    sentences.extend(elsewhere(report, *measurand, combined.standard_radius.value));
     if combined.repeatable_radius.value > 0.0 {
         sentences.push(format!(
             "The budget covers the random sources. The repeatable ones are known errors: the GUM takes for granted that they are \
@@ -100,7 +122,29 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     sentences
 }
 
-const LINE_95: f64 = 1.959_963_984_540_054;
+/// What no U of the norm exceeds. Whatever the shape of a covariance, the quantile of the norm is no more than that of a line, as
+/// long as there are three degrees of freedom or more, and effective ones are no fewer than those of any source.
+fn elsewhere(report: &Report, measurand: Measurand, largest: f64) -> Option<String> {
+    let fewest =
+        report.sources().iter().map(|source| source.degrees_of_freedom).fold(f64::INFINITY, f64::min);
+    let factor = (fewest >= 3.0).then(|| student_95(fewest))?;
+    let show = |value| unit::shown(report, measurand, value);
+    Some(format!(
+        "At none of the {} configurations is the U of the norm more than {} ({factor:.3} × {}).",
+        report.budget.configurations,
+        show(factor * largest),
+        show(largest)
+    ))
+}
+
+/// Whether any standard uncertainty has a finite number of degrees of freedom.
+fn is_estimated(statement: &Statement) -> bool {
+    statement.contributions.iter().any(|one| one.degrees_of_freedom.is_finite())
+}
+
+fn degrees_of_freedom(number: f64) -> String {
+    if number.is_finite() { number::digits(number, 3) } else { "∞".to_owned() }
+}
 
 fn value(report: &Report, SourceValue { value, kind }: SourceValue) -> String {
     match kind {

@@ -35,7 +35,6 @@ impl Report {
     }
 
     fn judgement(&self, judged: &Judged) -> String {
-        let (_, combined, _) = self.budget.errors(judged.measurand);
         let show = |value| unit::shown(self, judged.measurand, value);
         let name = match judged.measurand {
             Measurand::Position => "Position",
@@ -50,8 +49,18 @@ impl Report {
                 self.budget.configurations,
             );
         }
-        let at = combined.radius.configuration;
-        let at = self.configuration(at).map(|worst| number::unbroken(&self.label(worst))).unwrap_or_default();
+        let at = self.configuration(judged.configuration);
+        let at = at.map(|worst| number::unbroken(&self.label(worst))).unwrap_or_default();
+        let all = self.budget.configurations;
+        let least = match judged.configurations {
+            1 if all == 1 => "the only configuration".to_owned(),
+            some if some < all => {
+                format!(
+                    "the least of {some} of {all} configurations: those where an approximation has it lowest"
+                )
+            }
+            _ => format!("the least of all {all} configurations"),
+        };
         let how = match judged.compliance.draws {
             Some(draws) => format!("{} draws", number::short(draws as f64)),
             None if self.is_random(judged.measurand) => "all random sources are normal".to_owned(),
@@ -64,8 +73,8 @@ impl Report {
         };
         let met = if judged.verdict == Verdict::NotMet { "not met" } else { "met" };
         format!(
-            "{name}: {met}. Where the radius is largest ({at}) the error is within {tolerance} with probability {}; {enough}. \
-             Repeatable sources are as they are, random ones drawn ({how}).",
+            "{name}: {met}. The error is within {tolerance} with probability {} at {at}, {least}; {enough}. \
+             Repeatable sources are as they are, random ones drawn ({how}), to first order.",
             probability(judged.compliance)
         )
     }

@@ -62,6 +62,12 @@ impl Use {
             && (before == 0 || names[0] == "workspace")
     }
 
+    /// The file with another value, if that can be written.
+    pub(crate) fn replaced(&self, text: &str, value: &str) -> Option<String> {
+        let Range { start, end } = self.place.clone()?;
+        Some(format!("{}{} = {value}{}", &text[..start], self.key, &text[end..]))
+    }
+
     /// The file without it, if that can be written.
     pub(crate) fn removed(&self, text: &str) -> Option<String> {
         let Range { start, end } = self.place.clone()?;

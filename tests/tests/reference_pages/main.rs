@@ -143,6 +143,45 @@ fn every_key_stands_in_an_example_as_its_row_says() {
     nothing(&problems);
 }
 
+/// Another word in the place of a choice is answered with all words that may stand there.
+#[test]
+fn every_choice_is_that_of_the_reader() {
+    let mut problems = Vec::new();
+    let mut choices = 0;
+    for (page, _, read) in pages() {
+        let folder = written(&page);
+        let files = page.files().into_iter().filter(|(name, _)| name.ends_with(".toml")).collect::<Vec<_>>();
+        for row in page.rows().into_iter().filter(|row| !row.choices.is_empty()) {
+            let name = format!("docs/reference/{}: `{}` of {}", page.name, row.key, row.tables.join(", "));
+            let answers = files.iter().flat_map(|(file, text)| {
+                let here =
+                    uses(text).into_iter().filter(|key| row.describes(key) && key.value.starts_with('"'));
+                let folder = &folder;
+                let wrong =
+                    here.filter_map(|key| key.replaced(text, "\"none of these\"")).collect::<Vec<_>>();
+                wrong.into_iter().filter_map(move |text| read(&folder.path().join(file), &text).err())
+            });
+            let Some(answer) =
+                answers.map(|answer| answer.to_string()).find(|answer| answer.contains("none of these"))
+            else {
+                problems
+                    .push(format!("{name} is one of {:?}, but any other word may stand there.", row.choices));
+                continue;
+            };
+            let said =
+                answer.split("expected ").nth(1).and_then(|said| said.lines().next()).unwrap_or_default();
+            let said: BTreeSet<&str> = said.split(" or ").map(str::trim).collect();
+            let written: BTreeSet<&str> = row.choices.iter().map(String::as_str).collect();
+            if said != written {
+                problems.push(format!("{name}: the reader takes {said:?}, the page has {written:?}."));
+            }
+            choices += 1;
+        }
+    }
+    nothing(&problems);
+    assert!(choices > 10);
+}
+
 #[test]
 fn every_key_says_what_is_said_of_a_mistake() {
     let mut problems = Vec::new();

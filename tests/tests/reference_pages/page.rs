@@ -17,6 +17,8 @@ pub(crate) struct Row {
     /// The tables that the heading names, as `[tool]` and `[[frame]]`, or `the file`.
     pub(crate) tables: Vec<String>,
     pub(crate) key: String,
+    /// The words that the value may be, if it is one of a few.
+    pub(crate) choices: Vec<String>,
     pub(crate) default: String,
     /// A value between backticks, or words that say where one stands.
     pub(crate) example: String,
@@ -48,13 +50,14 @@ impl Page {
             if !in_table || !cells[0].starts_with('`') {
                 continue;
             }
-            let [key, _, _, default, example, _, mistake] = cells[..] else {
+            let [key, value, _, default, example, _, mistake] = cells[..] else {
                 panic!("{}:{}: a row of keys has seven cells, not {}", self.name, line + 1, cells.len());
             };
             let (mistake, golden) = mistake.rsplit_once("](").unwrap_or_default();
             rows.push(Row {
                 tables: tables.clone(),
                 key: key.trim_matches('`').to_owned(),
+                choices: if value.starts_with("`\"") { spans(value) } else { Vec::new() },
                 default: default.to_owned(),
                 example: example.to_owned(),
                 mistake: mistake.trim_start_matches('[').to_owned(),

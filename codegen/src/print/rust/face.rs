@@ -110,7 +110,12 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
             Class::Random(distribution) => format!("Class::Random(Distribution::{distribution:?})"),
         };
         let at = spec.place(source);
-        ("Source::new", vec![quoted(&source.name), class, quoted(&at), quoted(&source.reference)])
+        let mut fields = vec![quoted(&source.name), class, quoted(&at), quoted(&source.reference)];
+        if source.degrees_of_freedom.is_infinite() {
+            return ("Source::new", fields);
+        }
+        fields.insert(2, number(source.degrees_of_freedom));
+        ("Source::estimated", fields)
     });
     list("sources", sources.collect());
     let effects = effects.iter().map(|effect| {

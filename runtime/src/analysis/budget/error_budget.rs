@@ -29,6 +29,9 @@ pub struct Budget {
     pub gains: Vec<f64>,
     /// The same figures of rows 4–6.
     pub orientation: OrientationErrors,
+    /// Indices of the configurations at which the tolerances of position and orientation are least likely met, by an
+    /// approximation, the least first; no more than 32, and none without a tolerance.
+    pub least_likely: [Vec<usize>; 2],
     /// What is left after compensation, if it was asked for.
     pub compensation: Option<RemainingErrors>,
     /// How many configurations were reached and evaluated.
@@ -48,6 +51,22 @@ impl Budget {
             }
         }
     }
+}
+
+impl Budget {
+    /// Where the tolerance of a measurand is least likely met, [`least_likely`](Self::least_likely) of it.
+    pub fn least_likely_of(&self, measurand: Measurand) -> &[usize] {
+        &self.least_likely[measurand as usize]
+    }
+}
+
+/// What a budget is asked besides.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Asked<'a> {
+    /// What compensation leaves of each source, none of random ones; nothing if there is no compensation.
+    pub residuals: Option<&'a [Option<Residual>]>,
+    /// How large the norms of the errors of position (length unit) and orientation (rad) may be, if that is said.
+    pub tolerances: [Option<f64>; 2],
 }
 
 /// What the sources do to the orientation of the tool over a workspace: rows 4–6, rad.
@@ -88,13 +107,12 @@ impl<F: FnMut(&Row)> Watch for F {
 
 /// What the sources do over a workspace, section 5 of the paper.
 ///
-/// `residuals` says what compensation leaves of each source, none of random ones. Nothing is stored, blocks are
-/// evaluated in parallel (feature `parallel`), and on one instruction set the result is the same to the last bit for
+/// Nothing is stored, blocks are evaluated in parallel (feature `parallel`), and on one instruction set the result is the same to the last bit for
 /// any number of threads. Errors as for [`sweep`].
 pub fn error_budget(
     manipulator: &dyn Sweepable,
     workspace: &dyn Workspace,
-    residuals: Option<&[Option<Residual>]>,
+    asked: Asked<'_>,
     watch: &mut dyn Watch,
 ) -> Result<Budget, Unevaluated> {
     let description = manipulator.description();
@@ -110,8 +128,10 @@ pub fn error_budget(
         scattered.iter_mut().for_each(|scattered| scattered.add(known, row));
     });
     let classes = known.iter().map(|source| source.class).collect::<Vec<_>>();
-    let [(position, mut around), (orientation, mut about)] =
-        scattered.map(|scattered| scattered.finish(&classes, &home));
+    let [first, second] = scattered;
+    let (position, mut around) = first.finish(&classes, &home, asked.tolerances[0]);
+    let (orientation, mut about) = second.finish(&classes, &home, asked.tolerances[1]);
+    let residuals = asked.residuals;
     let start = Start { manipulator, workspace, classes, residuals, position, orientation };
     let count = workspace.len();
     let blocks = (count / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK);
@@ -135,13 +155,16 @@ pub fn error_budget(
         },
     )?;
     let configurations = total.count;
-    let (sources, combined, gains) = total.position.finish(&start.position, around, configurations);
-    let (turned, turns, turn_gains) = total.orientation.finish(&start.orientation, about, configurations);
+    let (sources, combined, gains, least_likely) =
+        total.position.finish(&start.position, around, configurations);
+    let (turned, turns, turn_gains, turn_least_likely) =
+        total.orientation.finish(&start.orientation, about, configurations);
     Ok(Budget {
         sources,
         combined,
         gains,
         orientation: OrientationErrors { sources: turned, combined: turns, gains: turn_gains },
+        least_likely: [least_likely, turn_least_likely],
         compensation: total.compensation,
         configurations,
         unreachable: unreachables,

@@ -4,6 +4,7 @@ use super::cloud::{self, Cloud};
 use super::combined::{self, Gathered};
 use super::enclosing_sphere::{Enclosing, Shell};
 use super::gains::{self, Gains};
+use super::least_likely::{self, LeastLikely};
 use super::source_errors::{self, Tally};
 use super::sums::Sums;
 use super::{Combined, Ellipsoid, SourceErrors, covariance};
@@ -38,7 +39,12 @@ impl Scattered {
     }
 
     /// What every chunk begins with, and the spheres that grow.
-    pub(super) fn finish(self, classes: &[Class], home: &[[f64; 6]]) -> (Beginning, Spheres) {
+    pub(super) fn finish(
+        self,
+        classes: &[Class],
+        home: &[[f64; 6]],
+        tolerance: Option<f64>,
+    ) -> (Beginning, Spheres) {
         let Self { measurand, points, alone, ellipsoid } = self;
         // A little less, for the sweep to find where it is.
         let mut ellipsoid = Ellipsoid { principal: ellipsoid.principal, ..Ellipsoid::default() };
@@ -47,6 +53,7 @@ impl Scattered {
         let spheres = Spheres { all: enclosing(points), alone: alone.into_iter().map(enclosing).collect() };
         let beginning = Beginning {
             measurand,
+            tolerance,
             classes: classes.to_vec(),
             home: home.iter().map(|error| measurand.rows(error)).collect(),
             ellipsoid,
@@ -66,6 +73,7 @@ pub(super) struct Spheres {
 /// What every chunk begins with.
 pub(super) struct Beginning {
     measurand: Measurand,
+    tolerance: Option<f64>,
     classes: Vec<Class>,
     home: Vec<[f64; 3]>,
     ellipsoid: Ellipsoid,
@@ -79,6 +87,7 @@ pub(super) struct Gathering {
     clouds: Vec<Cloud>,
     gathered: Gathered,
     gains: Gains,
+    least_likely: LeastLikely,
 }
 
 impl Gathering {
@@ -89,6 +98,7 @@ impl Gathering {
             clouds: Vec::new(),
             gathered: Gathered::new(Ellipsoid::default()),
             gains: Gains::new(sources),
+            least_likely: LeastLikely::default(),
         }
     }
 
@@ -102,15 +112,17 @@ impl Gathering {
         }
         self.gathered.merge(&other.gathered, &mut spheres.all);
         self.gains.merge(&other.gains);
+        self.least_likely.merge(&other.least_likely);
     }
 
-    /// The figures of so many configurations: of every source, of all together, and the gains.
+    /// The figures of so many configurations: of every source, of all together, the gains, and where a tolerance is least
+    /// likely met.
     pub(super) fn finish(
         self,
         beginning: &Beginning,
         spheres: Spheres,
         count: usize,
-    ) -> (Vec<SourceErrors>, Combined, Vec<f64>) {
+    ) -> (Vec<SourceErrors>, Combined, Vec<f64>, Vec<usize>) {
         let sources = self.tallies.into_iter().zip(spheres.alone).enumerate();
         let sources = sources.map(|(i, (tally, sphere))| {
             let (class, home) = (beginning.classes[i], beginning.home[i]);
@@ -119,7 +131,7 @@ impl Gathering {
         let sources = sources.collect();
         let combined = self.gathered.finish(count, spheres.all);
         let gains = self.gains.gains(combined.radius.value);
-        (sources, combined, gains)
+        (sources, combined, gains, self.least_likely.finish())
     }
 }
 
@@ -130,13 +142,14 @@ pub(super) struct Lane<R: Register> {
     clouds: Vec<Option<cloud::Lane<R>>>,
     all: combined::Lane<R>,
     shrunk: gains::Lane<R>,
+    least_likely: Option<least_likely::Lane>,
     /// The norm of each source in the tile that was added last.
     pub(super) norm_of: Vec<Lanes<R>>,
 }
 
 impl<R: Register> Lane<R> {
     pub(super) fn new(beginning: &Beginning) -> Self {
-        let Beginning { measurand, classes, home, ellipsoid, shell, shells } = beginning;
+        let Beginning { measurand, tolerance, classes, home, ellipsoid, shell, shells } = beginning;
         let singles = classes.iter().zip(home).map(|(class, home)| source_errors::Lane::new(*class, *home));
         let repeatable = |class: &Class| *class == Class::Repeatable;
         let clouds = classes.iter().zip(shells);
@@ -148,6 +161,7 @@ impl<R: Register> Lane<R> {
                 .collect(),
             all: combined::Lane::new(*ellipsoid, *shell),
             shrunk: gains::Lane::new(classes.len()),
+            least_likely: tolerance.map(least_likely::Lane::new),
             norm_of: vec![Lanes::constant(0.0); classes.len()],
         }
     }
@@ -176,7 +190,10 @@ impl<R: Register> Lane<R> {
         // Without sources there are no rows.
         let rows = rows.get(self.measurand.first()..).unwrap_or_default();
         let sums = Sums::new(classes, rows, &mut self.norm_of, place, weight);
-        self.all.add(&sums, index);
+        self.all.add(&sums, &index);
+        if let Some(least_likely) = &mut self.least_likely {
+            least_likely.add(&sums, index);
+        }
         self.shrunk.add(classes, rows, &self.norm_of, &sums);
         sums
     }
@@ -188,6 +205,7 @@ impl<R: Register> Lane<R> {
             clouds: clouds.collect(),
             gathered: self.all.finish(index),
             gains: self.shrunk.finish(),
+            least_likely: self.least_likely.map(least_likely::Lane::finish).unwrap_or_default(),
         }
     }
 }

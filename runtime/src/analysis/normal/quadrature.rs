@@ -1,4 +1,4 @@
-//! Integrals of smooth functions.
+//! Integrals and roots of smooth functions.
 
 /// The nodes of Gauss and Kronrod with 7 and 15 points on [−1, 1] that are not negative, with the weights of both; those
 /// of Gauss are 0 where it has no node.
@@ -40,6 +40,30 @@ fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, error: f64, depth: usize
         return fine * half;
     }
     adaptive(f, from, middle, error, depth - 1) + adaptive(f, middle, to, error, depth - 1)
+}
+
+/// The root of an increasing function between two ends: chords (Illinois), until the bracket is closed.
+pub(super) fn root(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let (mut below, mut above) = (value(low), value(high));
+    let mut side = 0;
+    while high - low > 1e-14 * high {
+        let chord = (low * above - high * below) / (above - below);
+        let middle = if low < chord && chord < high { chord } else { (low + high) / 2.0 };
+        let here = value(middle);
+        if here.abs() < 1e-12 || middle <= low || middle >= high {
+            return middle;
+        }
+        if here < 0.0 {
+            (low, below) = (middle, here);
+            above = if side == -1 { above / 2.0 } else { above };
+            side = -1;
+        } else {
+            (high, above) = (middle, here);
+            below = if side == 1 { below / 2.0 } else { below };
+            side = 1;
+        }
+    }
+    (low + high) / 2.0
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use core::f64::consts::{PI, SQRT_2};
 use rand::RngExt;
 use rand_distr::StandardNormal;
 
-use super::{NormalVector, PROBABILITY_ERROR};
+use super::{NormalVector, PROBABILITY_ERROR, StudentVector};
 use crate::analysis::sampling::stream;
 
 fn vector(mean: [f64; 3], [x, y, z]: [f64; 3]) -> NormalVector {
@@ -176,5 +176,85 @@ fn ten_million_draws() {
         });
         let share = inside.count() as f64 / 1e7;
         assert!((share - 0.95).abs() < 4.0 * (0.95 * 0.05 / 1e7_f64).sqrt(), "rank {rank}: {share}");
+    }
+}
+
+/// Student's t in closed form: a line with one and two degrees of freedom, a round plane with any
+/// (`P(‖T‖ ≤ r) = 1 − (1 + r²/ν)^(−ν/2)`), and known quantiles; with many it is the normal one to first order in 1/ν.
+#[test]
+fn student_in_closed_form() {
+    let student = |variances: [f64; 3], nu: f64| {
+        let [x, y, z] = variances;
+        StudentVector::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], nu)
+    };
+    for r in [1e-3, 0.2, 1.0, 3.0, 12.0, 400.0] {
+        let line = [student([1.0, 0.0, 0.0], 1.0), student([1.0, 0.0, 0.0], 2.0)].map(|line| line.within(r));
+        let exact = [2.0 / PI * r.atan(), r / (2.0 + r * r).sqrt()];
+        for (found, exact) in line.into_iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-9, "{r}: {found} {exact}");
+        }
+        for nu in [0.7, 1.0, 2.5, 9.0, 40.0, 1000.0, 9e4] {
+            let found = student([0.0, 4.0, 4.0], nu).within(2.0 * r);
+            let exact = -(-0.5 * nu * (r * r / nu).ln_1p()).exp_m1();
+            assert!((found - exact).abs() < 1e-9, "{nu} {r}: {found} {exact}");
+        }
+    }
+    for (nu, t) in [(1.0, 12.706_204_736), (3.0, 3.182_446_305), (9.0, 2.262_157_163), (30.0, 2.042_272_456)]
+    {
+        let found = student([0.0, 0.25, 0.0], nu).quantile(0.95);
+        assert!((2.0 * found / t - 1.0).abs() < 1e-9, "{nu}: {found}");
+    }
+    // 3 F(3, ν).
+    for (nu, f) in [(5.0, 5.409_451_318), (20.0, 3.098_391_224)] {
+        let found = student([1.0; 3], nu).quantile(0.95);
+        assert!((found * found / 3.0 / f - 1.0).abs() < 1e-8, "{nu}: {}", found * found / 3.0);
+    }
+    // t ≈ z (1 + (z² + 1)/(4ν)).
+    let z = 1.959_963_984_540_054_f64;
+    for nu in [9.9e4, 1.01e5, 1e7, 1e12] {
+        let found = student([1.0, 0.0, 0.0], nu).quantile(0.95);
+        assert!((found - z * (1.0 + (z * z + 1.0) / 4.0 / nu)).abs() < 1e-8, "{nu}: {found}");
+    }
+}
+
+/// Of several shapes: against draws, within four standard errors.
+#[test]
+fn student_vectors_against_draws() {
+    let mut random = stream(21, 0);
+    for (variances, nu) in [([1.0, 0.3, 0.0], 3.0), ([1.0, 0.5, 0.1], 6.0), ([1.0, 1e-3, 1e-9], 2.0)] {
+        let [x, y, z] = variances;
+        let vector = StudentVector::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], nu);
+        let q = vector.quantile(0.95);
+        assert!((vector.within(q) - 0.95).abs() < 1e-9);
+        let common = rand_distr::ChiSquared::new(nu).unwrap();
+        let count = 400_000;
+        let inside = (0..count).filter(|_| {
+            let square: f64 =
+                variances.iter().map(|v| v * random.sample::<f64, _>(StandardNormal).powi(2)).sum();
+            square <= q * q * random.sample(common) / nu
+        });
+        let share = inside.count() as f64 / f64::from(count);
+        assert!(
+            (share - 0.95).abs() < 4.0 * (0.95 * 0.05 / f64::from(count)).sqrt(),
+            "{variances:?}: {share}"
+        );
+    }
+}
+
+/// With three degrees of freedom or more no shape has a larger quantile than a line of the same trace.
+#[test]
+fn a_line_has_the_largest_quantile() {
+    let mut random = stream(22, 0);
+    for nu in [3.0, 4.0, 8.0, 50.0, f64::INFINITY] {
+        let quantile = |[x, y, z]: [f64; 3]| {
+            StudentVector::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], nu).quantile(0.95)
+        };
+        let line = quantile([1.0, 0.0, 0.0]);
+        for _ in 0..12 {
+            let any = [0; 3].map(|_| random.random::<f64>().powi(3));
+            let trace: f64 = any.iter().sum();
+            assert!(quantile(any.map(|v| v / trace)) <= line * (1.0 + 1e-9), "{nu} {any:?}");
+        }
+        assert!(quantile([0.5, 0.5, 0.0]) < line && quantile([1.0 / 3.0; 3]) < line);
     }
 }

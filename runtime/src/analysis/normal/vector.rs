@@ -3,7 +3,7 @@
 use core::f64::consts::{SQRT_2, TAU};
 
 use super::principal::Principal;
-use super::quadrature::integral;
+use super::quadrature::{integral, root};
 
 /// How far a probability of [`NormalVector::within`] may be off, as long as the mean is no more than 10⁴ times the
 /// largest standard deviation.
@@ -65,28 +65,7 @@ impl NormalVector {
         if deviation == 0.0 {
             return mean;
         }
-        // The root of an increasing function: chords (Illinois), until the bracket is closed.
-        let [mut low, mut high] = [0.0, mean + TAIL * deviation];
-        let [mut below, mut above] = [-probability, 1.0 - probability];
-        let mut side = 0;
-        while high - low > 1e-14 * high {
-            let chord = (low * above - high * below) / (above - below);
-            let middle = if low < chord && chord < high { chord } else { (low + high) / 2.0 };
-            let value = self.within(middle) - probability;
-            if value.abs() < PROBABILITY_ERROR / 1e3 || middle <= low || middle >= high {
-                return middle;
-            }
-            if value < 0.0 {
-                (low, below) = (middle, value);
-                above = if side == -1 { above / 2.0 } else { above };
-                side = -1;
-            } else {
-                (high, above) = (middle, value);
-                below = if side == 1 { below / 2.0 } else { below };
-                side = 1;
-            }
-        }
-        (low + high) / 2.0
+        root(0.0, mean + TAIL * deviation, |radius| self.within(radius) - probability)
     }
 
     /// The part of an axis on which the vector may be, and within a radius.

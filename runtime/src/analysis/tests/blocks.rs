@@ -11,7 +11,7 @@ fn every_number_of_threads_gives_the_same_to_the_last_bit() {
         pool.install(|| {
             let mut rows = Vec::new();
             let mut visit = |row: &Row| rows.push((row.index, row.repeatable, row.random));
-            let budget = error_budget(&OneByOne(Pps), &workspace, None, &mut visit).unwrap();
+            let budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut visit).unwrap();
             let drawn = monte_carlo(&OneByOne(Pps), workspace.home(), 10_000, 5).unwrap();
             (budget, rows, drawn)
         })
@@ -74,7 +74,8 @@ fn what_cannot_be_reached_is_counted_by_reason() {
     configurations.extend(vec![at(0.0, 561.0); 2000]);
     let nowhere = listed(&Pps, configurations.clone()).unwrap();
     let budget =
-        error_budget(&OneByOne(Pps), &nowhere, None, &mut |_: &Row| panic!("nothing is reached")).unwrap();
+        error_budget(&OneByOne(Pps), &nowhere, Asked::default(), &mut |_: &Row| panic!("nothing is reached"))
+            .unwrap();
     assert_eq!((budget.configurations, budget.unreachable.count), (0, 3500));
     assert_eq!(budget.unreachable.first.len(), 1000);
     let kinds = budget.unreachable.reasons.iter().map(|(reason, count)| match reason {
@@ -87,7 +88,8 @@ fn what_cannot_be_reached_is_counted_by_reason() {
     let somewhere = listed(&Pps, configurations).unwrap();
     let mut visited = Vec::new();
     let budget =
-        error_budget(&OneByOne(Pps), &somewhere, None, &mut |row: &Row| visited.push(row.index)).unwrap();
+        error_budget(&OneByOne(Pps), &somewhere, Asked::default(), &mut |row: &Row| visited.push(row.index))
+            .unwrap();
     assert_eq!((budget.configurations, visited), (1, vec![3500]));
     assert_eq!(budget.sources[0].worst, Some(3500));
     // One point: its errors are all there is, and the smallest sphere around them is a point.

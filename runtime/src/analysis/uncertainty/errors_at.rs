@@ -1,5 +1,10 @@
 //! What every source does at one configuration.
 
+use rand::{Rng, RngExt};
+use rand_distr::StudentT;
+
+use super::compliance::is_normal;
+use crate::analysis::sampling::draw;
 use crate::analysis::sweep::{Sweepable, sweep};
 use crate::analysis::workspace::One;
 use crate::analysis::{Configuration, Measurand, Unevaluated};
@@ -43,13 +48,23 @@ impl ErrorsAt<'_> {
         sum
     }
 
+    /// Whether the error is a normal vector: all random sources are normal, with standard deviations that are known.
+    pub fn is_normal(&self, measurand: Measurand) -> bool {
+        is_normal(&self.random(measurand))
+    }
+
     /// The random sources that do something.
     pub(super) fn random(&self, measurand: Measurand) -> Vec<RandomError> {
         let sources = self.description.sources.iter().zip(&self.sources).enumerate();
-        let random = sources.filter_map(|(source, (Source { class, .. }, bound))| {
+        let random = sources.filter_map(|(source, (Source { class, degrees_of_freedom, .. }, bound))| {
             let Class::Random(distribution) = *class else { return None };
             let magnitude = measurand.rows(bound).map(|b| b / distribution.bound());
-            (magnitude != [0.0; 3]).then_some(RandomError { source, distribution, magnitude })
+            (magnitude != [0.0; 3]).then_some(RandomError {
+                source,
+                distribution,
+                degrees_of_freedom: *degrees_of_freedom,
+                magnitude,
+            })
         });
         random.collect()
     }
@@ -60,11 +75,26 @@ impl ErrorsAt<'_> {
 pub(super) struct RandomError {
     pub(super) source: usize,
     pub(super) distribution: Distribution,
+    /// Of its standard deviation, infinite if that is known.
+    pub(super) degrees_of_freedom: f64,
     /// ΔX where its error is its magnitude; the three rows go together.
     pub(super) magnitude: [f64; 3],
 }
 
 impl RandomError {
+    /// Whether its standard deviation was estimated from few measurements.
+    pub(super) fn is_estimated(&self) -> bool {
+        self.degrees_of_freedom.is_finite()
+    }
+
+    /// Draws its size. An error whose standard deviation was estimated is drawn after Student's t (JCGM 101, 6.4.9).
+    pub(super) fn draw(&self, random: &mut impl Rng) -> f64 {
+        match StudentT::new(self.degrees_of_freedom) {
+            Ok(student) if self.is_estimated() => random.sample(student),
+            _ => draw(self.distribution, random),
+        }
+    }
+
     /// The standard uncertainties along the rows, with the sign of ΔX.
     pub(super) fn standard(&self) -> [f64; 3] {
         self.magnitude.map(|a| a / self.distribution.divisor())

@@ -6,6 +6,6 @@ mod statement;
 #[cfg(test)]
 mod tests;
 
-pub use compliance::{Compliance, DRAWS, compliance};
+pub use compliance::{Compliance, DRAWS, compliance, normal_compliance};
 pub use errors_at::{ErrorsAt, errors_at};
-pub use statement::{COVERAGE, Contribution, Statement};
+pub use statement::{COVERAGE, Contribution, Statement, student_95};

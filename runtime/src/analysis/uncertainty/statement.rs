@@ -3,13 +3,64 @@
 use super::compliance::{Compliance, within};
 use super::errors_at::{ErrorsAt, RandomError, covariance};
 use crate::analysis::Measurand;
-use crate::analysis::normal::NormalVector;
+use crate::analysis::normal::{Principal, StudentVector};
 use crate::{Component, Distribution};
 
 /// The coverage probability of an expanded uncertainty.
 pub const COVERAGE: f64 = 0.95;
 /// `Φ⁻¹((1 + 0.95)/2)`.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// The half-width of 95 % of Student's t.
+pub fn student_95(degrees_of_freedom: f64) -> f64 {
+    match degrees_of_freedom {
+        f64::INFINITY => NORMAL_95,
+        few => StudentVector::new([[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]], few).quantile(COVERAGE),
+    }
+}
+
+/// Welch (1947) and Satterthwaite (1946): a sum of squares `Σ v_k`, each with ν_k degrees of freedom, varies as one with
+/// `1/ν = Σ (v_k/Σv)²/ν_k` does.
+fn welch_satterthwaite(squares: &[(f64, f64)]) -> f64 {
+    let sum: f64 = squares.iter().map(|(square, _)| square).sum();
+    combined(squares.iter().map(|(square, degrees)| ((square / sum).powi(2), *degrees)))
+}
+
+/// The harmonic mean of the degrees of freedom, by shares of the sum: never more than what [`welch_satterthwaite`] gives, and more
+/// cautious where a source with few of them is a large share. Shares are estimated, too: where that source happens to look
+/// small the formula hardly counts its few degrees of freedom.
+fn cautious(squares: &[(f64, f64)]) -> f64 {
+    let sum: f64 = squares.iter().map(|(square, _)| square).sum();
+    combined(squares.iter().map(|(square, degrees)| (square / sum, *degrees)))
+}
+
+/// `1 / Σ w_k/ν_k`.
+fn combined(weights: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let inverse: f64 =
+        weights.filter(|(_, degrees)| degrees.is_finite()).map(|(weight, degrees)| weight / degrees).sum();
+    if inverse > 0.0 { 1.0 / inverse } else { f64::INFINITY }
+}
+
+/// Of the rows, and of the norm. How much U² of the norm changes with a variance λ_i along a principal axis is, to a good
+/// approximation, in proportion to `1 + (1.960² − 1) λ_i/λ_1`: exactly where all λ_i are equal, and where there is one only.
+pub(super) fn degrees_of_freedom(random: &[RandomError], covariance: [[f64; 3]; 3]) -> [f64; 4] {
+    let principal = Principal::new(covariance);
+    let [longest, ..] = principal.deviations;
+    let weights = principal.deviations.map(|deviation| match longest {
+        0.0 => 0.0,
+        _ => 1.0 + (NORMAL_95 * NORMAL_95 - 1.0) * (deviation / longest).powi(2),
+    });
+    let row = |i: usize| {
+        let squares = random.iter().map(|one| (one.standard()[i].powi(2), one.degrees_of_freedom));
+        welch_satterthwaite(&squares.collect::<Vec<_>>())
+    };
+    let norm = random.iter().map(|one| {
+        let along = principal.components(one.standard());
+        let square = along.iter().zip(weights).map(|(u, weight)| weight * u * u).sum::<f64>();
+        (square, one.degrees_of_freedom)
+    });
+    [row(0), row(1), row(2), cautious(&norm.collect::<Vec<_>>())]
+}
 
 /// What one random source contributes. Figures are of the three rows and of their norm.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +76,8 @@ pub struct Contribution {
     pub sensitivity: [f64; 4],
     /// Standard uncertainties: sensitivity × value / divisor.
     pub standard: [f64; 4],
+    /// Of its standard uncertainty: infinite if that is known.
+    pub degrees_of_freedom: f64,
     /// Its share of the variance `u_x² + u_y² + u_z²`.
     pub share: f64,
 }
@@ -43,11 +96,15 @@ pub struct Statement {
     pub bias: [f64; 4],
     /// Combined standard uncertainties u: root sums of squares; of the norm `√(u_x² + u_y² + u_z²)`.
     pub standard: [f64; 4],
-    /// k of the rows is 1.960; that of the norm is the 95 % quantile of the norm of a normal vector with this covariance, over u:
-    /// 1.960 on a line, 1.731 of a round plane error, 1.614 of a round one in space.
+    /// Effective degrees of freedom ν: of the rows by Welch and Satterthwaite (GUM, G.4.1), not rounded; of the norm the
+    /// harmonic mean by shares, a little fewer than that. Infinite if all standard uncertainties are known.
+    pub degrees_of_freedom: [f64; 4],
+    /// k of the rows is the 95 % quantile of Student's t with ν degrees of freedom, 1.960 if they are infinite; that of the
+    /// norm is the 95 % quantile of the norm of a [`StudentVector`] with this covariance, over u: with infinite degrees of
+    /// freedom 1.960 on a line, 1.731 of a round plane error, 1.614 of a round one in space.
     pub coverage_factors: [f64; 4],
-    /// The share of the errors whose norm is within U, about the bias: [`COVERAGE`] if all sources are normal, otherwise
-    /// drawn as they are distributed (JCGM 101).
+    /// The share of the errors whose norm is within U, about the bias: [`COVERAGE`] if all sources are normal with known
+    /// standard deviations, otherwise drawn as they are distributed (JCGM 101; estimated ones after Student's t, 6.4.9).
     pub coverage: Compliance,
 }
 
@@ -56,9 +113,10 @@ impl Statement {
     pub fn new(errors: &ErrorsAt, measurand: Measurand, seed: u64) -> Self {
         let random = errors.random(measurand);
         let matrix = covariance(&random);
-        let rows = [0, 1, 2].map(|i| matrix[i][i].sqrt());
-        let standard = with_norm(rows);
-        let quantile = NormalVector::new([0.0; 3], matrix).quantile(COVERAGE);
+        let standard = with_norm([0, 1, 2].map(|i| matrix[i][i].sqrt()));
+        let degrees_of_freedom = degrees_of_freedom(&random, matrix);
+        let [x, y, z, norm] = degrees_of_freedom;
+        let quantile = StudentVector::new(matrix, norm).quantile(COVERAGE);
         let factor = if standard[3] > 0.0 { quantile / standard[3] } else { NORMAL_95 };
         let mut contributions =
             random.iter().map(|one| contribution(errors, one, standard[3])).collect::<Vec<_>>();
@@ -68,7 +126,8 @@ impl Statement {
             contributions,
             bias: with_norm(errors.bias(measurand)),
             standard,
-            coverage_factors: [NORMAL_95, NORMAL_95, NORMAL_95, factor],
+            degrees_of_freedom,
+            coverage_factors: [student_95(x), student_95(y), student_95(z), factor],
             coverage: within([0.0; 3], &random, quantile, seed),
         }
     }
@@ -94,6 +153,7 @@ fn contribution(errors: &ErrorsAt, one: &RandomError, all: f64) -> Contribution 
         value,
         sensitivity: with_norm(one.magnitude.map(|a| a.abs() / unit)),
         standard,
+        degrees_of_freedom: one.degrees_of_freedom,
         share: (standard[3] / all).powi(2),
     }
 }

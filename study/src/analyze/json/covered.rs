@@ -29,6 +29,8 @@ struct One {
     /// None if a random source is not bounded.
     largest: Option<f64>,
     at: Named,
+    /// At how many configurations the probability was evaluated; this is the least.
+    configurations: usize,
 }
 
 #[derive(Serialize)]
@@ -47,13 +49,13 @@ impl From<Compliance> for Share {
 pub(super) fn verdict(report: &Report) -> Option<Judgement> {
     let one = |measurand: Measurand| {
         let judged: &Judged = report.judged.iter().find(|judged| judged.measurand == measurand)?;
-        let at = report.budget.errors(measurand).1.radius.configuration;
         Some(One {
             verdict: judged.verdict,
             tolerance: judged.tolerance,
             compliance: judged.compliance.into(),
             largest: judged.largest,
-            at: report.variables(report.configuration(at)),
+            at: report.variables(report.configuration(judged.configuration)),
+            configurations: judged.configurations,
         })
     };
     Some(Judgement {
@@ -72,6 +74,8 @@ pub(super) struct Uncertainty<'a> {
     sources: Vec<Contribution<'a>>,
     bias: [f64; 4],
     standard_uncertainty: [f64; 4],
+    /// None where they are infinite.
+    effective_degrees_of_freedom: [Option<f64>; 4],
     coverage_probability: f64,
     coverage_factor: [f64; 4],
     expanded_uncertainty: [f64; 4],
@@ -88,11 +92,14 @@ struct Contribution<'a> {
     divisor: f64,
     sensitivity: [f64; 4],
     standard_uncertainty: [f64; 4],
+    /// None if they are infinite.
+    degrees_of_freedom: Option<f64>,
     share: f64,
 }
 
 pub(super) fn uncertainty<'a>(report: &'a Report, stated: &'a Stated) -> Uncertainty<'a> {
-    let Statement { contributions, bias, standard, coverage_factors, coverage, .. } = &stated.statement;
+    let Statement { contributions, bias, standard, degrees_of_freedom, coverage_factors, coverage, .. } =
+        &stated.statement;
     let configuration = report.configuration(stated.configuration);
     let sources = contributions.iter().map(|one| {
         let source = SourceValue::new(report, one);
@@ -103,6 +110,7 @@ pub(super) fn uncertainty<'a>(report: &'a Report, stated: &'a Stated) -> Uncerta
             divisor: one.distribution.divisor(),
             sensitivity: source.sensitivity(one),
             standard_uncertainty: one.standard,
+            degrees_of_freedom: finite(one.degrees_of_freedom),
             share: one.share,
         }
     });
@@ -112,9 +120,14 @@ pub(super) fn uncertainty<'a>(report: &'a Report, stated: &'a Stated) -> Uncerta
         sources: sources.collect(),
         bias: bias.map(|value| value + 0.0),
         standard_uncertainty: *standard,
+        effective_degrees_of_freedom: degrees_of_freedom.map(finite),
         coverage_probability: COVERAGE,
         coverage_factor: *coverage_factors,
         expanded_uncertainty: stated.statement.expanded(),
         coverage: (*coverage).into(),
     }
+}
+
+fn finite(degrees_of_freedom: f64) -> Option<f64> {
+    degrees_of_freedom.is_finite().then_some(degrees_of_freedom)
 }
