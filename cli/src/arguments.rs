@@ -239,12 +239,20 @@ pub(crate) struct Plan {
     /// Sets of configurations: a plan file (TOML), or the name of a shipped one
     #[arg(long, value_name = "FILE", conflicts_with = "optimal")]
     pub(crate) sets: Option<PathBuf>,
-    /// The N configurations that tell most, D-optimal
+    /// The N configurations that tell most
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=5000))]
     pub(crate) optimal: Option<u16>,
+    /// What is best: the smallest mean variance of the tool point where the machine is used, or the largest determinant of
+    /// the information
+    #[arg(long, value_enum, default_value_t = Criterion::V)]
+    pub(crate) criterion: Criterion,
     /// From how many samples within the limits these are chosen
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u16).range(1..=20000))]
-    pub(crate) candidates: u16,
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1_000_000))]
+    pub(crate) candidates: usize,
+    /// What the identified model leaves of the tool point by itself, beside the instrument's noise: the root mean square of its
+    /// distance in an earlier fit
+    #[arg(long, value_name = "LENGTH", default_value = "0mm", allow_hyphen_values = true)]
+    pub(crate) model_error: String,
     /// Where the machine is to be used: the workspace of this study. If not given, that of the study shipped with the
     /// manipulator, or else joint samples
     #[arg(long, value_name = "FILE")]
@@ -301,6 +309,14 @@ pub(crate) enum Terms {
     Load,
     /// Turns in proportion to the moment of weights
     Elastic,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Criterion {
+    /// V-optimal: the tool point is known best where it is used
+    V,
+    /// D-optimal
+    D,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -8,13 +8,17 @@
 //!
 //! What is left after [`ITERATIONS`], on the exact chain, as the tests hold it: less than 0.001 mm and 1 µrad within the
 //! limits, for errors of millimetres and milliradians, where that singular value is above 0.1; of the paper's positioner
-//! over its treatment volume, 5.4 mm become less than 10⁻⁵ mm, and a turn is left only where a joint is at its limit. Nothing is
-//! allocated.
+//! over its treatment volume, 5.4 mm become less than 10⁻⁵ mm, and a turn is left only where a joint is at its limit. The cost is
+//! fixed, and nothing is allocated; at limits and near singularities more steps may be needed, and [`Compensated::converged`]
+//! says so.
 
 use crate::{Description, Error, Orientation, Pose, Scalar, Variable, VariableKind, deviation};
 
 /// How many times the real chain is improved on; it is evaluated once more to know what is left.
 pub const ITERATIONS: usize = 6;
+
+/// A step below this is rest, in rad and metres.
+pub const REST: f64 = 1e-7;
 
 /// λ, in rad and metres: `√λ ‖d‖` bounds what it leaves, a nanometre where the correction is a millimetre.
 const DAMPING: f64 = 1e-14;
@@ -33,6 +37,9 @@ pub struct Compensated<Q> {
     pub before: [f64; 6],
     /// ΔX at `q`.
     pub after: [f64; 6],
+    /// Whether the steps came to rest: the last one moved no variable by more than [`REST`]. If not, more of them were needed
+    /// than there are.
+    pub converged: bool,
 }
 
 /// The norms of the position and of the rotation of a ΔX: in the manipulator's length unit, and in rad.
@@ -48,7 +55,8 @@ pub fn norms(rows: &[f64; 6]) -> (f64, f64) {
 /// `ITERATIONS + 1` times. The best configuration that was seen is returned: it is never worse than `start`, if that
 /// is within the limits. Where not all can be had the tool point comes first (1 rad counts as 1 mm). Whether the
 /// target is reached is what [`Compensated::after`] says: it is not where a limit, too few joints, or a singularity
-/// forbid it. An error is what `step` returns as such.
+/// forbid it, or where more steps were needed, which [`Compensated::converged`] says; `abbe::analysis::compensated` takes as
+/// many as it needs. An error is what `step` returns as such.
 pub fn compensate<Q, C>(
     description: &Description,
     target: &Pose,
@@ -65,20 +73,22 @@ where
     let error = |real: &Pose| deviation(Orientation::RotationVector, target, real);
 
     let before = error(&step(start, &mut columns)?);
-    let mut best = Compensated { q: start.clone(), before, after: before };
+    let mut best = Compensated { q: start.clone(), before, after: before, converged: false };
     let cost = |after: &[f64; 6]| problem.weighted(*after).iter().map(|v| v * v).sum::<f64>();
     let mut least = if problem.within(start.as_ref()) { cost(&before) } else { f64::INFINITY };
 
-    let (mut q, mut after) = (start.clone(), before);
+    let (mut q, mut after, mut moved) = (start.clone(), before, 0.0);
     for _ in 0..ITERATIONS {
+        let from = q.clone();
         problem.depart(start.as_ref(), q.as_mut(), columns.as_mut(), &after);
+        moved = problem.largest_step(from.as_ref(), q.as_ref());
         after = error(&step(&q, &mut columns)?);
         if cost(&after) < least {
             least = cost(&after);
-            best = Compensated { q: q.clone(), before, after };
+            best = Compensated { q: q.clone(), before, after, converged: false };
         }
     }
-    Ok(best)
+    Ok(Compensated { converged: moved <= REST, ..best })
 }
 
 /// What lengths and angles count: all in metres and rad.
@@ -100,6 +110,12 @@ impl Problem<'_> {
             VariableKind::Revolute => 1.0,
             VariableKind::Prismatic => self.metre,
         }
+    }
+
+    /// In metres and rad.
+    fn largest_step(&self, from: &[f64], to: &[f64]) -> f64 {
+        let steps = from.iter().zip(to).enumerate();
+        steps.map(|(j, (from, to))| Scalar::abs(to - from) / self.unit(j)).fold(0.0, f64::max)
     }
 
     fn within(&self, q: &[f64]) -> bool {

@@ -5,8 +5,11 @@ use std::path::Path;
 use abbe::{Class, Description, VariableKind};
 
 use crate::table::{Table, wrapped};
-use abbe_study::compensate::{Report, Size};
+use abbe_study::compensate::{Report, Row, Size};
 use abbe_study::number::{digits, error_decimals, fixed, length, short};
+
+/// Corrections of a joint by more degrees than this are pointed at.
+const FAR: f64 = 10.0;
 
 /// How many rows are shown one by one.
 const SHOWN: usize = 20;
@@ -16,7 +19,7 @@ pub(super) fn text(description: &Description, report: &Report, out: Option<&Path
     for line in report.file.lines() {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
     }
-    let few = description.variables.len() < 6;
+    let few = report.mobility < 6;
     parts.push(format!(
         "Distance of the tool point from where it should be, {}, and largest turn, mrad\n{}",
         report.length,
@@ -24,8 +27,10 @@ pub(super) fn text(description: &Description, report: &Report, out: Option<&Path
     ));
     if few {
         let sentence = format!(
-            "{} joints cannot correct a whole pose: the tool point comes first, then as much of the turn as is possible.",
-            description.variables.len()
+            "{} joints that move the tool in {} ways cannot correct a whole pose, which takes six: the tool point comes first, \
+             then as much of the turn as is possible.",
+            description.variables.len(),
+            report.mobility
         );
         parts.push(wrapped(&sentence, 0) + "\n");
     }
@@ -73,7 +78,7 @@ fn commands(description: &Description, report: &Report) -> String {
 
 /// What is done, and what is not and why.
 fn done(description: &Description, report: &Report, out: Option<&Path>) -> String {
-    let turn = match description.variables.len() {
+    let turn = match report.mobility {
         0..6 => String::new(),
         _ => format!(" and {} rad", short(report.tolerance * description.length.in_metres())),
     };
@@ -91,6 +96,17 @@ fn done(description: &Description, report: &Report, out: Option<&Path>) -> Strin
     }
     if failed.len() > SHOWN {
         text += &format!("  … and {} more\n", failed.len() - SHOWN);
+    }
+    let far: Vec<&Row> = report.rows.iter().filter(|row| row.largest_turn > FAR.to_radians()).collect();
+    if let Some(most) = far.iter().max_by(|a, b| a.largest_turn.total_cmp(&b.largest_turn)) {
+        let sentence = format!(
+            "In {} rows a joint turns by more than {FAR}° from its command (line {}: by {:.0}°): look at them before they are \
+             sent.",
+            far.len(),
+            most.line,
+            most.largest_turn.to_degrees()
+        );
+        text += &(wrapped(&sentence, 0) + "\n");
     }
     if let Some(file) = out {
         text += &format!("{}: {} rows\n", file.display(), report.rows.len());

@@ -2,16 +2,18 @@
 
 use std::path::Path;
 
+use abbe::identify::Criterion;
 use abbe_codegen::spec::Spec;
 use abbe_study::data::Map;
 use abbe_study::number::{digits, short};
-use abbe_study::plan::{Choice, Input, Plan, Report, Sets};
+use abbe_study::plan::{Choice, Input, Plan, Report, Sets, Unseen};
 use abbe_study::{Machine, Study};
 
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::alike_table;
+use crate::number::length;
 use crate::output::{Outcome, json, write};
 use crate::table::wrapped;
 
@@ -22,12 +24,17 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
     let choice = match &arguments.sets {
         Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
         None => Choice::Optimal {
+            criterion: match arguments.criterion {
+                arguments::Criterion::V => Criterion::Variance,
+                arguments::Criterion::D => Criterion::Determinant,
+            },
             count: usize::from(arguments.optimal.unwrap_or(50)),
-            candidates: usize::from(arguments.candidates),
+            candidates: arguments.candidates,
         },
     };
+    let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
     let study = Study::find(arguments.study.as_deref(), &machine)?;
-    let job = Plan { machine, map, choice, study };
+    let job = Plan { machine, map, choice, study, model_error };
     let report = job.run(&mut Console::default())?;
     if let Some(file) = &arguments.out {
         write(file, &report.table(&job.map).csv())?;
@@ -58,8 +65,15 @@ fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
     text += &format!("{}\n", wrapped(&sentence, 0));
     text += &format!("\n{}\n", alike_table(&report.groups));
     let fine = |value: f64| format!("{} {unit}", digits(value, 3));
+    let model = match report.model_error {
+        0.0 => String::new(),
+        error => format!(
+            " and a model that by itself is wrong by {} (root mean square, independent from configuration to configuration)",
+            fine(error)
+        ),
+    };
     let sentence = format!(
-        "With an instrument of {} {unit} the tool point of the identified machine will then have a standard deviation of \
+        "With an instrument of {} {unit}{model} the tool point of the identified machine will then have a standard deviation of \
          {} on average over {} configurations of its use, of {} at most.",
         short(map.uncertainty.length),
         fine(report.predicted.mean),
@@ -67,8 +81,34 @@ fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
         fine(report.predicted.max)
     );
     text += &format!("{}\n", wrapped(&sentence, 0));
+    if report.model_error == 0.0 {
+        let sentence = "This counts the noise of the instrument only; what the model itself cannot say of the machine comes on top \
+             (`--model-error LENGTH`, from an earlier fit).";
+        text += &format!("{}\n", wrapped(sentence, 0));
+    }
+    if !report.unseen.is_empty() {
+        text += &format!("{}\n", wrapped(&unseen(&report.unseen, unit), 0));
+    }
     if let Some(file) = out {
         text += &format!("Written to {}.\n", file.display());
     }
     text
+}
+
+/// How many errors are named.
+const NAMED: usize = 6;
+
+/// What the rows cannot tell.
+fn unseen(unseen: &[Unseen], unit: &str) -> String {
+    let each = unseen.iter().take(NAMED);
+    let each =
+        each.map(|error| format!("{} ({} {unit} for 1 {})", error.name, digits(error.moves, 2), error.per));
+    let more = match unseen.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!(
+        "These rows cannot see all that moves the tool point where the machine is used, and the figures above are without it: {}{more}.",
+        each.collect::<Vec<_>>().join(", ")
+    )
 }

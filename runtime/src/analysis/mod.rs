@@ -3,7 +3,7 @@
 //! | folder | what |
 //! |---|---|
 //! | `workspace` | a [`Workspace`] makes configurations by index: grids and samples of joints, a presented volume, a box, a list |
-//! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool |
+//! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool, [`obstacle()`] says why it does not arrive |
 //! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and shows every [`Row`] in order; nothing is stored |
 //! | `budget` | [`error_budget`]: what every source does alone ([`SourceErrors`]), all together ([`Combined`]), what is left after compensation ([`RemainingErrors`]), what a tolerance allows ([`Admissible`]) |
 //! | `normal` | [`NormalVector`]: how likely is a norm of a normal error, and which is not exceeded with a probability; [`StudentVector`]: of one whose variance is known from few measurements |
@@ -58,7 +58,7 @@ pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiabl
 pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
-pub use reach::{ReachError, Target, compensated, inverse};
+pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
 pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, DRAWS, ErrorsAt, Statement, compliance, errors_at, normal_compliance,

@@ -4,7 +4,7 @@
 //! gives residuals and their exact derivatives on the real chain, equation (6). [`identifiable()`] finds which of
 //! them the data determine and what the others are grouped with, [`groups()`] the same from the joint twists alone;
 //! [`fit()`] solves, [`cross_validate`] tests on data left out, [`select()`] adds richer terms that earn their place.
-//! [`d_optimal`] chooses where to measure, [`simulate()`] measures a machine whose errors are known.
+//! [`optimal`] chooses where to measure, [`simulate()`] measures a machine whose errors are known.
 //!
 //! ```
 //! # use abbe::*;
@@ -73,6 +73,7 @@ mod folds;
 mod gradient;
 mod groups;
 mod identifiable;
+mod information;
 mod linearize;
 mod model;
 mod observation;
@@ -86,6 +87,7 @@ mod simulate;
 mod solver;
 mod station;
 mod statistics;
+mod tool_points;
 mod triangle;
 mod unknown;
 
@@ -93,13 +95,14 @@ mod unknown;
 mod tests;
 
 pub use configurations::Configurations;
-pub use design::{Design, d_optimal, predicted, whole};
+pub use design::{Design, Objective, optimal, whole};
 pub use failure::Failure;
 pub use figures::Figures;
 pub use fit::{Fit, fit};
 pub use folds::{Folds, cross_validate};
 pub use groups::{Group, Reason, groups};
 pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
+pub use information::Criterion;
 pub use model::Model;
 pub use observation::{Measurement, Observation, Uncertainty};
 pub use options::Options;
@@ -111,4 +114,5 @@ pub use select::{Selection, select};
 pub use simulate::{Chance, simulate};
 pub use station::Station;
 pub use statistics::{FTest, Observability, f_test};
+pub use tool_points::ToolPoints;
 pub use unknown::{Role, Unknown};

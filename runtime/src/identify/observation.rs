@@ -27,6 +27,8 @@ pub struct Observation {
     /// Which independent configuration it belongs to: rows with the same number are visits of one, and share the errors
     /// that the machine has there.
     pub configuration: usize,
+    /// From which direction or along which path it was approached, as a number; 0 where nobody says.
+    pub direction: usize,
     /// When it was measured, if that is known; rows are in the order of time otherwise.
     pub time: Option<f64>,
     /// What was measured.
@@ -40,7 +42,17 @@ impl Observation {
     /// A row at the first station, as good as the instrument is stated to be, and a configuration of its own: numbered as
     /// its line.
     pub fn new(line: u64, q: Vec<f64>, u: Vec<f64>, measured: Measurement) -> Self {
-        Self { line, station: 0, q, u, configuration: line as usize, time: None, measured, weight: 1.0 }
+        Self {
+            line,
+            station: 0,
+            q,
+            u,
+            configuration: line as usize,
+            direction: 0,
+            time: None,
+            measured,
+            weight: 1.0,
+        }
     }
 
     /// How many numbers were measured: three for every target that was not hidden, six for a pose, one for a reading.

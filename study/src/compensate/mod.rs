@@ -1,5 +1,6 @@
 //! Joint commands that put the real tool where the ideal one should be.
 
+mod reason;
 mod rows;
 
 use abbe::Pose;
@@ -10,6 +11,7 @@ use serde::Serialize;
 use crate::data::{Base, Data, Map, Summary, Table, Unusable, warn_of_extrapolation};
 use crate::{Machine, Notes, mistake};
 
+use rows::Task;
 pub use rows::{Norms, Row};
 
 /// Which commands compensate the errors of this machine?
@@ -41,6 +43,8 @@ pub struct Report {
     pub before: Size,
     /// … and corrected.
     pub after: Size,
+    /// In how many ways, of six, the machine can move its tool at once.
+    pub mobility: usize,
     /// Row by row.
     pub rows: Vec<Row>,
     /// Rows that cannot be used.
@@ -86,12 +90,14 @@ impl Compensate {
         in_f0(map, &mut data);
         let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         warn_of_extrapolation(&machine.spec, "rows", places, notes);
-        let rows = rows::rows(&*manipulator, &mut data, self.poses, *tolerance)?;
+        let task = Task::new(&*manipulator, self.poses, *tolerance)?;
+        let rows = rows::rows(&task, &mut data, notes)?;
         Ok(Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
             compensated: rows.iter().filter(|row| row.reason.is_none()).count(),
             tolerance: *tolerance,
+            mobility: task.mobility,
             before: Size::new(rows.iter().map(|row| row.before)),
             after: Size::new(rows.iter().map(|row| row.after)),
             file: Summary { rows: rows.len(), ..data.summary() },

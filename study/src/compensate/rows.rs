@@ -1,15 +1,16 @@
 //! Row by row.
 
-use abbe::analysis::{ReachError, Target, compensated, inverse, sampling};
+use abbe::analysis::{ReachError, Target, compensated, inverse, mobility, obstacle, sampling};
 use abbe::compensator::{Compensated, norms};
 use abbe::identify::{Measurement, Observation};
-use abbe::{Description, Error, Manipulator, Variable};
+use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
+use super::reason::reason;
 use crate::data::Data;
-use crate::mistake;
-use crate::number::{Named, length, of_variable};
+use crate::number::{Named, of_variable};
+use crate::{Notes, mistake};
 
 /// The norms of ΔX.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -40,26 +41,59 @@ pub struct Row {
     pub after: Norms,
     /// Why it is not compensated to the tolerance, if so.
     pub reason: Option<String>,
+    /// How far the joint that turns most is turned from the command (with poses: from where the ideal tool is there), rad.
+    pub largest_turn: f64,
     /// What was asked for, with the corrected commands.
     #[serde(skip)]
     pub corrected: Observation,
 }
 
-/// All rows that can be evaluated, for their joints or for the poses that were measured; the others go to the unusable ones.
-pub(super) fn rows(
-    manipulator: &dyn Manipulator,
-    data: &mut Data,
+/// What is asked of every row.
+pub(super) struct Task<'a> {
+    manipulator: &'a dyn Manipulator,
+    description: &'a Description,
+    s: Vec<f64>,
+    /// Whether poses are asked for, not joints.
     poses: bool,
+    /// What may be left, in the length unit.
     tolerance: f64,
-) -> Result<Vec<Row>, Diagnostics> {
-    let description = manipulator.description();
-    let s = sampling::nominal_parameters(description);
+    /// In how many ways the machine can move its tool.
+    pub(super) mobility: usize,
+}
+
+/// A corrected row, and why it does not arrive.
+struct Corrected {
+    found: Compensated<Vec<f64>>,
+    reason: Option<String>,
+    largest_turn: f64,
+}
+
+impl<'a> Task<'a> {
+    pub(super) fn new(
+        manipulator: &'a dyn Manipulator,
+        poses: bool,
+        tolerance: f64,
+    ) -> Result<Self, Diagnostics> {
+        let description = manipulator.description();
+        let s = sampling::nominal_parameters(description);
+        let mobility = mobility(manipulator, &s);
+        let mobility = mobility.map_err(|error| mistake::whole(&description.name, error))?;
+        Ok(Self { manipulator, description, s, poses, tolerance, mobility })
+    }
+}
+
+/// All rows that can be evaluated, for their joints or for the poses that were measured; the others go to the unusable ones.
+pub(super) fn rows(task: &Task<'_>, data: &mut Data, notes: &mut dyn Notes) -> Result<Vec<Row>, Diagnostics> {
+    let description = task.description;
     let mut rows = Vec::new();
-    for asked in std::mem::take(&mut data.observations) {
-        match row(manipulator, description, &s, &asked, poses) {
-            Ok(found) => {
-                let reason = reason(description, &found, tolerance);
-                let Compensated { q, before, after } = found;
+    let observations = std::mem::take(&mut data.observations);
+    let total = observations.len();
+    for (done, asked) in observations.into_iter().enumerate() {
+        notes.progress(done, total);
+        notes.go_on()?;
+        match row(task, &asked) {
+            Ok(Corrected { found, reason, largest_turn }) => {
+                let Compensated { q, before, after, .. } = found;
                 let names = description.variables.iter().map(|variable| variable.name.to_string());
                 rows.push(Row {
                     line: asked.line,
@@ -67,6 +101,7 @@ pub(super) fn rows(
                     before: Norms::new(&before),
                     after: Norms::new(&after),
                     reason,
+                    largest_turn,
                     corrected: Observation { q, ..asked },
                 });
             }
@@ -81,28 +116,39 @@ pub(super) fn rows(
     Ok(rows)
 }
 
-/// A pose is first brought to the ideal tool; with fewer than six joints, its point is.
-fn row(
-    manipulator: &dyn Manipulator,
-    description: &Description,
-    s: &[f64],
-    asked: &Observation,
-    poses: bool,
-) -> Result<Compensated<Vec<f64>>, String> {
+/// A pose is first brought to the ideal tool; of a machine that moves it in fewer than six ways, its point is.
+fn row(task: &Task<'_>, asked: &Observation) -> Result<Corrected, String> {
+    let Task { manipulator, description, ref s, .. } = *task;
     let Observation { q, u, measured, .. } = asked;
-    let evaluation = |error: Error| evaluation(description, &error);
-    let (Measurement::Pose(wanted), true) = (measured, poses) else {
-        within_limits(description, q)?;
-        return compensated(manipulator, None, q, s, u).map_err(evaluation);
+    let (target, start) = match (measured, task.poses) {
+        (Measurement::Pose(wanted), true) => {
+            let all: Vec<usize> = (0..q.len()).collect();
+            let target = match task.mobility {
+                0..6 => Target::Point(wanted.position()),
+                _ => Target::Pose(*wanted),
+            };
+            let ideal = inverse(manipulator, s, q, &all, &target);
+            (Some(wanted), ideal.map_err(|reason| unreached(description, &reason))?)
+        }
+        _ => {
+            within_limits(description, q)?;
+            (None, q.clone())
+        }
     };
-    let all: Vec<usize> = (0..q.len()).collect();
-    let target = match q.len() {
-        0..6 => Target::Point(wanted.position()),
-        _ => Target::Pose(*wanted),
-    };
-    let ideal =
-        inverse(manipulator, s, q, &all, &target).map_err(|reason| unreached(description, &reason))?;
-    compensated(manipulator, Some(wanted), &ideal, s, u).map_err(evaluation)
+    corrected(task, target, &start, u).map_err(|error| evaluation(description, &error))
+}
+
+fn corrected(task: &Task<'_>, target: Option<&Pose>, start: &[f64], u: &[f64]) -> Result<Corrected, Error> {
+    let Task { manipulator, description, s, tolerance, mobility, .. } = task;
+    let found = compensated(*manipulator, target, start, s, u)?;
+    // Of a machine that moves its tool in fewer than six ways the tool point is all that is asked for.
+    let angle = if *mobility < 6 { f64::INFINITY } else { tolerance * description.length.in_metres() };
+    let obstacle = obstacle(*manipulator, target, start, s, u, &found, [*tolerance, angle])?;
+    let variables = description.variables.iter().zip(start.iter().zip(&found.q));
+    let turns = variables.filter(|(variable, _)| variable.kind == VariableKind::Revolute);
+    let largest_turn = turns.map(|(_, (from, to))| (to - from).abs()).fold(0.0, f64::max);
+    let reason = obstacle.map(|obstacle| reason(description, &found.q, &obstacle));
+    Ok(Corrected { found, reason, largest_turn })
 }
 
 /// A command that the machine would refuse is not one to be corrected.
@@ -137,31 +183,4 @@ fn unreached(description: &Description, reason: &ReachError) -> String {
         }
         reason => format!("not even the ideal tool gets there: {reason}"),
     }
-}
-
-/// Why a row is not compensated: a joint at its limit, too few joints, or a singularity. With fewer than six joints the tool point is
-/// all that is asked for.
-fn reason(description: &Description, found: &Compensated<Vec<f64>>, tolerance: f64) -> Option<String> {
-    let Description { variables, length: unit, .. } = description;
-    let after = Norms::new(&found.after);
-    let few = variables.len() < 6;
-    if after.length <= tolerance && (few || after.angle <= tolerance * unit.in_metres()) {
-        return None;
-    }
-    let held = variables.iter().zip(&found.q).filter(|(v, q)| v.limits.contains(q));
-    let held = held
-        .map(|(v, q)| format!("{} at its limit {}", v.name, of_variable(*q, v.kind, *unit)))
-        .collect::<Vec<_>>()
-        .join(", ");
-    let why = if !held.is_empty() {
-        held
-    } else if few {
-        format!("{} joints cannot move it there", variables.len())
-    } else {
-        "close to a singularity, where a small correction takes a large turn".to_owned()
-    };
-    Some(match after.length <= tolerance {
-        true => format!("{why}; the tool point is there, {:.3e} rad are left", after.angle),
-        false => format!("{why}; {} left", length(after.length, *unit)),
-    })
 }

@@ -4,7 +4,7 @@ abbe_codegen::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
     FORMS: ["the file"], ["point", "difference", "target", "pose"];
     STANDS: ["the file"], ["station", "placement", "accept"];
-    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "time", "station", "placement"];
+    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement"];
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
 
     POINT: ["[point]"], ["columns", "unit"];

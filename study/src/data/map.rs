@@ -72,6 +72,8 @@ pub struct Map {
     pub layout: Layout,
     /// The column that says which rows are visits of one configuration; joints and inputs say it otherwise.
     pub group: Option<Column>,
+    /// The column of the direction from which a configuration was approached.
+    pub direction: Option<Column>,
     /// The column of the time; rows are in its order otherwise.
     pub time: Option<Column>,
     /// By variable and then by input: values that differ by no more are the same; for an input without a range, none.
@@ -101,6 +103,7 @@ impl Map {
             inputs: inputs.collect(),
             layout: Layout::Point([(); 3].map(|()| column("")), 1.0),
             group: None,
+            direction: None,
             time: None,
             resolution: resolution(spec),
             path: "the names of the spec".to_owned(),

@@ -103,7 +103,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         Some(item) => column(&item, document).map(Some),
         None => Some(None),
     };
-    let (group, time) = (named("group"), named("time"));
+    let (group, direction, time) = (named("group"), named("direction"), named("time"));
     let bases = [("known", Base::Known), ("unknown", Base::Unknown), ("exact", Base::Exact)];
     let base = match head.get("base") {
         Some(item) => document.choice(&item, &bases)?,
@@ -123,6 +123,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         inputs: inputs?,
         layout: layout?,
         group: group?,
+        direction: direction?,
         time: time?,
         resolution: resolution(spec),
         path: document.path.clone(),

@@ -76,7 +76,7 @@ impl Data {
         // A plan says only if it can where it is for.
         let is_there = |column: &&Column| columns == Columns::Measured || place(column).is_some();
         let station = map.stations.column.as_ref().filter(is_there);
-        let beside = map.group.iter().chain(&map.time).filter(|_| once);
+        let beside = map.group.iter().chain(&map.direction).chain(&map.time).filter(|_| once);
         let wanted = commanded.iter().chain(&measured).copied().chain(beside).chain(station);
         let missing: Vec<&Column> = wanted.filter(|column| place(column).is_none()).collect();
         if !missing.is_empty() {
@@ -93,9 +93,9 @@ impl Data {
         let (commanded, measured) = (places(&commanded), places(&measured));
         let (stations, written) = (map.stations.names(), table.dialect.words());
         let mut data = Self { file: file.display().to_string(), written, stations, ..Self::default() };
-        let (group, time) =
-            (map.group.as_ref().and_then(|c| place(&c)), map.time.as_ref().and_then(|c| place(&c)));
-        let mut groups = Vec::new();
+        let [group, direction, time] =
+            [&map.group, &map.direction, &map.time].map(|column| column.as_ref().and_then(|c| place(&c)));
+        let (mut groups, mut directions) = (Vec::new(), Vec::new());
         let mut known = HashSet::new();
         for record in table.records() {
             let record = record?;
@@ -113,10 +113,13 @@ impl Data {
                     let station = station.map_or(0, |place| data.station(record.text(place)));
                     data.observations.push(Observation { time, station, ..observation });
                     groups.extend(group.map(|place| record.text(place).to_owned()));
+                    directions.extend(direction.map(|place| record.text(place).to_owned()));
                 }
                 Err(reason) => data.unusable.push(Unusable { line: record.line, reason }),
             }
         }
+        let directions = Configurations::from_keys(directions).number;
+        data.observations.iter_mut().zip(directions).for_each(|(row, number)| row.direction = number);
         match group {
             Some(_) => {
                 let numbers = Configurations::from_keys(groups).number;

@@ -65,7 +65,7 @@ pub(super) fn norm(v: [f64; 3]) -> f64 {
 }
 
 /// The pose of the tool, as it was measured; a single point has the orientation that it should have.
-fn pose(targets: &[[f64; 3]], measured: &Measurement, ideal: &Pose) -> Option<Pose> {
+pub(super) fn pose(targets: &[[f64; 3]], measured: &Measurement, ideal: &Pose) -> Option<Pose> {
     match measured {
         Measurement::Pose(pose) => Some(*pose),
         Measurement::Readings(_) => None,

@@ -1,11 +1,11 @@
 //! How good a machine is: accuracy, repeatability, and what the sources of its spec explain.
 //!
-//! `errors` are ΔX of every row; `repeated` what ISO 9283 says of configurations that were visited again; `explained`
+//! `errors` are ΔX of every row; `iso9283` what the standard says of configurations that were visited again; `explained`
 //! compares with the prediction; `sentences` says the last two in words.
 
 mod errors;
 mod explained;
-mod repeated;
+mod iso9283;
 mod sentences;
 
 use abbe_codegen::diagnostic::Diagnostics;
@@ -20,7 +20,7 @@ use crate::{Acceptance, Accepted, Machine, Notes, mistake, number};
 
 pub use errors::RowError;
 pub use explained::Explained;
-pub use repeated::{MeanAndMax, Repeated};
+pub use iso9283::{Directions, Distances, Drift, MeanAndMax, Repeated};
 
 /// How good is this machine?
 pub struct Measure {
@@ -167,11 +167,11 @@ impl Measure {
             errors,
             explained,
             accepted,
-            repeated: repeated::repeated(&rows),
+            repeated: iso9283::repeated(&rows, setup.pose || setup.ideal.targets.len() > 1),
             unusable: data.unusable.len(),
             file: Summary { rows: rows.len(), ..data.summary() },
             base_fitted,
-            about_barycentres: repeated::about_barycentres(&rows),
+            about_barycentres: iso9283::about_barycentres(&rows),
             row_errors: rows,
         })
     }

@@ -1,72 +1,153 @@
 //! Repeatability and prediction in words.
 
-use super::Report;
+use super::{MeanAndMax, Report};
 use crate::number::{fixed, percent};
 
 impl Report {
     /// Repeatability and prediction in words.
     pub fn sentences(&self) -> Vec<String> {
-        let unit = self.length;
-        let show = |value: f64| format!("{} {unit}", fixed(value, self.decimals()));
-        let mut all = Vec::new();
-        let repeated = &self.repeated;
-        match (&repeated.ap, &repeated.rp, repeated.three_sigma) {
-            (Some(ap), Some(rp), Some([x, y, z])) => {
-                let few = if repeated.fewest < 30 {
-                    format!(" The standard asks for 30 visits; some have {}.", repeated.fewest)
-                } else {
-                    String::new()
-                };
-                all.push(format!(
-                    "{} configurations were visited again, {} visits in all. Pose accuracy AP (from the commanded point to the \
-                     barycentre of the visits, ISO 9283): {} on average, {} at most. Pose repeatability RP (mean distance from \
-                     the barycentre and three standard deviations of that distance): {} on average, {} at most. Three standard \
-                     deviations about the barycentres: x {}, y {}, z {}.{few}",
-                    repeated.configurations,
-                    repeated.visits,
-                    show(ap.mean),
-                    show(ap.max),
-                    show(rp.mean),
-                    show(rp.max),
-                    show(x),
-                    show(y),
-                    show(z),
-                ));
-            }
-            _ => all.push(
-                "No configuration was visited twice: accuracy and repeatability of ISO 9283 need visits of the same one."
-                    .to_owned(),
-            ),
-        }
-        let explained = &self.explained;
-        if explained.repeatable > 0 {
-            all.push(format!(
-                "The {} repeatable sources of the spec explain {} of the sum of squares; {} remain on average, {} at most.",
-                explained.repeatable,
-                percent(explained.share, 1.0),
-                show(explained.left_mean),
-                show(explained.left_max)
-            ));
-        } else {
-            all.push(
-                "The spec has no repeatable source that could explain them: `abbe identify` finds some."
-                    .to_owned(),
-            );
-        }
-        let verdict =
-            if explained.inside >= 0.95 { "at least 95 %, as it should be" } else { "fewer than 95 %" };
-        let allow = match explained.random {
-            0 => "what the instrument allows".to_owned(),
-            random => format!("what its {random} random sources and the instrument allow"),
-        };
-        let inside = percent(explained.inside, 1.0);
-        all.push(format!("{inside} of the rows are within {allow} about that: {verdict}."));
+        let mut all = self.repeatability();
+        all.extend(self.variation());
+        all.extend(self.prediction());
         all.extend(self.accepted.iter().map(|accepted| accepted.sentence(self.unit)));
         all
+    }
+
+    fn show(&self, value: f64) -> String {
+        format!("{} {}", fixed(value, self.decimals()), self.length)
+    }
+
+    fn mean_and_max(&self, value: &MeanAndMax) -> String {
+        format!("{} on average, {} at most", self.show(value.mean), self.show(value.max))
+    }
+
+    fn repeatability(&self) -> Vec<String> {
+        let repeated = &self.repeated;
+        let (Some(ap), Some(rp), Some([x, y, z])) = (&repeated.ap, &repeated.rp, repeated.three_sigma) else {
+            let none = "No configuration was visited twice: accuracy and repeatability of ISO 9283 need visits of the same one.";
+            return vec![none.to_owned()];
+        };
+        let few = if repeated.fewest < 30 {
+            format!(" The standard asks for 30 visits; some have {}.", repeated.fewest)
+        } else {
+            String::new()
+        };
+        let mut all = vec![format!(
+            "{} configurations were visited again, {} visits in all. Pose accuracy AP (from the commanded point to the \
+             barycentre of the visits, ISO 9283, 7.2.1): {}. Pose repeatability RP (mean distance from the barycentre and three \
+             standard deviations of that distance, 7.2.2): {}. Three standard deviations about the barycentres: x {}, y {}, z {}.{few}",
+            repeated.configurations,
+            repeated.visits,
+            self.mean_and_max(ap),
+            self.mean_and_max(rp),
+            self.show(x),
+            self.show(y),
+            self.show(z),
+        )];
+        if let (Some(ap), Some(rp)) = (&repeated.ap_turns, &repeated.rp_turns) {
+            all.push(format!(
+                "Of the turns about x, y, z (7.2.1, 7.2.2), at most: AP {}; RP (three standard deviations) {}.",
+                turns(ap),
+                turns(rp)
+            ));
+        }
+        all
+    }
+
+    /// By direction, of distances, and in time.
+    fn variation(&self) -> Vec<String> {
+        let turned = |turns_of: &Option<[MeanAndMax; 3]>| {
+            turns_of
+                .as_ref()
+                .map_or(String::new(), |values| format!("; of the turns {} at most", turns(values)))
+        };
+        let mut all = Vec::new();
+        if let Some(directions) = &self.repeated.directions {
+            let few = if directions.fewest < 3 || directions.fewest_visits < 30 {
+                format!(
+                    " The standard asks for three directions with 30 visits each; some have {} and {}.",
+                    directions.fewest, directions.fewest_visits
+                )
+            } else {
+                String::new()
+            };
+            all.push(format!(
+                "Multi-directional pose accuracy variation vAP (largest distance between the barycentres of two directions, 7.2.3), \
+                 {} configurations: {}{}.{few}",
+                directions.configurations,
+                self.mean_and_max(&directions.vap),
+                turned(&directions.vap_turns)
+            ));
+        }
+        if let Some(distances) = &self.repeated.distances {
+            all.push(format!(
+                "Between two configurations, {} pairs: distance accuracy AD (mean less commanded distance, 7.3.2): {}{}. Distance \
+                 repeatability RD (three standard deviations, 7.3.3): {}{}.",
+                distances.pairs,
+                self.mean_and_max(&distances.ad),
+                turned(&distances.ad_turns),
+                self.mean_and_max(&distances.rd),
+                turned(&distances.rd_turns)
+            ));
+        }
+        if let Some(drift) = &self.repeated.drift {
+            all.push(format!(
+                "Drift of pose characteristics (7.6: AP and RP of ten visits after ten, against the first ten), {} configurations, \
+                 up to {} times: dAP {}{}; dRP {}{}.",
+                drift.configurations,
+                drift.most,
+                self.mean_and_max(&drift.dap),
+                turned(&drift.dap_turns),
+                self.mean_and_max(&drift.drp),
+                turned(&drift.drp_turns)
+            ));
+        }
+        all
+    }
+
+    fn prediction(&self) -> Vec<String> {
+        let explained = &self.explained;
+        let left = match explained.repeatable {
+            0 => "The spec has no repeatable source that could explain them: `abbe identify` finds some."
+                .to_owned(),
+            repeatable => format!(
+                "The {repeatable} repeatable sources of the spec explain {} of the sum of squares; {} remain on average, {} at most.",
+                percent(explained.share, 1.0),
+                self.show(explained.left_mean),
+                self.show(explained.left_max)
+            ),
+        };
+        let chance = match explained.random {
+            0 => "the noise of its instrument".to_owned(),
+            random => format!(
+                "its {random} random sources, drawn anew in every row, and the noise of the instrument"
+            ),
+        };
+        let [low, high] = explained.likely;
+        let verdict = match explained.inside {
+            inside if inside < low => {
+                "so there are errors that the spec does not have, or the instrument is worse than stated"
+            }
+            inside if inside > high => "so the random sources or the noise are smaller than stated",
+            _ => "as it should be",
+        };
+        let [low, high] = [low, high].map(|share| percent(share.min(1.0), 1.0));
+        let inside = format!(
+            "About that, {chance} fill a region that holds 95 % of the rows of a machine as the spec says; {} of these rows are within \
+             it: {verdict} (of so many rows {low} to {high}, in 99 of 100 such machines).",
+            percent(explained.inside, 1.0)
+        );
+        vec![left, inside]
     }
 
     /// How many decimals a length has.
     pub fn decimals(&self) -> usize {
         if self.length == "m" { 7 } else { 4 }
     }
+}
+
+/// The largest of three turns.
+fn turns(values: &[MeanAndMax; 3]) -> String {
+    let [a, b, c] = values.map(|value| fixed(value.max * 1e3, 4));
+    format!("{a}, {b}, {c} mrad")
 }

@@ -260,7 +260,13 @@ fn every_example_runs() {
     for (name, _) in page.files() {
         let sets = Sets::find(&folder.path().join(name), &machine.spec).unwrap();
         let study = Study::joint_samples(&machine.spec);
-        let plan = Plan { machine: machine.clone(), map: maps[0].clone(), choice: Choice::Sets(sets), study };
+        let plan = Plan {
+            machine: machine.clone(),
+            map: maps[0].clone(),
+            choice: Choice::Sets(sets),
+            study,
+            model_error: 0.0,
+        };
         assert!(plan.run(&mut ()).unwrap().rows > 0, "{name}");
     }
 }

@@ -1,0 +1,63 @@
+//! Multi-directional pose accuracy variation, 7.2.3.
+//!
+//! `vAP_p = max |ḡ_h − ḡ_k|` over the barycentres of one configuration approached from directions h and k;
+//! `vAP_a = max |ā_h − ā_k|`.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::super::errors::{RowError, norm};
+use super::MeanAndMax;
+use super::visits::mean;
+
+/// Configurations that were approached from several directions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Directions {
+    /// How many there are.
+    pub configurations: usize,
+    /// The fewest directions of one of them; the standard asks for three.
+    pub fewest: usize,
+    /// The fewest visits from one of these directions; the standard asks for 30.
+    pub fewest_visits: usize,
+    /// `vAP_p`.
+    pub vap: MeanAndMax,
+    /// `vAP_a`, `vAP_b`, `vAP_c`: rad.
+    pub vap_turns: Option<[MeanAndMax; 3]>,
+}
+
+impl Directions {
+    /// None where nothing was approached from two directions.
+    pub(super) fn new(rows: &[RowError], oriented: bool) -> Option<Self> {
+        let mut configurations: BTreeMap<usize, BTreeMap<usize, Vec<&RowError>>> = BTreeMap::new();
+        for row in rows {
+            let observation = &row.observation;
+            let directions = configurations.entry(observation.configuration).or_default();
+            directions.entry(observation.direction).or_default().push(row);
+        }
+        configurations.retain(|_, directions| directions.len() > 1);
+        let (mut positions, mut turns) = (Vec::new(), Vec::new());
+        for directions in configurations.values() {
+            let centres = |value: fn(&RowError) -> [f64; 3]| {
+                directions.values().map(|visits| mean(visits, value)).collect::<Vec<_>>()
+            };
+            positions.push(largest(&centres(RowError::position), norm));
+            let centres = centres(RowError::turn);
+            turns.push([0, 1, 2].map(|axis| largest(&centres, |difference| difference[axis].abs())));
+        }
+        let every = || configurations.values().flat_map(BTreeMap::values).map(Vec::len);
+        Some(Self {
+            configurations: configurations.len(),
+            fewest: configurations.values().map(BTreeMap::len).min()?,
+            fewest_visits: every().min()?,
+            vap: MeanAndMax::new(positions)?,
+            vap_turns: MeanAndMax::of_turns(&turns).filter(|_| oriented),
+        })
+    }
+}
+
+/// The largest difference of two.
+fn largest(values: &[[f64; 3]], size: impl Fn([f64; 3]) -> f64) -> f64 {
+    let pairs = values.iter().enumerate().flat_map(|(i, a)| values[..i].iter().map(move |b| (a, b)));
+    pairs.map(|(a, b)| size(std::array::from_fn(|k| a[k] - b[k]))).fold(0.0, f64::max)
+}

@@ -1,0 +1,42 @@
+//! Rows by the configuration that they visit.
+
+use std::collections::BTreeMap;
+
+use super::RowError;
+
+/// The rows of one configuration, in the order of time.
+pub(super) type Visits<'r> = Vec<&'r RowError>;
+
+impl RowError {
+    pub(super) fn position(&self) -> [f64; 3] {
+        [self.error[0], self.error[1], self.error[2]]
+    }
+
+    pub(super) fn turn(&self) -> [f64; 3] {
+        [self.error[3], self.error[4], self.error[5]]
+    }
+}
+
+/// Configurations that were visited more than once, in the order in which they come first.
+pub(super) fn visits(rows: &[RowError]) -> Vec<Visits<'_>> {
+    let mut order: Vec<&RowError> = rows.iter().collect();
+    // A stable sort: rows without a time stay in their order.
+    let time = |row: &RowError| row.observation.time.unwrap_or_default();
+    order.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    let mut groups: BTreeMap<usize, Visits<'_>> = BTreeMap::new();
+    for row in order {
+        groups.entry(row.observation.configuration).or_default().push(row);
+    }
+    groups.into_values().filter(|group| group.len() > 1).collect()
+}
+
+pub(super) fn mean(visits: &[&RowError], value: impl Fn(&RowError) -> [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| visits.iter().map(|row| value(row)[k]).sum::<f64>() / visits.len() as f64)
+}
+
+/// `√(Σ (v − v̄)² / (n − 1))`.
+pub(super) fn deviation(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt()
+}
