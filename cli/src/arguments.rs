@@ -151,6 +151,13 @@ pub(crate) struct Identify {
     /// Richer terms to try beside constant errors; those stay that help on rows left out in turn
     #[arg(long, value_enum, value_delimiter = ',', value_name = "FAMILY,…")]
     pub(crate) terms: Vec<Terms>,
+    /// Gear ratios: errors of a joint so many times per turn of it are tried as well: `--harmonics q2=1,2,101`
+    #[arg(long, value_name = "JOINT=N,…")]
+    pub(crate) harmonics: Vec<String>,
+    /// How long richer terms are tried: `60s`, `5min`; then what comes out depends on the computer. As long as it takes if not
+    /// given
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) time: Option<std::time::Duration>,
     /// A loss that gross errors cannot pull at
     #[arg(long, value_enum, default_value_t = Robust::None)]
     pub(crate) robust: Robust,
@@ -303,12 +310,18 @@ pub(crate) struct Simulate {
 pub(crate) enum Terms {
     /// All that follow
     Auto,
-    /// Errors that change with a frame's own joint
+    /// Errors that change with a frame's own joint: one to four times per turn, or with its travel
     Joint,
-    /// Errors in proportion to an input
+    /// Errors in proportion to an input: a load, a temperature, a motor's current
     Load,
     /// Turns in proportion to the moment of weights
     Elastic,
+    /// Errors of joints by the direction they came from, row by row, or in which a weight pulls
+    Backlash,
+    /// Errors of joints with another joint, or with two
+    Product,
+    /// Errors that grow or settle from row to row: they are of the file, not of the machine
+    Drift,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -338,6 +351,18 @@ fn prior(text: &str) -> Result<Prior, String> {
         "auto" => Ok(Prior::Auto),
         text => share(text).map(Prior::Share),
     }
+}
+
+fn duration(text: &str) -> Result<std::time::Duration, String> {
+    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let factor = match text[digits.len()..].trim() {
+        "s" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
+        _ => return Err("a time has a unit: `60s`, `5min`, `1h`".to_owned()),
+    };
+    let seconds = digits.trim().parse::<f64>().map_err(|error| error.to_string())? * factor;
+    std::time::Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -6,9 +6,9 @@ mod text;
 use std::path::Path;
 
 use abbe::identify::Loss;
-use abbe_codegen::spec::Spec;
+use abbe_codegen::spec::{Spec, VariableKind};
 use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Family, Identify, Report, Settings};
+use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};
 use abbe_study::{Acceptance, Machine};
 
 use crate::arguments::{self, Robust, Terms};
@@ -32,9 +32,16 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let map = Map::find(&arguments.map, &machine.spec)?;
     let data = Data::read(&arguments.data, &map)?;
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
-    let settings = Settings { loss: loss(arguments.robust), prior: arguments.prior, folds: arguments.folds };
+    let settings = Settings {
+        loss: loss(arguments.robust),
+        prior: arguments.prior,
+        folds: arguments.folds,
+        time: arguments.time,
+    };
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
-    let job = Identify { machine, map, data, test, terms: families(&arguments.terms), settings, accept };
+    let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;
+    let terms = families(&arguments.terms);
+    let job = Identify { machine, map, data, test, terms, harmonics, settings, accept };
     let report = job.run(&mut Console::default())?;
     let written =
         arguments.out.as_ref().map(|file| write_found(file, arguments, &job, &report)).transpose()?;
@@ -94,10 +101,34 @@ fn loss(robust: Robust) -> Loss {
 
 fn families(terms: &[Terms]) -> Vec<Family> {
     let families = terms.iter().flat_map(|terms| match terms {
-        Terms::Auto => vec![Family::Joint, Family::Load, Family::Elastic],
+        Terms::Auto => Family::ALL.to_vec(),
         Terms::Joint => vec![Family::Joint],
         Terms::Load => vec![Family::Load],
         Terms::Elastic => vec![Family::Elastic],
+        Terms::Backlash => vec![Family::Backlash],
+        Terms::Product => vec![Family::Product],
+        Terms::Drift => vec![Family::Drift],
     });
     families.collect()
+}
+
+/// Reads `q2=1,2,101`.
+fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>, Failure> {
+    let read = |argument: &String| {
+        let mistake = |message: &str| {
+            Failure::of(&format!("--harmonics {argument}"), message)
+                .help("a revolute joint and how many times per turn of it: `--harmonics q2=1,2,101`")
+        };
+        let (joint, times) = argument.split_once('=').ok_or_else(|| mistake("there is no `=`"))?;
+        let variable = spec.variables.iter().position(|variable| variable.name == joint.trim());
+        let revolute = variable.filter(|i| spec.variables[*i].kind == VariableKind::Revolute);
+        let variable = revolute.ok_or_else(|| mistake("there is no such revolute joint"))?;
+        let number = |text: &str| {
+            let number = text.trim().parse::<u16>().ok().filter(|number| *number > 0);
+            number.ok_or_else(|| mistake("these are no whole numbers from 1 to 65535"))
+        };
+        let times = times.split(',').map(number).collect::<Result<Vec<_>, _>>()?;
+        Ok(Harmonics { variable, times })
+    };
+    arguments.iter().map(read).collect()
 }

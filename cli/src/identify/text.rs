@@ -65,6 +65,11 @@ fn parameters(spec: &Spec, report: &Report) -> String {
         text +=
             &format!("The same in numbers of the chain, each in place of the error in brackets\n{sentences}");
     }
+    if !report.magnitudes.is_empty() {
+        let sentences: String =
+            report.magnitudes.iter().map(|one| format!("{}\n", wrapped(&one.sentence, 2))).collect();
+        text += &format!("Sources of the spec whose magnitude was to be found\n{sentences}");
+    }
     if report.parameters.iter().any(|parameter| parameter.hardly_known) {
         let line = "Hardly known: the data say less of it than that it is small; `--prior` says how small.";
         text += &format!("{line}\n");
@@ -207,20 +212,23 @@ fn errors(spec: &Spec, report: &Report) -> String {
 
 fn terms(spec: &Spec, report: &Report) -> String {
     if report.terms.is_empty() {
-        return "No richer term earns its place: none makes rows that are left out fit better by 1 % and beyond chance.\n"
-            .to_owned();
+        return format!(
+            "No richer term of {} earns its place: none makes rows that are left out fit better by half a percent\n\
+             and beyond chance.\n",
+            report.tried
+        );
     }
     let decimals = number::error_decimals(spec.length);
-    let mut table =
-        Table::new(&["richer terms, in the order of their gain", "before", "after", "p of the F-test"]);
+    let mut table = Table::new(&["richer terms, as they came in", "before", "after", "p of the test"]);
     for term in &report.terms {
         let p = if term.p < 1e-12 { "below 1e-12".to_owned() } else { digits(term.p, 2) };
         table.row(vec![term.name.clone(), fixed(term.before, decimals), fixed(term.after, decimals), p]);
     }
     let unit = spec.length.symbol();
     let line = format!(
-        "Before and after: root mean square of a coordinate on rows left out in turn, {unit}. A term is taken in if \
-         that falls, and if p is small, how likely its gain on all rows would be by chance."
+        "Before and after: root mean square of a coordinate on rows left out in turn, {unit}. Of {} groups of terms one is \
+         taken in if that falls, and if p is so small that the best of all would hardly be so good by chance.",
+        report.tried
     );
     let constant = report.cross_validation.constant.map_or(String::new(), |sizes| {
         format!(
@@ -229,5 +237,19 @@ fn terms(spec: &Spec, report: &Report) -> String {
             fixed(report.cross_validation.after.mean, decimals)
         )
     });
-    format!("{}{}\n{constant}", table.right(&[1, 2, 3]), wrapped(&line, 0))
+    let lines = report.terms.iter().flat_map(|term| &term.lines);
+    let lines: String = lines.map(|line| format!("  {}\n", line.replace('\n', ", "))).collect();
+    let mut text =
+        format!("{}{}\n{constant}As a spec reads\n{lines}", table.right(&[1, 2, 3]), wrapped(&line, 0));
+    let unwritten: Vec<&str> =
+        report.terms.iter().filter(|term| !term.written).map(|term| term.name.as_str()).collect();
+    if !unwritten.is_empty() {
+        let line = format!(
+            "Of the rows of this file, not of the machine, and so in no spec that is written, and not counted on in other \
+             files: {}.",
+            unwritten.join("; ")
+        );
+        text += &format!("{}\n", wrapped(&line, 0));
+    }
+    text
 }

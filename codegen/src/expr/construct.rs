@@ -8,7 +8,7 @@
 //! assert_eq!(shift.whole().dimension, Some(Dimension::LENGTH));
 //! ```
 
-use std::ops::{Div, Mul};
+use std::ops::{Add, Div, Mul};
 
 use super::{Binary, Dimension, Expression, Function, Kind, Symbol, Term};
 
@@ -60,6 +60,17 @@ impl Expression {
         let mut terms = self.into_terms();
         terms.push(Term { kind, dimension, value, span: 0..0, bare: false });
         Self::new(terms)
+    }
+}
+
+impl Add for Expression {
+    type Output = Self;
+
+    /// Of two of the same dimension.
+    fn add(self, right: Self) -> Self {
+        let dimension = self.whole().dimension;
+        let value = self.constant().zip(right.constant()).map(|(l, r)| l + r);
+        self.combined(Binary::Add, right, dimension, value)
     }
 }
 

@@ -50,8 +50,9 @@ pub struct Weak {
 
 /// Finds what data of this kind determine at `x`; see [`Options::at`](super::Options::at).
 ///
-/// Of unknowns that act alike, those of base, fixtures and tool are kept, then those of the frames nearest to the tool: an error of the
-/// machine is only what cannot be where it stands or what is mounted on it.
+/// Of unknowns that act alike, those of base, fixtures and tool are kept, then magnitudes that stand before errors of frames, then
+/// these, those nearest to the tool first, then other magnitudes: an error of the machine is only what cannot be where it stands or
+/// what is mounted on it.
 pub fn identifiable(model: &Model, data: &[Observation], x: &[f64]) -> Result<Identifiable, Failure> {
     judged(model, data, x, &[], 1.0)
 }
@@ -94,14 +95,17 @@ fn order(model: &Model) -> Vec<usize> {
     use super::Unknown::{Base, Error, Fixture, Magnitude, Target, Tool, Zero};
     let frames = model.manipulator.description().frames.len();
     let mut order: Vec<usize> = (0..model.unknowns.len()).collect();
+    let last = model.unknowns.iter().rposition(|unknown| matches!(unknown, Error(..)));
+    let named = |k: usize| last.is_some_and(|last| k < last);
     order.sort_by_key(|k| match model.unknowns[*k] {
         Base(station, component) => (0, 6 * station + component.index()),
         Fixture(fixture, coordinate) => (1, 3 * fixture + coordinate),
         Zero(reading) => (1, 3 * model.fixtures.len() + reading),
         Target(target, axis) => (2, 3 * target + axis),
         Tool(component) => (2, component.index()),
-        Error(frame, component) => (3 + frames - frame, component.index()),
-        Magnitude(source) => (frames + 4, source),
+        Magnitude(source) if named(*k) => (3, source),
+        Error(frame, component) => (4 + frames - frame, component.index()),
+        Magnitude(source) => (frames + 5, source),
     });
     order
 }

@@ -1,5 +1,7 @@
 //! How well data determine what they determine, and whether more terms are worth their number.
 
+use nalgebra::DMatrix;
+
 /// Indices of observability of singular values `σ_1 ≥ … ≥ σ_r` of columns of unit length, and `m` rows.
 ///
 /// Sun and Hollerbach, *Observability index selection for robot calibration*, 2008.
@@ -54,6 +56,20 @@ pub fn f_test(before: f64, after: f64, terms: usize, freedom: usize) -> FTest {
     let f = ((before - after).max(0.0) / k) / (after / n).max(1e-300);
     // P(F > f) = I_{n/(n + k f)}(n/2, k/2).
     FTest { f, terms, freedom, p: incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f)) }
+}
+
+/// Whether scores of independent configurations, a row each, have a mean: Hotelling's T², with as many configurations as are
+/// `left` when other terms have used theirs.
+///
+/// With `t = sᵀ(UᵀU)⁻¹s` of the scores U and their sum s, `F = (f/k) t/(C − t)`, `f = left − k`.
+pub(super) fn score_test(scores: &DMatrix<f64>, left: f64) -> FTest {
+    let (configurations, terms) = (scores.nrows() as f64, scores.ncols());
+    let sum = scores.row_sum_tr();
+    let t = scores.tr_mul(scores).cholesky().map_or(0.0, |root| sum.dot(&root.solve(&sum)));
+    let freedom = (left - terms as f64).max(1.0);
+    let f = freedom / terms.max(1) as f64 * t / (configurations - t).max(1e-300);
+    let (k, n) = (terms.max(1) as f64, freedom);
+    FTest { f, terms, freedom: freedom as usize, p: incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f)) }
 }
 
 /// The regularized incomplete beta function `I_x(a, b)`, by its continued fraction (Abramowitz and Stegun 26.5.8).

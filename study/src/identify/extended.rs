@@ -1,19 +1,21 @@
 //! A spec with terms as sources: what is fitted, and what `analyze` then computes, are one and the same.
 
-use abbe_codegen::expr::{Dimension, Expression, Function, Symbol, Unit};
+use abbe_codegen::expr::{Dimension, Elementary, Expression, Function, Motion, Symbol, Unit};
 use abbe_codegen::spec::{
-    Axes, Cause, ChainNumber, Class, Compliance, Component, Deviation, Effect, Load, Point, Source, Spec,
-    VariableKind,
+    Axes, Cause, ChainNumber, Class, Compliance, Component, Deviation, Effect, Factor, Load, Point, Source,
+    Spec, VariableKind,
 };
 
-use super::terms::{Basis, Place, Term};
+use super::magnitude::own_magnitudes;
+use super::terms::{Angle, Basis, Place, Term, Wave};
 
-/// The spec with all terms as repeatable sources of magnitude 1, behind its own.
+/// The spec with its own sources whose magnitude is to be found once more, of magnitude 1, and then all terms as repeatable
+/// sources of magnitude 1, behind its own.
 ///
 /// Where a term gives way under weight and the spec has no loads, 1 kg hangs at the tool point.
 pub fn extended(spec: &Spec, terms: &[Term]) -> Spec {
     let mut extended = spec.clone();
-    if terms.iter().any(|term| term.basis == Basis::Moment) {
+    if terms.iter().any(|term| term.basis.is_elastic()) {
         if spec.loads.is_empty() {
             extended.loads.push(Load {
                 mass: Some(Expression::from_number(1.0, Dimension::MASS)),
@@ -28,6 +30,7 @@ pub fn extended(spec: &Spec, terms: &[Term]) -> Spec {
         let none = || Expression::from_number(0.0, Dimension::ACCELERATION);
         extended.gravity.get_or_insert_with(|| [none(), none(), down()]);
     }
+    extended.sources.extend(own_magnitudes(spec).into_iter().map(|own| own.unit(spec)));
     extended.sources.extend(terms.iter().map(|term| term.source(spec)));
     extended
 }
@@ -57,6 +60,11 @@ impl Term {
         let mut deviation = |number: ChainNumber, dimension: Dimension| {
             deviations.push(Deviation { number, error: error(dimension), span: 0..0 });
         };
+        let cause = |component: Component| match self.basis {
+            Basis::Moment => Cause::Compliance(Box::new(compliance(spec, component))),
+            _ if component.is_rotation() => Cause::Errors(vec![(component, error(Dimension::NONE))]),
+            _ => Cause::Errors(vec![(component, error(Dimension::LENGTH))]),
+        };
         match self.place {
             Place::Joint(joint) => {
                 let dimension = match spec.variables[joint].kind {
@@ -68,13 +76,20 @@ impl Term {
             Place::Parameter(parameter) => {
                 deviation(ChainNumber::Parameter(parameter), spec.parameters[parameter].dimension);
             }
-            Place::Frame(frame, component) => {
-                let cause = match self.basis {
-                    Basis::Moment => Cause::Compliance(Box::new(compliance(spec, component))),
-                    _ if component.is_rotation() => Cause::Errors(vec![(component, error(Dimension::NONE))]),
-                    _ => Cause::Errors(vec![(component, error(Dimension::LENGTH))]),
+            Place::DenavitHartenberg(frame, number) => {
+                let dimension = match number.motion().0 {
+                    Motion::Rotation => Dimension::NONE,
+                    Motion::Translation => Dimension::LENGTH,
                 };
-                effects.push(Effect { frame, at: Vec::new(), cause, span: 0..0 });
+                deviation(ChainNumber::DenavitHartenberg { frame, number }, dimension);
+            }
+            Place::Frame(frame, component) => {
+                effects.push(Effect { frame, at: Vec::new(), cause: cause(component), span: 0..0 });
+            }
+            // E_0 A_1 = A_1 (A_1⁻¹ E_0 A_1): an error of the first frame, located at F_0.
+            Place::Base(component) => {
+                let at = spec.frames.first().map_or(Vec::new(), |first| inverse(&first.factors));
+                effects.push(Effect { frame: 0, at, cause: cause(component), span: 0..0 });
             }
         }
         Source {
@@ -91,6 +106,21 @@ impl Term {
     }
 }
 
+/// The way back; matrices are left out, and none is asked for.
+fn inverse(factors: &[Factor]) -> Vec<Factor> {
+    let back = |amount: &Expression| Expression::from_number(-1.0, Dimension::NONE) * amount.clone();
+    let factors = factors.iter().rev().filter_map(|factor| match factor {
+        Factor::Elementary(Elementary { motion, axis, amount }) => {
+            Some(Factor::Elementary(Elementary { motion: *motion, axis: *axis, amount: back(amount) }))
+        }
+        Factor::About { motion, axis, amount } => {
+            Some(Factor::About { motion: *motion, axis: *axis, amount: back(amount) })
+        }
+        Factor::Matrix(_) => None,
+    });
+    factors.collect()
+}
+
 /// A microradian per N times the length unit, about one axis.
 fn compliance(spec: &Spec, component: Component) -> Compliance {
     let value = in_units(spec, 1e-6, &[("N", -1), (spec.length.symbol(), -1)]);
@@ -104,24 +134,45 @@ fn compliance(spec: &Spec, component: Component) -> Compliance {
 impl Basis {
     /// A pure number, as a spec computes it; a compliance has none.
     fn expression(self, spec: &Spec) -> Expression {
-        let number = |value: f64| Expression::from_number(value, Dimension::NONE);
-        let angle = |variable: usize, times: u8| {
-            let angle = Expression::from_symbol(Symbol::Variable(variable), Dimension::NONE);
-            if times == 1 { angle } else { number(f64::from(times)) * angle }
-        };
         match self {
-            Self::Sine { variable, times } => angle(variable, times).call(Function::Sin),
-            Self::Cosine { variable, times } => angle(variable, times).call(Function::Cos),
-            Self::Power { variable, exponent } => {
-                let travel = Expression::from_symbol(Symbol::Variable(variable), Dimension::LENGTH);
-                (travel / Expression::from_number(1000.0, Dimension::LENGTH)).power(f64::from(exponent))
-            }
+            Self::One => Expression::from_number(1.0, Dimension::NONE),
+            Self::Wave(wave) => wave.expression(),
+            Self::Product(one, other) => one.expression() * other.expression(),
             Self::Input(input) => {
                 let dimension = spec.inputs[input].dimension;
                 let value = Expression::from_symbol(Symbol::Input(input), dimension);
                 value / Expression::from_number(1.0, dimension)
             }
-            Self::Moment => number(0.0),
+            Self::Moment => Expression::from_number(0.0, Dimension::NONE),
+        }
+    }
+}
+
+impl Wave {
+    fn expression(self) -> Expression {
+        match self {
+            Self::Sine(angle) => angle.expression().call(Function::Sin),
+            Self::Cosine(angle) => angle.expression().call(Function::Cos),
+            Self::Power { variable, exponent } => {
+                let travel = Expression::from_symbol(Symbol::Variable(variable), Dimension::LENGTH);
+                (travel / Expression::from_number(1000.0, Dimension::LENGTH)).power(f64::from(exponent))
+            }
+        }
+    }
+}
+
+impl Angle {
+    fn expression(self) -> Expression {
+        let joint = |variable| Expression::from_symbol(Symbol::Variable(variable), Dimension::NONE);
+        let number = |value: f64| Expression::from_number(value, Dimension::NONE);
+        let one = match self.times {
+            1 => joint(self.variable),
+            times => number(f64::from(times)) * joint(self.variable),
+        };
+        match self.other {
+            Some((other, true)) => one + joint(other),
+            Some((other, false)) => one + number(-1.0) * joint(other),
+            None => one,
         }
     }
 }

@@ -5,9 +5,11 @@ use abbe::identify::Unknown;
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::spec::{Fitted, Spec};
 
+use super::derived::Derived;
+use super::meaning::InNumbers;
 use super::placed::Placed;
 use super::solve::Solved;
-use super::terms::Term;
+use super::terms::{Basis, Place, Term};
 use crate::data::Data;
 use crate::number::digits;
 
@@ -20,8 +22,14 @@ pub struct FoundModel {
     pub placed: Placed,
     /// The errors of every frame.
     pub frames: Vec<Vec<FoundError>>,
+    /// Numbers of the chain that are not what the spec says: their terms are constant.
+    pub numbers: Vec<FoundTerm>,
+    /// The magnitudes of sources of the spec.
+    pub magnitudes: Vec<FoundMagnitude>,
     /// The richer terms.
     pub terms: Vec<FoundTerm>,
+    /// The inputs that are not the spec's own, behind those that are.
+    pub derived: Vec<Derived>,
     /// The ranges of joints and inputs on which all this was fitted.
     pub fitted: Vec<Fitted>,
 }
@@ -48,30 +56,65 @@ pub struct FoundTerm {
     pub standard_deviation: f64,
 }
 
+/// The magnitude of a source of the spec.
+#[derive(Clone, Copy, Debug)]
+pub struct FoundMagnitude {
+    /// Which one, among all sources of the spec.
+    pub source: usize,
+    /// What it is multiplied with.
+    pub magnitude: f64,
+    /// The standard deviation of that.
+    pub standard_deviation: f64,
+}
+
 impl FoundModel {
-    /// `left` is the root mean square position error of the rows that were used.
-    pub(super) fn new(spec: &Spec, solved: &Solved, data: &Data, pose: bool, left: f64) -> Self {
+    /// In numbers of the chain as far as `in_numbers` has them; `left` is the root mean square position error of the rows that were used.
+    pub(super) fn new(
+        spec: &Spec,
+        solved: &Solved,
+        in_numbers: Option<&InNumbers>,
+        data: &Data,
+        pose: bool,
+        left: f64,
+    ) -> Self {
         let Solved { model, fit, .. } = solved;
         let deviations = fit.standard_deviations();
-        let placed = Placed::new(model, fit, pose);
-        let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
-        for k in &fit.identifiable.kept {
-            let (list, component) = match model.unknowns[*k] {
-                Unknown::Error(frame, component) => (&mut found.frames[frame], component),
-                _ => continue,
-            };
-            let standard_deviation = deviations[*k].unwrap_or_default();
-            list.push(FoundError { component, value: fit.x[*k], standard_deviation });
+        let kept = &fit.identifiable.kept;
+        let as_found = |(place, k): (usize, &usize)| (place, fit.x[*k], deviations[*k].unwrap_or_default());
+        let values: Vec<(usize, f64, f64)> = in_numbers
+            .map_or_else(|| kept.iter().enumerate().map(as_found).collect(), |one| one.others.clone());
+        // Beside numbers of the chain the machine may stand elsewhere.
+        let mut beside = fit.clone();
+        for (place, value, _) in &values {
+            beside.x[kept[*place]] = *value;
         }
+        let placed = Placed::new(model, &beside, pose);
+        let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
         let first = model.unknowns.len() - solved.terms.len();
-        found.terms = solved
-            .terms
-            .iter()
-            .zip(first..)
-            .filter_map(|(term, k)| {
-                Some(FoundTerm { term: *term, magnitude: fit.x[k], standard_deviation: deviations[k]? })
-            })
-            .collect();
+        for (place, value, standard_deviation) in values {
+            let error = |component| FoundError { component, value, standard_deviation };
+            let k = kept[place];
+            match model.unknowns[k] {
+                Unknown::Error(frame, component) => found.frames[frame].push(error(component)),
+                Unknown::Magnitude(_) => match solved.own_magnitude(k) {
+                    Some(own) => found.magnitudes.push(FoundMagnitude {
+                        source: own.source,
+                        magnitude: own.declared.value + value,
+                        standard_deviation,
+                    }),
+                    None => {
+                        let term = solved.terms[k - first];
+                        found.terms.push(FoundTerm { term, magnitude: value, standard_deviation });
+                    }
+                },
+                _ => {}
+            }
+        }
+        for one in in_numbers.iter().flat_map(|one| &one.numbers) {
+            let term = Term { place: Place::of_number(one.number), basis: Basis::One };
+            let (magnitude, standard_deviation) = (one.value, one.standard_deviation);
+            found.numbers.push(FoundTerm { term, magnitude, standard_deviation });
+        }
         found.fitted = fitted(spec, data);
         let (unit, file) = (spec.length.symbol(), std::path::Path::new(&data.file));
         found.reference = format!(

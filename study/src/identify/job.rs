@@ -1,24 +1,31 @@
 //! What is asked, and the way to what comes out.
 
-use abbe::identify::{Model, Observation, Place, Unknown, groups};
+use abbe::identify::{Model, Observation, Place, Selection, Unknown, groups};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
+use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 
 use super::alike::Alike;
+use super::candidates::{Family, Harmonics, candidates};
+use super::choose::{Chosen, choose};
 use super::counts::Counts;
+use super::derived::{Derived, derived, with_columns, with_inputs};
 use super::extended::extended;
 use super::found::FoundModel;
-use super::meaning::meanings;
+use super::magnitude::{OwnMagnitude, own_magnitudes};
+use super::meaning::{InNumbers, number_terms};
 use super::not_known::NotKnown;
 use super::readings::check_readings;
 use super::report::{
-    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Pair, Parameter, Report, Sizes, TermGain,
+    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report, Sizes,
+    TermGain,
 };
 use super::setup::Setup;
 use super::solve::{Settings, Solved, solve};
-use super::terms::{Family, candidates};
+use super::terms::Term;
 use crate::data::{Data, Map, Summary};
+use crate::number::digits;
 use crate::{Acceptance, Machine, Notes, mistake, number};
 
 /// Which errors has this machine?
@@ -33,6 +40,8 @@ pub struct Identify {
     pub test: Option<Data>,
     /// Richer terms to try beside constant errors; those stay that help on rows left out in turn.
     pub terms: Vec<Family>,
+    /// Gear ratios: how often per turn of a joint errors are looked for as well.
+    pub harmonics: Vec<Harmonics>,
     /// How it is done.
     pub settings: Settings,
     /// Limits for rows that nothing was fitted to.
@@ -42,21 +51,52 @@ pub struct Identify {
 impl Identify {
     /// Fits, judges and chooses on the data alone; then judges by the test data, if there are any.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        let Self { machine, map, data, .. } = self;
-        let candidates = candidates(&machine.spec, &self.terms);
-        let terms = candidates.concat();
-        let spec = extended(&machine.spec, &terms);
-        let interpreter = Interpreter::new(spec);
-        let mut setup = Setup::new(&interpreter, map, data, terms.len())?;
-        check_readings(&setup, map, data)?;
-        setup.come_near(data).map_err(|failure| mistake::whole(&data.file, failure))?;
-        let solved = solve(&setup, data, &candidates, &self.settings, notes)?;
-        report(self, &setup, &solved)
+        let Self { machine, map, settings, .. } = self;
+        let moved: Vec<usize> = map.moved().collect();
+        let derived = derived(&machine.spec, &self.terms, &moved, self.data.observations.len());
+        let spec = with_inputs(&machine.spec, &derived);
+        let nominal = Interpreter::new(spec.clone());
+        let completed = |data: &Data, fitted: bool| with_columns(&nominal, &spec, &derived, data, fitted);
+        let data = completed(&self.data, true);
+
+        let stages = candidates(&spec, &derived, &self.terms, &self.harmonics);
+        let chosen = match stages.is_empty() {
+            true => Chosen::default(),
+            false => choose(&spec, map, &data, &stages, settings, notes)?,
+        };
+        let (own, terms, numbers) = (own_magnitudes(&spec), chosen.terms(), number_terms(&spec));
+        let interpreter = Interpreter::new(extended(&spec, &[&terms[..], &numbers].concat()));
+        let mut setup = Setup::new(&interpreter, map, &data, own.len() + terms.len() + numbers.len())?;
+        if stages.is_empty() {
+            check_readings(&setup, map, &data)?;
+        }
+        setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, failure))?;
+        let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
+        let test = self.test.as_ref().map(|test| completed(test, false));
+        let identified = Identified { setup: &setup, solved: &solved, chosen: &chosen, derived: &derived };
+        report(self, &identified, &data, test.as_ref())
     }
 }
 
-fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diagnostics> {
-    let Identify { machine, map, data, test, settings: Settings { folds, .. }, .. } = job;
+/// What was found, and on what.
+struct Identified<'a> {
+    setup: &'a Setup<'a>,
+    solved: &'a Solved<'a>,
+    chosen: &'a Chosen,
+    derived: &'a [Derived],
+}
+
+/// By how much of what is left the machine may be another one when it is said in numbers of the chain.
+const SAME: f64 = 0.01;
+
+fn report(
+    job: &Identify,
+    identified: &Identified,
+    data: &Data,
+    test: Option<&Data>,
+) -> Result<Report, Diagnostics> {
+    let Identify { machine, map, settings: Settings { folds, .. }, .. } = job;
+    let Identified { setup, solved, chosen, derived } = *identified;
     let spec = &machine.spec;
     let Solved { model, fit, .. } = solved;
     let identifiable = &fit.identifiable;
@@ -72,14 +112,19 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
     };
     let o = identifiable.observability;
     let length = map.uncertainty.length;
-    let test_sizes = test.as_ref().map(judged).transpose()?;
+    let test_sizes = test.map(judged).transpose()?;
     let accepted = match &test_sizes {
         Some(test) => job.accept.judge("the test rows", &test.after),
         None => job.accept.judge("rows left out in turn", &solved.crossed.into()),
     };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
-    let found = FoundModel::new(spec, solved, data, setup.pose, compared_fit.after.rms);
+    let in_numbers = InNumbers::new(spec, model, fit);
+    let left = compared_fit.after.rms;
+    let apart = in_numbers.difference(spec, setup, solved, rows);
+    let apart = apart.map_err(|failure| mistake::whole(&data.file, failure))?;
+    let same = Some(&in_numbers).filter(|_| apart <= SAME * left);
+    let found = FoundModel { derived: derived.to_vec(), ..FoundModel::new(spec, solved, same, data, left) };
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -94,7 +139,8 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
             .saturating_sub(alike.len() + identifiable.weak.len()),
         not_known: NotKnown::all(model, identifiable, spec.length),
         groups: alike.iter().map(|group| Alike::new(group, model, setup.description)).collect(),
-        meanings: meanings(spec, model, fit),
+        meanings: in_numbers.meanings(spec, model, fit),
+        magnitudes: magnitudes(spec, solved),
         parameters,
         held: identifiable
             .held
@@ -116,24 +162,18 @@ fn report(job: &Identify, setup: &Setup, solved: &Solved) -> Result<Report, Diag
         accepted,
         cross_validation: CrossValidation {
             folds: (*folds).min(rows.len()),
-            constant: solved.constant.map(Sizes::from),
+            constant: chosen.constant.map(Sizes::from),
             after: solved.crossed.into(),
         },
-        terms: solved
-            .chosen
+        terms: chosen
+            .groups
             .iter()
-            .map(|(terms, selection)| TermGain {
-                name: terms.first().map_or(String::new(), |term| term.group(spec)),
-                // Of a coordinate; of a point it is √3 as much.
-                before: selection.before * length,
-                after: selection.after * length,
-                f: selection.test.f,
-                p: selection.test.p,
-            })
+            .map(|(terms, selection)| gain(spec, &found, terms, selection, length))
             .collect(),
+        tried: chosen.tried,
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
-        notes: solved.notes.clone(),
+        notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().collect(),
         files,
         placed: found.placed.clone(),
         found,
@@ -160,6 +200,57 @@ fn refuse_worse(compared: &Compared, data: &Data, setup: &Setup, map: &Map) -> R
         false => "is `uncertainty` right, and are these measurements of this machine?",
     };
     Err(mistake::with_help(&data.file, message, help))
+}
+
+/// `length` is the instrument's uncertainty.
+fn gain(spec: &Spec, found: &FoundModel, terms: &[Term], selection: &Selection, length: f64) -> TermGain {
+    let whole = with_inputs(spec, &found.derived);
+    let of_group = || found.terms.iter().filter(|one| terms.contains(&one.term));
+    TermGain {
+        name: terms.first().map_or(String::new(), |term| term.group(&whole)),
+        lines: of_group().map(|one| found.lines(spec, one)).collect(),
+        written: of_group().all(|one| found.is_written(spec, one)),
+        // Of a coordinate; of a point it is √3 as much.
+        before: selection.before * length,
+        after: selection.after * length,
+        f: selection.test.f,
+        p: selection.test.p,
+    }
+}
+
+/// Of the sources of the spec: what was found of their magnitudes.
+fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
+    let Solved { model, fit, own, .. } = solved;
+    let deviations = fit.standard_deviations();
+    let one = |own: &OwnMagnitude| {
+        let of_this = |k: &usize| solved.own_magnitude(*k).is_some_and(|one| one.source == own.source);
+        let k = (0..model.unknowns.len()).find(of_this);
+        let (source, declared) = (spec.sources[own.source].name.clone(), own.declared.value);
+        let declared_deviation = own.declared.standard_deviation;
+        let standard_deviation = k.and_then(|k| deviations[k]);
+        let value = declared + k.map_or(0.0, |k| fit.x[k]);
+        let before = match declared_deviation {
+            Some(deviation) => format!("{} ± {}", digits(declared, 3), digits(deviation, 2)),
+            None => digits(declared, 3),
+        };
+        let sentence = match standard_deviation {
+            Some(deviation) if k.is_some_and(|k| fit.hardly_known().contains(&k)) => format!(
+                "the magnitude of {source} is {} ± {}, of which these data say less than the spec: {before}",
+                digits(value, 3),
+                digits(deviation, 2)
+            ),
+            Some(deviation) => format!(
+                "the magnitude of {source} is {} ± {} (in the spec: {before})",
+                digits(value, 4),
+                digits(deviation, 2)
+            ),
+            None => format!(
+                "the magnitude of {source} cannot be told from other errors by these data; in the spec: {before}"
+            ),
+        };
+        Magnitude { source, declared, declared_deviation, value, standard_deviation, sentence }
+    };
+    own.iter().map(one).collect()
 }
 
 fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Parameter> {
@@ -189,7 +280,7 @@ fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Paramet
             name: model.name(unknown),
             frame,
             frame_name: frame.map(|frame| frame_name(frame).to_owned()),
-            value: fit.x[*k] + 0.0,
+            value: fit.x[*k] + solved.own_magnitude(*k).map_or(0.0, |own| own.declared.value) + 0.0,
             standard_deviation: deviations[*k].unwrap_or_default(),
             unit: match unknown {
                 Unknown::Magnitude(_) => "",

@@ -6,32 +6,130 @@
 //! errors, and takes the place of one of them: a change of basis that leaves the machine what it is.
 
 use abbe::Component;
-use abbe::identify::{Fit, Model, Unknown};
+use abbe::identify::{Failure, Fit, Model, Observation, Unknown};
 use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
 use abbe_codegen::expr::{Dimension, Motion, Symbol};
 use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_codegen::spec::{ChainNumber, DhNumber, Spec, VariableKind};
 
 use super::report::Meaning;
+use super::setup::Setup;
+use super::solve::Solved;
+use super::terms::{self, Place, Term};
 use crate::number::digits;
 
 /// In how many configurations an error must be the same.
 const SAMPLES: usize = 5;
 
+/// From which correlation on two numbers cannot be told apart.
+const CORRELATED: f64 = 0.9;
+
 /// Beyond how many standard deviations something counts as found.
 const FOUND: f64 = 3.0;
 
-/// What was found of the numbers of the chain.
-pub(super) fn meanings(spec: &Spec, model: &Model, fit: &Fit) -> Vec<Meaning> {
-    let mut basis = Basis::new(model, fit);
-    let mut graph = Graph::with_tables(&spec.tables);
-    let mut meanings = Vec::new();
-    for (name, number) in numbers(spec) {
-        let Some((frame, errors)) = constant_errors(&mut graph, spec, number) else { continue };
-        meanings.extend(basis.exchange(frame, errors).map(|place| (place, name, number)));
+/// What was found, with numbers of the chain in place of some errors of frames: the same machine to first order.
+pub(super) struct InNumbers {
+    /// The numbers.
+    pub(super) numbers: Vec<FoundNumber>,
+    /// What the other unknowns are beside them, by place among the kept ones: value and standard deviation.
+    pub(super) others: Vec<(usize, f64, f64)>,
+}
+
+/// A number of the chain.
+#[derive(Clone, Debug)]
+pub(super) struct FoundNumber {
+    /// What it is called: `zero of q2`.
+    pub(super) name: String,
+    pub(super) number: ChainNumber,
+    /// The kept unknown in whose place it stands.
+    pub(super) place: usize,
+    pub(super) value: f64,
+    pub(super) standard_deviation: f64,
+    /// The largest of its correlations with magnitudes of sources, without its sign.
+    pub(super) correlation: f64,
+}
+
+impl InNumbers {
+    pub(super) fn new(spec: &Spec, model: &Model, fit: &Fit) -> Self {
+        let mut basis = Basis::new(model, fit);
+        let mut graph = Graph::with_tables(&spec.tables);
+        let mut places = Vec::new();
+        for (name, number) in numbers(spec) {
+            let Some((frame, errors)) = constant_errors(&mut graph, spec, number) else { continue };
+            places.extend(basis.exchange(frame, errors).map(|place| (place, name, number)));
+        }
+        let taken = |place: &usize| places.iter().any(|(other, ..)| other == place);
+        let others = (0..basis.forms.len()).filter(|place| !taken(place));
+        let value = |place| {
+            let (value, standard_deviation) = basis.value(place);
+            (place, value, standard_deviation)
+        };
+        let others = others.map(value).collect();
+        let number = |(place, name, number)| {
+            let (value, standard_deviation) = basis.value(place);
+            let correlation = basis.correlation(place);
+            FoundNumber { name, number, place, value, standard_deviation, correlation }
+        };
+        Self { numbers: places.into_iter().map(number).collect(), others }
     }
-    let meaning = |(place, number, of): (usize, String, ChainNumber)| {
-        let (value, standard_deviation) = basis.value(place);
+
+    /// Whatever is found, as sentences.
+    ///
+    /// A term that changes with a joint is hardly told from a constant where the joint moves a little: of numbers that are
+    /// correlated with the magnitude of a source nothing is said.
+    pub(super) fn meanings(&self, spec: &Spec, model: &Model, fit: &Fit) -> Vec<Meaning> {
+        let found = |one: &&FoundNumber| {
+            one.value.abs() > FOUND * one.standard_deviation && one.correlation < CORRELATED
+        };
+        self.numbers.iter().filter(found).map(|one| one.meaning(spec, model, fit)).collect()
+    }
+}
+
+/// All numbers of the chain as terms of magnitude 1.
+pub(super) fn number_terms(spec: &Spec) -> Vec<Term> {
+    let term = |(_, number)| Term { place: Place::of_number(number), basis: terms::Basis::One };
+    numbers(spec).into_iter().map(term).collect()
+}
+
+impl InNumbers {
+    /// How far apart the points of rows are by this and by the fit, root mean square: of second order. The last sources of
+    /// the manipulator are the [`number_terms`].
+    pub(super) fn difference(
+        &self,
+        spec: &Spec,
+        setup: &Setup,
+        solved: &Solved,
+        rows: &[Observation],
+    ) -> Result<f64, Failure> {
+        let Solved { model, fit, .. } = solved;
+        let terms = number_terms(spec);
+        let first = setup.description.sources.len() - terms.len();
+        let other =
+            |(place, value, _): &(usize, f64, f64)| (model.unknowns[fit.identifiable.kept[*place]], *value);
+        let number = |one: &FoundNumber| {
+            let place = Place::of_number(one.number);
+            let index = terms.iter().position(|term| term.place == place);
+            (Unknown::Magnitude(first + index.unwrap_or_default()), one.value)
+        };
+        let all = self.others.iter().map(other).chain(self.numbers.iter().map(number));
+        let (unknowns, x): (Vec<Unknown>, Vec<f64>) = all.unzip();
+        let written = setup.real.with(unknowns);
+        let (mut room, mut room_of_fit) = (written.room(), model.room());
+        let (mut squares, mut points) = (0.0, 0);
+        for row in rows {
+            let here = written.deviations(&mut room, row, &x)?;
+            for (a, b) in here.iter().zip(model.deviations(&mut room_of_fit, row, &fit.x)?) {
+                squares += (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>();
+                points += 1;
+            }
+        }
+        Ok((squares / f64::from(points.max(1))).sqrt())
+    }
+}
+
+impl FoundNumber {
+    fn meaning(&self, spec: &Spec, model: &Model, fit: &Fit) -> Meaning {
+        let Self { name: number, number: of, place, value, standard_deviation, .. } = self.clone();
         let in_place_of = model.name(model.unknowns[fit.identifiable.kept[place]]);
         let (factor, unit) = if is_angle(spec, of) { (1e3, "mrad") } else { (1.0, spec.length.symbol()) };
         let size = format!(
@@ -46,9 +144,7 @@ pub(super) fn meanings(spec: &Spec, model: &Model, fit: &Fit) -> Vec<Meaning> {
             (_, false) => format!("{number} is {size} more than nominal ({in_place_of})"),
         };
         Meaning { in_place_of, number, value, standard_deviation, sentence }
-    };
-    let found = |meaning: &Meaning| meaning.value.abs() > FOUND * meaning.standard_deviation;
-    meanings.into_iter().map(meaning).filter(found).collect()
+    }
 }
 
 fn is_angle(spec: &Spec, number: ChainNumber) -> bool {
@@ -109,7 +205,8 @@ impl<'a> Basis<'a> {
         let says = |place: usize| now[place].abs() / self.fit.covariance[(place, place)].max(0.0).sqrt();
         let most = (0..now.len()).map(says).fold(0.0, f64::max);
         let place = (0..now.len()).filter(|i| self.free[*i]).max_by(|a, b| says(*a).total_cmp(&says(*b)))?;
-        if says(place).is_nan() || says(place) <= 1e-6 * most {
+        // What else it does is nothing beside this: a number is not found from what hardly belongs to it.
+        if says(place).is_nan() || says(place) <= 0.1 * most {
             return None;
         }
         let form: Vec<f64> = self.forms[place].iter().map(|factor| factor / now[place]).collect();
@@ -119,6 +216,20 @@ impl<'a> Basis<'a> {
         self.forms[place] = form;
         self.free[place] = false;
         Some(place)
+    }
+
+    /// The largest correlation of what stands at a place with the magnitude of a source, without its sign.
+    fn correlation(&self, place: usize) -> f64 {
+        let covariance = &self.fit.covariance;
+        let (_, deviation) = self.value(place);
+        let kept = self.fit.identifiable.kept.iter().enumerate();
+        let magnitudes = kept.filter(|(_, k)| matches!(self.model.unknowns[**k], Unknown::Magnitude(_)));
+        let correlation = |(other, _): (usize, &usize)| {
+            let with: f64 =
+                (0..self.forms.len()).map(|j| self.forms[place][j] * covariance[(j, other)]).sum();
+            (with / (deviation * covariance[(other, other)].max(0.0).sqrt())).abs()
+        };
+        magnitudes.map(correlation).fold(0.0, f64::max)
     }
 
     /// Value and standard deviation.

@@ -1,16 +1,23 @@
 //! The generalized errors of a real machine, from measurements.
 //!
-//! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant, `reading` has other ways to read them; `terms`
-//! are candidates for richer models, `extended` the spec that has them; `solve` fits, judges and chooses, on the data
-//! alone, `gross` looks for gross errors. `found` is the identified machine, `written` its spec, `placed` where it stands and what is mounted on its tool; `report` is what comes out,
+//! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant, `reading`
+//! has other ways to read them. `solve`
+//! fits and judges on the data alone, `gross` looks for gross errors; `magnitude` are sources of the spec that are fitted with
+//! the constants. `terms` are errors that richer models have, `candidates` those that are tried, `derived` the inputs that
+//! follow from the order of the rows; `choose` takes in what earns its place, `extended` is the spec that has it. `found` is the
+//! identified machine, `written` its spec, `placed` where it stands and what is mounted on its tool; `report` is what comes out,
 //! with `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
 
 mod alike;
+mod candidates;
+mod choose;
 mod counts;
+mod derived;
 mod extended;
 mod found;
 mod gross;
 mod job;
+mod magnitude;
 mod meaning;
 mod not_known;
 mod placed;
@@ -24,20 +31,22 @@ mod terms;
 mod written;
 
 pub use alike::Alike;
+pub use candidates::{Family, Harmonics, candidates};
 pub use counts::Counts;
+pub use derived::{Derived, DerivedKind};
 pub use extended::extended;
-pub use found::{FoundError, FoundModel, FoundTerm};
+pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use gross::shown_lines;
 pub use job::Identify;
 pub use not_known::NotKnown;
 pub use placed::{Placed, PlacedStation};
 pub use priors::Prior;
 pub use report::{
-    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Meaning, Pair, Parameter, Report, Sizes,
-    TermGain,
+    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair, Parameter, Report,
+    Sizes, TermGain,
 };
 pub use solve::Settings;
-pub use terms::{Basis, Family, Place, Term, candidates};
+pub use terms::{Angle, Basis, Place, Term, Wave};
 pub use written::WrittenSpec;
 
 pub(crate) use readings::check_readings;

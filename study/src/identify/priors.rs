@@ -22,6 +22,14 @@ const SHARES: [f64; 6] = [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
 const BETTER: f64 = 0.01;
 
 impl Prior {
+    /// What is expected of errors of which nothing else is said; 0 for no expectation.
+    pub(super) fn share(self) -> f64 {
+        match self {
+            Self::Share(share) => share,
+            Self::Spec | Self::Auto => SHARES[1],
+        }
+    }
+
     /// As standard deviations about zero, for the unknowns of a model.
     pub(super) fn of_model(self, model: &Model) -> Result<Vec<Option<f64>>, Failure> {
         match self {

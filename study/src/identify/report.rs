@@ -42,6 +42,8 @@ pub struct Report {
     pub meanings: Vec<Meaning>,
     /// Errors of which these data tell less than is known before; they are held at zero.
     pub not_known: Vec<NotKnown>,
+    /// The magnitudes of sources of the spec that are to be found.
+    pub magnitudes: Vec<Magnitude>,
     /// The others.
     pub held: Vec<Held>,
     /// Parameters that are correlated by more than 0.9, either sign.
@@ -60,8 +62,10 @@ pub struct Report {
     pub cross_validation: CrossValidation,
     /// Whether it is within the limits that were declared, if any were.
     pub accepted: Option<Accepted>,
-    /// The richer terms that were taken in, in the order of their gain.
+    /// The richer terms that were taken in, in the order in which they were.
     pub terms: Vec<TermGain>,
+    /// How many groups of terms were tried.
+    pub tried: usize,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,
     /// Lines that a robust loss left out.
@@ -135,6 +139,23 @@ pub struct Meaning {
     pub sentence: String,
 }
 
+/// The magnitude of a source of the spec.
+#[derive(Clone, Debug, Serialize)]
+pub struct Magnitude {
+    /// The source.
+    pub source: String,
+    /// What the spec says.
+    pub declared: f64,
+    /// How well that was known, if the spec says so.
+    pub declared_deviation: Option<f64>,
+    /// What was found; what the spec says if these data do not tell.
+    pub value: f64,
+    /// How well it is known; nothing if these data do not tell.
+    pub standard_deviation: Option<f64>,
+    /// All this as a sentence.
+    pub sentence: String,
+}
+
 /// An unknown that is held at zero, and what it acts as.
 #[derive(Clone, Debug, Serialize)]
 pub struct Held {
@@ -195,11 +216,15 @@ pub struct CrossValidation {
 pub struct TermGain {
     /// What it is called.
     pub name: String,
+    /// Its terms as a spec reads, with what was found: a source's effect each.
+    pub lines: Vec<String>,
+    /// Whether a spec can say it.
+    pub written: bool,
     /// Root mean square of a coordinate on rows left out, the length unit, before it.
     pub before: f64,
     /// … and with it.
     pub after: f64,
-    /// The F-test of it.
+    /// The F-test of it, with configurations as what is independent.
     pub f: f64,
     /// How likely so large an F is by chance.
     pub p: f64,

@@ -25,6 +25,8 @@ pub(crate) struct Setup<'a> {
     pub(crate) delivered: Model<'a>,
     /// The sum of the lengths of the chain.
     pub(crate) arm: f64,
+    /// How many sources the spec itself has.
+    pub(crate) declared: usize,
 }
 
 impl<'a> Setup<'a> {
@@ -71,15 +73,15 @@ impl<'a> Setup<'a> {
         let ideal = Model { mounting: map.mounting(), ..ideal };
         let description = ideal.manipulator.description();
         let mut real = ideal.clone();
-        let own = description.sources.len() - terms;
-        for (source, role) in description.sources[..own].iter().zip(&mut real.roles) {
+        let declared = description.sources.len() - terms;
+        for (source, role) in description.sources[..declared].iter().zip(&mut real.roles) {
             *role = if source.class == Class::Repeatable { Role::Known } else { Role::Off };
         }
         let arm = sampling::arm_length(ideal.manipulator, &ideal.s);
         let arm = arm.map_err(|error| mistake::whole(&description.name, error))?;
         let placement = map.placement.exact;
         let delivered = real.clone();
-        Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm })
+        Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm, declared })
     }
 
     fn stand_at(&mut self, stations: Vec<Station>) {

@@ -1,14 +1,17 @@
-//! Fitted, judged and chosen: by the data alone.
+//! Fitted and judged: by the data alone.
 
-use abbe::identify::{
-    Failure, Figures, Fit, Loss, Model, Options, Selection, Unknown, cross_validate, fit, select,
-};
+use std::time::Duration;
+
+use abbe::VariableKind;
+use abbe::identify::{Failure, Figures, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::expr::Motion;
 
 use super::gross;
+use super::magnitude::OwnMagnitude;
 use super::priors::Prior;
 use super::setup::Setup;
-use super::terms::Term;
+use super::terms::{Basis, Place, Term};
 use crate::data::Data;
 use crate::number::digits;
 use crate::{Notes, mistake};
@@ -22,6 +25,9 @@ pub struct Settings {
     pub prior: Prior,
     /// Into how many parts the rows are dealt, each left out in turn.
     pub folds: usize,
+    /// How long richer terms are tried; then no further ones are, and what comes out depends on the computer. As long as it
+    /// takes if there is none.
+    pub time: Option<Duration>,
 }
 
 /// What the data say.
@@ -32,23 +38,22 @@ pub(super) struct Solved<'a> {
     /// Everything.
     pub(super) model: Model<'a>,
     pub(super) fit: Fit,
-    /// Of the model with constants alone, if richer terms were tried.
-    pub(super) constant: Option<Figures>,
     /// On rows left out in turn.
     pub(super) crossed: Figures,
-    /// The groups of terms that were taken in, in the order of their gain.
-    pub(super) chosen: Vec<(Vec<Term>, Selection)>,
+    /// Sources of the spec whose magnitudes are unknowns of the model.
+    pub(super) own: Vec<OwnMagnitude>,
     /// The terms whose magnitudes are the last unknowns of the model.
     pub(super) terms: Vec<Term>,
     /// What must be said.
     pub(super) notes: Vec<String>,
 }
 
-/// `candidates` are the last sources of the manipulator, group by group.
+/// Behind the sources of the spec the manipulator has `own` ones of them once more, and then `terms`.
 pub(super) fn solve<'a>(
     setup: &Setup<'a>,
     data: &Data,
-    candidates: &[Vec<Term>],
+    own: &[OwnMagnitude],
+    terms: &[Term],
     settings: &Settings,
     notes: &mut dyn Notes,
 ) -> Result<Solved<'a>, Diagnostics> {
@@ -59,8 +64,22 @@ pub(super) fn solve<'a>(
     let expected = simple.expected(&[]).map_err(explained)?;
     let simple_fit = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(explained)?;
 
+    let mut magnitudes = (setup.declared..).map(Unknown::Magnitude);
+    let of_own: Vec<Unknown> = magnitudes.by_ref().take(own.len()).collect();
+    let of_terms = magnitudes.take(terms.len());
+    // What somebody has named is kept before errors of frames that act alike, what was tried behind them.
+    let model = setup.real.with(of_own.into_iter().chain(setup.constants()).chain(of_terms).collect());
     let fitted = |model: &Model, prior: Prior| -> Result<Fit, Failure> {
-        let priors = prior.of_model(model)?;
+        let mut priors = prior.of_model(model)?;
+        let share = prior.share();
+        priors.resize(model.unknowns.len(), None);
+        for (prior, own) in priors.iter_mut().zip(own) {
+            *prior = own.declared.standard_deviation;
+        }
+        let first = priors.len() - terms.len();
+        for (prior, term) in priors[first..].iter_mut().zip(terms).filter(|_| share > 0.0) {
+            *prior = Some(share * term.scale(setup));
+        }
         let at = embedded(&simple, &simple_fit.x, model);
         let expected = model.expected(&priors)?;
         let options = Options { at, priors, expected, ..options.clone() };
@@ -73,8 +92,6 @@ pub(super) fn solve<'a>(
     };
     let crossed =
         |model: &Model, fit: &Fit| cross_validate(model, rows, fit, settings.folds).map_err(explained);
-    let constants = setup.constants();
-    let model = setup.real.with(constants.clone());
     let prior = settings.prior.chosen(&model, rows, settings.folds, fitted).map_err(explained)?;
     let found = fitted(&model, prior);
     let warning = match settings.loss {
@@ -91,9 +108,8 @@ pub(super) fn solve<'a>(
         simple_fit: simple_fit.clone(),
         model,
         fit,
-        constant: None,
-        chosen: Vec::new(),
-        terms: Vec::new(),
+        own: own.to_vec(),
+        terms: terms.to_vec(),
         notes: warning.into_iter().map(|warning| format!("note: {warning}")).collect(),
     };
     if let (Prior::Auto, Prior::Share(share)) = (settings.prior, prior) {
@@ -103,39 +119,32 @@ pub(super) fn solve<'a>(
             format!("{} %", digits(100.0 * share, 2))
         ));
     }
-    if candidates.is_empty() {
-        return Ok(solved);
-    }
-
-    // The magnitude of every term, by group.
-    let count = candidates.iter().map(Vec::len).sum::<usize>();
-    let mut sources = setup.description.sources.len() - count..;
-    let magnitudes: Vec<Vec<(Term, Unknown)>> = candidates
-        .iter()
-        .map(|group| group.iter().copied().zip(sources.by_ref().map(Unknown::Magnitude)).collect())
-        .collect();
-    let with = |terms: &[(Term, Unknown)]| {
-        let magnitudes = terms.iter().map(|(_, magnitude)| *magnitude);
-        setup.real.with(constants.iter().copied().chain(magnitudes).collect())
-    };
-    let mut next = constants.len()..;
-    let offered: Vec<Vec<usize>> =
-        candidates.iter().map(|group| next.by_ref().take(group.len()).collect()).collect();
-    let rich = with(&magnitudes.concat());
-    let selected = select(&rich, rows, &solved.fit, &offered, settings.folds, 40).map_err(explained)?;
-    solved.constant = Some(solved.crossed);
-    // In the order of the spec, not of their gain.
-    let taken = (0..candidates.len()).filter(|i| selected.iter().any(|selection| selection.candidate == *i));
-    let taken: Vec<(Term, Unknown)> = taken.flat_map(|i| magnitudes[i].clone()).collect();
-    if !taken.is_empty() {
-        solved.model = with(&taken);
-        solved.fit = fitted(&solved.model, prior).map_err(explained)?;
-        solved.crossed = crossed(&solved.model, &solved.fit)?;
-    }
-    solved.terms = taken.into_iter().map(|(term, _)| term).collect();
-    let group = |selection: Selection| (candidates[selection.candidate].clone(), selection);
-    solved.chosen = selected.into_iter().map(group).collect();
     Ok(solved)
+}
+
+impl Solved<'_> {
+    /// The magnitude of a source of the spec that an unknown is about, if it is about one: which one, and what the spec says.
+    pub(super) fn own_magnitude(&self, unknown: usize) -> Option<OwnMagnitude> {
+        self.own.get(unknown).copied()
+    }
+}
+
+impl Term {
+    /// The magnitude of an error as large as the arm is long, or of 1 rad; of a compliance, by the weight of 1 kg at the end
+    /// of the arm.
+    fn scale(self, setup: &Setup) -> f64 {
+        let is_angle = match self.place {
+            Place::Joint(joint) => setup.description.variables[joint].kind == VariableKind::Revolute,
+            Place::Frame(_, component) | Place::Base(component) => component.is_rotation(),
+            Place::DenavitHartenberg(_, number) => number.motion().0 == Motion::Rotation,
+            Place::Parameter(_) => false,
+        };
+        match self.basis {
+            Basis::Moment => 1e6 / (9.80665 * setup.arm),
+            _ if is_angle => 1.0,
+            _ => setup.arm,
+        }
+    }
 }
 
 /// The values of one model's unknowns in the order of another's.
@@ -144,7 +153,7 @@ fn embedded(from: &Model, x: &[f64], to: &Model) -> Vec<f64> {
     to.unknowns.iter().map(value).collect()
 }
 
-fn explained(failure: &Failure, data: &Data) -> Diagnostics {
+pub(super) fn explained(failure: &Failure, data: &Data) -> Diagnostics {
     match failure {
         Failure::Observation { .. } | Failure::Machine(_) => mistake::whole(&data.file, failure),
         Failure::TooFew { numbers, rank } => {

@@ -2,11 +2,14 @@
 
 use std::path::Path;
 
+use abbe::Component;
 use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::Symbol;
+use abbe_codegen::document::{Document, Section};
+use abbe_codegen::expr::{Motion, Symbol};
 use abbe_codegen::spec::{Fitted, Spec, VariableKind};
 
-use super::found::{FoundError, FoundModel, FoundTerm};
+use super::derived::{Derived, with_inputs};
+use super::found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 use super::terms::{Basis, Place, Term};
 use crate::number::digits;
 
@@ -24,13 +27,20 @@ impl FoundModel {
     ///
     /// What is written is a spec, or it is not written: files of tables must be where they are looked for from there.
     pub fn written(&self, spec: &Spec, text: &str, path: &str) -> Result<WrittenSpec, Diagnostics> {
-        let sources = self.sources(spec);
-        let kept = without_fitted(text);
-        let text = kept.as_str();
+        let base = free_name(spec, "ground");
+        let sources = self.sources(spec, &base) + &self.inputs(spec);
+        let (kept, changed) = with_magnitudes(&without_fitted(text), spec, &self.magnitudes);
+        let ground = match self.terms.iter().any(|found| matches!(found.term.place, Place::Base(_))) {
+            true => format!("[[frame]]\nname = {base:?}\norigin = {{ xyz = [0, 0, 0] }}\n\n"),
+            false => String::new(),
+        };
+        let at =
+            if kept.starts_with("[[frame]]") { Some(0) } else { kept.find("\n[[frame]]").map(|at| at + 1) };
+        let (before, behind) = kept.split_at(at.unwrap_or_default());
         let fitted = self.fitted_table(spec);
-        let mut new = format!("{}\n{sources}\n{fitted}", text.trim_end());
-        let mut added = format!("{}\n{fitted}", sources.trim_start());
-        if self.terms.iter().any(|found| found.term.basis == Basis::Moment) {
+        let mut new = format!("{before}{ground}{}\n{sources}\n{fitted}", behind.trim_end());
+        let mut added = format!("{changed}{ground}{}\n{fitted}", sources.trim_start());
+        if self.terms.iter().any(|found| found.term.basis.is_elastic()) {
             let [load, gravity] = weight(spec);
             new = format!("{gravity}{}\n{load}", new.trim_end());
             added = format!("{gravity}{added}{load}");
@@ -39,11 +49,42 @@ impl FoundModel {
         Ok(WrittenSpec { text: new, added })
     }
 
-    fn sources(&self, spec: &Spec) -> String {
+    fn sources(&self, spec: &Spec, base: &str) -> String {
         let names = spec.frames.iter().map(|frame| frame.name.as_str());
         let constants = names.zip(&self.frames).filter(|(_, errors)| !errors.is_empty());
         let constants = constants.map(|(frame, errors)| self.constant(spec, frame, errors));
-        constants.chain(self.terms.iter().map(|found| self.term(spec, found))).collect()
+        let numbers = self.numbers.iter().map(|found| self.term(spec, found, base));
+        let terms = self.terms.iter().filter(|found| self.is_written(spec, found));
+        numbers.chain(constants).chain(terms.map(|found| self.term(spec, found, base))).collect()
+    }
+
+    /// The input of a term that follows from the rows, if it has such a one.
+    fn derived(&self, spec: &Spec, found: &FoundTerm) -> Option<&Derived> {
+        let Basis::Input(input) = found.term.basis else { return None };
+        self.derived.get(input.checked_sub(spec.inputs.len())?)
+    }
+
+    /// Whether a spec can say a term: not what is of the rows of one file.
+    pub fn is_written(&self, spec: &Spec, found: &FoundTerm) -> bool {
+        self.derived(spec, found).is_none_or(Derived::is_of_the_machine)
+    }
+
+    /// A term as lines of a spec, of the machine with the inputs that follow from the rows.
+    pub fn lines(&self, spec: &Spec, found: &FoundTerm) -> String {
+        effect(&with_inputs(spec, &self.derived), &found.term, found.magnitude, "F_0")
+    }
+
+    /// The inputs that terms need beside those of the spec.
+    fn inputs(&self, spec: &Spec) -> String {
+        let mut needed: Vec<&Derived> = Vec::new();
+        for found in self.terms.iter().filter(|found| self.is_written(spec, found)) {
+            needed.extend(self.derived(spec, found).filter(|one| !needed.contains(one)));
+        }
+        let input = |one: &Derived| {
+            let description = one.description(spec);
+            format!("\n[inputs.{}]\nvalue = 0\nrange = [-1, 1]\ndescription = {description:?}\n", one.name)
+        };
+        needed.into_iter().map(input).collect()
     }
 
     /// Where all this was fitted.
@@ -78,66 +119,125 @@ impl FoundModel {
         )
     }
 
-    fn term(&self, spec: &Spec, found: &FoundTerm) -> String {
+    fn term(&self, spec: &Spec, found: &FoundTerm, base: &str) -> String {
         let FoundTerm { term, magnitude, standard_deviation } = found;
-        // No body has a negative compliance: as one it would be refused.
+        let spec = &with_inputs(spec, &self.derived);
+        // No body has a negative compliance: as a number of its own it would be refused.
         let is_reversed = term.basis == Basis::Moment && *magnitude < 0.0;
         let (size, reversed, remark) = match is_reversed {
-            true => (
-                -magnitude,
-                "magnitude = { value = -1 }\n",
-                ". Negative: it stands for something else than elasticity",
-            ),
-            false => (*magnitude, "", ""),
+            true => {
+                let fitted = magnitude_table(*magnitude, *standard_deviation);
+                let remark = ". Negative: it stands for something else than elasticity";
+                (1.0, format!("magnitude = {fitted}\n"), remark)
+            }
+            false => (*magnitude, String::new(), ""),
         };
-        let deviation = digits((standard_deviation / magnitude).abs(), 2);
+        let deviation = match term.basis {
+            Basis::One => format!("{} {}", digits(*standard_deviation, 2), term.place.unit(spec)),
+            _ => format!("{} of it", digits((standard_deviation / magnitude).abs(), 2)),
+        };
         format!(
             "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\n{reversed}reference = {:?}\n\n[[source.effect]]\n{}\n",
             source_name(spec, &format!("identified: {}", term.name(spec))),
-            format!("Standard deviation: {deviation} of it{remark}"),
+            format!("Standard deviation: {deviation}{remark}"),
             self.reference,
-            effect(spec, term, size),
+            effect(spec, term, size, base),
         )
     }
 }
 
-/// What a term is an error of, and which.
-fn effect(spec: &Spec, term: &Term, magnitude: f64) -> String {
-    let (factor, basis) = (number(magnitude), term.basis.text(spec));
-    let error = |unit: &str| match unit {
-        "" => format!("\"{factor} * ({basis})\""),
-        unit => format!("\"{factor} * (1 {unit} * {basis})\""),
-    };
-    let length = spec.length.symbol();
-    match term.place {
-        Place::Joint(joint) => {
-            let unit = match spec.variables[joint].kind {
-                VariableKind::Revolute => "",
-                VariableKind::Prismatic => length,
-            };
-            format!("joint = {:?}\nerror = {}", spec.variables[joint].name, error(unit))
-        }
-        Place::Parameter(parameter) => {
-            let parameter = &spec.parameters[parameter];
-            format!("parameter = {:?}\nerror = {}", parameter.name, error(&parameter.unit))
-        }
-        Place::Frame(frame, component) => {
-            let name = component.name();
-            let error = match (term.basis, component.is_rotation()) {
-                (Basis::Moment, _) => {
-                    let entry = |rotation: &str| match rotation == name {
-                        true => format!("\"{factor} * {basis}\""),
-                        false => "0".to_owned(),
-                    };
-                    let turns = ["e_s", "e_r", "e_p"].map(entry).join(", ");
-                    format!("compliance = {{ diagonal = [0, 0, 0, {turns}] }}")
-                }
-                (_, true) => format!("{name} = {}", error("")),
-                (_, false) => format!("{name} = {}", error(length)),
-            };
-            format!("frame = {:?}\n{error}", spec.frames[frame].name)
+impl Place {
+    /// The unit of an error there: one that a spec understands.
+    fn unit(self, spec: &Spec) -> &str {
+        let length = spec.length.symbol();
+        let of = |is_angle: bool| if is_angle { "rad" } else { length };
+        match self {
+            Self::Joint(joint) => of(spec.variables[joint].kind == VariableKind::Revolute),
+            Self::Parameter(parameter) => &spec.parameters[parameter].unit,
+            Self::DenavitHartenberg(_, number) => of(number.motion().0 == Motion::Rotation),
+            Self::Frame(_, component) | Self::Base(component) => of(component.is_rotation()),
         }
     }
+}
+
+/// What a term is an error of, and which; `base` is the frame where `F_0` is.
+fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
+    let (factor, basis, unit) = (number(magnitude), term.basis.text(spec), term.place.unit(spec));
+    let error = match (term.basis, unit) {
+        (Basis::One, unit) => format!("\"{factor} {}\"", unit).replace(" \"", "\""),
+        (_, "" | "rad") => format!("\"{factor} * ({basis})\""),
+        (_, unit) => format!("\"{factor} * (1 {unit} * {basis})\""),
+    };
+    let of_frame = |name: &str, component: Component| {
+        let error = match term.basis {
+            Basis::Moment => {
+                let entry = |rotation: Component| match rotation == component {
+                    true => format!("\"{factor} * {basis}\""),
+                    false => "0".to_owned(),
+                };
+                format!("compliance = {{ diagonal = [{}] }}", Component::ALL.map(entry).join(", "))
+            }
+            _ => format!("{} = {error}", component.name()),
+        };
+        format!("frame = {name:?}\n{error}")
+    };
+    match term.place {
+        Place::Joint(joint) => format!("joint = {:?}\nerror = {error}", spec.variables[joint].name),
+        Place::Parameter(parameter) => {
+            format!("parameter = {:?}\nerror = {error}", spec.parameters[parameter].name)
+        }
+        Place::DenavitHartenberg(frame, number) => {
+            format!("frame = {:?}\ndh = {{ {} = {error} }}", spec.frames[frame].name, number.name())
+        }
+        Place::Frame(frame, component) => of_frame(&spec.frames[frame].name, component),
+        Place::Base(component) => of_frame(base, component),
+    }
+}
+
+/// A spec with the magnitudes of its sources, and what was changed.
+fn with_magnitudes(text: &str, spec: &Spec, magnitudes: &[FoundMagnitude]) -> (String, String) {
+    let mut document = Document::new("", text);
+    let tables = document.tables(text);
+    let sources = tables.as_ref().and_then(|tables| Section::root(tables).get("source"));
+    let sources = sources.and_then(|item| document.array(&item, "sources")).unwrap_or_default();
+    let (mut edits, mut changed) = (Vec::new(), String::new());
+    for FoundMagnitude { source, magnitude, standard_deviation } in magnitudes {
+        let section = sources.get(*source).and_then(|item| document.section(item));
+        let Some(item) = section.and_then(|section| section.get("magnitude")) else { continue };
+        let table = magnitude_table(*magnitude, *standard_deviation);
+        changed += &format!("# {}\nmagnitude = {table}\n\n", spec.sources[*source].name);
+        if text[item.span()].starts_with('{') {
+            edits.push((item.span(), table));
+            continue;
+        }
+        // A table with a header of its own, or dotted keys: number by number.
+        let Some(inside) = document.section(&item) else { continue };
+        let new = [("value", number(*magnitude)), ("standard_deviation", digits(*standard_deviation, 3))];
+        let present = new.iter().find_map(|(key, _)| inside.get(key));
+        for (key, value) in new {
+            match (inside.get(key), &present) {
+                (Some(entry), _) => edits.push((entry.span(), value)),
+                (None, Some(other)) => {
+                    let start = text[..other.key_span.start].rfind('\n').map_or(0, |newline| newline + 1);
+                    let before = text[start..other.key_span.start].to_owned();
+                    edits.push((start..start, format!("{before}{key} = {value}\n")));
+                }
+                (None, None) => {
+                    let end =
+                        text[item.key_span.end..].find('\n').map_or(text.len(), |n| item.key_span.end + n);
+                    edits.push((end..end, format!("\n{key} = {value}")));
+                }
+            }
+        }
+    }
+    edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+    let mut text = text.to_owned();
+    edits.into_iter().for_each(|(span, new)| text.replace_range(span, &new));
+    (text, changed)
+}
+
+fn magnitude_table(magnitude: f64, standard_deviation: f64) -> String {
+    format!("{{ value = {}, standard_deviation = {} }}", number(magnitude), digits(standard_deviation, 3))
 }
 
 /// A number that a spec understands, to seven digits.
@@ -168,6 +268,13 @@ fn without_fitted(text: &str) -> String {
         !inside && !line.starts_with("# The ranges of joints and inputs on which the errors were fitted.")
     });
     kept.collect()
+}
+
+/// A name that no frame has.
+fn free_name(spec: &Spec, name: &str) -> String {
+    let taken = |name: &str| spec.frames.iter().any(|frame| frame.name == name);
+    let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} {i}")));
+    names.into_iter().find(|name| !taken(name)).unwrap_or_default()
 }
 
 /// A name that no source has.
