@@ -83,13 +83,14 @@ fn measurements(map: &Map, samples: usize, seed: u64) -> Data {
 }
 
 fn identify(map: &Map, data: Data) -> Identify {
-    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10 };
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None };
     Identify {
         machine: ur5(),
         map: map.clone(),
         data,
         test: None,
         terms: Vec::new(),
+        harmonics: Vec::new(),
         settings,
         accept: Acceptance::default(),
     }

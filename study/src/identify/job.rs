@@ -124,7 +124,10 @@ fn report(
     let apart = in_numbers.difference(spec, setup, solved, rows);
     let apart = apart.map_err(|failure| mistake::whole(&data.file, failure))?;
     let same = Some(&in_numbers).filter(|_| apart <= SAME * left);
-    let found = FoundModel { derived: derived.to_vec(), ..FoundModel::new(spec, solved, same, data, left) };
+    let found = FoundModel {
+        derived: derived.to_vec(),
+        ..FoundModel::new(spec, solved, same, data, setup.pose, left)
+    };
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
