@@ -83,12 +83,7 @@ impl FoundModel {
         let as_found = |(place, k): (usize, &usize)| (place, fit.x[*k], deviations[*k].unwrap_or_default());
         let values: Vec<(usize, f64, f64)> = in_numbers
             .map_or_else(|| kept.iter().enumerate().map(as_found).collect(), |one| one.others.clone());
-        // Beside numbers of the chain the machine may stand elsewhere.
-        let mut beside = fit.clone();
-        for (place, value, _) in &values {
-            beside.x[kept[*place]] = *value;
-        }
-        let placed = Placed::new(model, &beside, pose);
+        let placed = Placed::new(model, fit, pose);
         let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
         let first = model.unknowns.len() - solved.terms.len();
         for (place, value, standard_deviation) in values {

@@ -205,8 +205,11 @@ impl<'a> Basis<'a> {
         let says = |place: usize| now[place].abs() / self.fit.covariance[(place, place)].max(0.0).sqrt();
         let most = (0..now.len()).map(says).fold(0.0, f64::max);
         let place = (0..now.len()).filter(|i| self.free[*i]).max_by(|a, b| says(*a).total_cmp(&says(*b)))?;
-        // What else it does is nothing beside this: a number is not found from what hardly belongs to it.
-        if says(place).is_nan() || says(place) <= 0.1 * most {
+        // Where the machine stands and what is mounted on it stays what it is.
+        let unknown = |i: usize| self.model.unknowns[self.fit.identifiable.kept[i]];
+        let moves = (0..now.len()).any(|i| unknown(i).is_placement() && says(i) > 1e-3 * most);
+        // A number is not found from what hardly belongs to it.
+        if moves || says(place).is_nan() || says(place) <= 0.1 * most {
             return None;
         }
         let form: Vec<f64> = self.forms[place].iter().map(|factor| factor / now[place]).collect();
