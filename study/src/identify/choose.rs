@@ -79,8 +79,7 @@ pub(super) fn choose(
     };
     let values = |row: &Observation| factors.iter().map(|basis| basis.value(&row.q, &row.u)).collect();
     let folds = Folds::new(data.observations.len(), settings.folds);
-    let mut chosen =
-        Chosen { constant: Some(solved.crossed), notes: solved.notes.clone(), ..Chosen::default() };
+    let mut chosen = Chosen { constant: Some(solved.crossed), ..Chosen::default() };
     for (i, stage) in stages.iter().enumerate() {
         if over(settings.time) {
             let rest: usize = stages[i..].iter().map(Vec::len).sum();

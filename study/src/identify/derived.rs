@@ -99,29 +99,35 @@ pub(super) fn with_columns(
     fitted: bool,
 ) -> Data {
     let mut data = data.clone();
-    let rows = &mut data.observations;
-    let count = rows.len();
+    let count = data.observations.len();
+    // In the order of time, if it is known.
+    let mut order: Vec<usize> = (0..count).collect();
+    let time = |i: usize| data.observations[i].time;
+    if (0..count).all(|i| time(i).is_some()) {
+        order.sort_by(|a, b| time(*a).unwrap_or_default().total_cmp(&time(*b).unwrap_or_default()));
+    }
+    let rows: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
     let columns: Vec<Vec<f64>> = derived
         .iter()
         .map(|one| match one.kind {
-            DerivedKind::Direction(variable) => directions(rows, variable),
-            DerivedKind::Pull { variable, at } => pulls(manipulator, spec, rows, variable, at),
+            DerivedKind::Direction(variable) => directions(&rows, variable),
+            DerivedKind::Pull { variable, at } => pulls(manipulator, spec, &rows, variable, at),
             DerivedKind::Settling(_) | DerivedKind::Drift if !fitted => vec![0.0; count],
             DerivedKind::Settling(after) => (0..count).map(|n| (-(n as f64) / after).exp()).collect(),
             DerivedKind::Drift => (0..count).map(|n| (n + 1) as f64 / count.max(1) as f64 - 1.0).collect(),
         })
         .collect();
-    for (i, row) in rows.iter_mut().enumerate() {
-        row.u.extend(columns.iter().map(|column| column[i]));
+    for (n, i) in order.into_iter().enumerate() {
+        data.observations[i].u.extend(columns.iter().map(|column| column[n]));
     }
     data
 }
 
 /// The sign of the last move of a joint, row by row.
-fn directions(rows: &[Observation], variable: usize) -> Vec<f64> {
+fn directions(rows: &[&Observation], variable: usize) -> Vec<f64> {
     let mut last = 0.0;
     let mut before = rows.first().map_or(0.0, |row| row.q[variable]);
-    let direction = |row: &Observation| {
+    let direction = |row: &&Observation| {
         let moved = row.q[variable] - before;
         if moved.abs() > 1e-9 * (1.0 + before.abs()) {
             last = moved.signum();
@@ -137,7 +143,7 @@ fn directions(rows: &[Observation], variable: usize) -> Vec<f64> {
 fn pulls(
     manipulator: &dyn Manipulator,
     spec: &Spec,
-    rows: &[Observation],
+    rows: &[&Observation],
     variable: usize,
     at: usize,
 ) -> Vec<f64> {
@@ -157,7 +163,7 @@ fn pulls(
     debug_assert!(at >= frame);
     let moments: Vec<f64> = rows
         .iter()
-        .map(|row| match (height(row, STEP), height(row, -STEP)) {
+        .map(|&row| match (height(row, STEP), height(row, -STEP)) {
             (Some(ahead), Some(behind)) => (ahead - behind) / (2.0 * STEP),
             _ => 0.0,
         })
