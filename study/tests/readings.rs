@@ -69,7 +69,7 @@ fn read(text: &str, map: &Map) -> Result<Data, String> {
 }
 
 fn identified(map: &Map, text: &str) -> Result<f64, String> {
-    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5 };
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None };
     let data = read(text, map)?;
     let job = Identify {
         machine: ur5(),
@@ -77,6 +77,7 @@ fn identified(map: &Map, text: &str) -> Result<f64, String> {
         data,
         test: None,
         terms: Vec::new(),
+        harmonics: Vec::new(),
         settings,
         accept: Acceptance::default(),
     };
