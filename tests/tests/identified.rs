@@ -155,8 +155,8 @@ fn zeros() -> String {
 fn zeros_of_joints_are_told_in_words() {
     for (base, layout, told) in [
         ("exact", POSE, &[1, 2, 3, 4, 5][..]),
-        ("known", POSE, &[2, 3, 4, 5]),
-        ("exact", POINT, &[1, 2, 3, 4]),
+        ("known", POSE, &[2, 3, 4, 5][..]),
+        ("exact", POINT, &[1, 2, 3, 4][..]),
     ] {
         let data = measured(&ur5(&zeros()), base, layout, 150, 5);
         let report = job(&ur5(""), base, layout, &data).run(&mut ()).unwrap();
@@ -254,7 +254,7 @@ fn a_gear_is_found_where_its_ratio_is_said() {
     assert!((left - report.fit.after.rms).abs() < 0.01 * report.fit.after.rms, "{left}");
 }
 
-/// Of machines that have constant errors alone, no term is taken in: the best of more than 700 groups is chance.
+/// Of machines that have constant errors alone, no term is taken in: the best of more than 500 groups is chance.
 #[test]
 fn chance_is_no_term() {
     let mut taken = 0;
@@ -263,7 +263,7 @@ fn chance_is_no_term() {
         let mut job = job(&ur5(""), "exact", POINT, &data);
         job.terms = Family::ALL.to_vec();
         let report = job.run(&mut ()).unwrap();
-        assert!(report.tried > 700, "{}", report.tried);
+        assert!(report.tried > 500, "{}", report.tried);
         taken += report.terms.len();
     }
     // At 5 % each, two or more of four are an accident of 1.4 %.

@@ -157,7 +157,9 @@ fn the_result_is_a_spec() {
     for line in found.lines().filter(|line| !shipped("ur5").lines().any(|nominal| nominal == *line)) {
         assert!(text.contains(&format!("+ {line}\n")), "{line}");
     }
-    assert!(found.contains("name = \"identified: alpha of elbow\"") && found.contains("200 rows of data.csv"));
+    assert!(
+        found.contains("name = \"identified: alpha of elbow\"") && found.contains("200 rows of data.csv")
+    );
     let check = json(&["check", path(&out), "--json"]);
     assert!(check["laws"].as_array().unwrap().iter().all(|law| law["holds"] == true));
     assert!(prints(&["generate", path(&out)]).contains("pub mod raw"));
