@@ -118,9 +118,9 @@ impl Report {
             ),
         };
         let chance = match explained.random {
-            0 => "the noise of its instrument".to_owned(),
+            0 => "the noise of the instrument fills".to_owned(),
             random => format!(
-                "its {random} random sources, drawn anew in every row, and the noise of the instrument"
+                "its {random} random sources, drawn anew in every row, and the noise of the instrument fill"
             ),
         };
         let [low, high] = explained.likely;
@@ -133,7 +133,7 @@ impl Report {
         };
         let [low, high] = [low, high].map(|share| percent(share.min(1.0), 1.0));
         let inside = format!(
-            "About that, {chance} fill a region that holds 95 % of the rows of a machine as the spec says; {} of these rows are within \
+            "About that, {chance} a region that holds 95 % of the rows of a machine as the spec says; {} of these rows are within \
              it: {verdict} (of so many rows {low} to {high}, in 99 of 100 such machines).",
             percent(explained.inside, 1.0)
         );
