@@ -333,14 +333,6 @@ pub(crate) enum Criterion {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Criterion {
-    /// V-optimal: the tool point is known best where it is used
-    V,
-    /// D-optimal
-    D,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Robust {
     None,
     Huber,
