@@ -89,7 +89,10 @@ fn wam_gains_by_terms_that_the_grid_alone_chooses() -> Result<(), Missing> {
     let crossed = ["cross_validation", "after", "mean"];
     assert!(number(&richer, &crossed) < number(&report, &crossed));
     // The data's author published 2.9178.
-    assert!((number(&richer, &["test", "after", "mean"]) - 2.849).abs() < 5e-4);
+    assert!(number(&richer, &["test", "after", "mean"]) <= 2.80);
+    // Most of it is backlash, by the direction from which the joints came.
+    let names = richer["terms"].as_array().unwrap().iter().map(|term| term["name"].as_str().unwrap());
+    assert!(names.into_iter().any(|name| name == "q1: joint error with q1_direction"));
     is_as_the_readme_has_it("Barrett WAM", &report, &richer);
     Ok(())
 }
