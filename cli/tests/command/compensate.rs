@@ -158,7 +158,7 @@ fn bad_input_writes_nothing() {
         assert!(!out.exists());
     };
     refused("d1,d2,d3,q4,q5,Q6\n1,2,3,4,5,6\n", &[], &["there is no column `q6`", "did you mean `Q6`?"]);
-    refused("", &[], &["there is no column `d1`"]);
+    refused("", &[], &["6 columns of the map are not in"]);
     let heading = "d1,d2,d3,q4,q5,q6\n";
     refused(heading, &[], &["no row in it that can be used"]);
     refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "-1mm"], &["not negative"]);

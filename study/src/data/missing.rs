@@ -25,6 +25,7 @@ impl Map {
                 name(last)
             );
             let help = match header {
+                [] => "the file has no first line".to_owned(),
                 [only] => format!("its first line has one cell, `{}`", only.escape_debug()),
                 _ => format!("its first line has: {}", header.join(", ")),
             };

