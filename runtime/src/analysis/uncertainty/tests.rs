@@ -175,14 +175,15 @@ fn covered(sources: &Estimated, scales: &[f64], figure: Figure) -> f64 {
 /// The same over all that the first two may be estimated as: an integral over `s = √(χ²/ν)` with the density
 /// `s^(ν − 1) exp(−ν s²/2)`.
 fn mean_coverage(sources: &Estimated, figure: Figure) -> f64 {
-    const POINTS: i32 = 10;
     let scales = |i: usize| -> Vec<(f64, f64)> {
         let degrees_of_freedom = sources[i].2;
         if degrees_of_freedom.is_infinite() {
             return vec![(1.0, 1.0)];
         }
         let reach = 1.0 + 4.5 / degrees_of_freedom.sqrt();
-        let points = (0..POINTS).map(|k| reach * (f64::from(k) + 0.5) / f64::from(POINTS));
+        // Below three degrees of freedom the density is not flat at 0.
+        let count = if degrees_of_freedom < 3.0 { 60 } else { 10 };
+        let points = (0..count).map(|k| reach * (f64::from(k) + 0.5) / f64::from(count));
         points
             .map(|s| (s, s.powf(degrees_of_freedom - 1.0) * (-degrees_of_freedom * s * s / 2.0).exp()))
             .collect()
