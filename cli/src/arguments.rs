@@ -43,6 +43,8 @@ pub(crate) enum Command {
     Measure(Measure),
     /// The errors of the real machine, from measurements
     Identify(Identify),
+    /// Whether a machine that is checked again and again is still what it was
+    Monitor(Monitor),
     /// Joint commands that put the real tool where the ideal one should be
     Compensate(Compensate),
     /// Where to measure: sets of configurations, or the best of many
@@ -176,6 +178,12 @@ pub(crate) struct Identify {
     /// machine stands and what is mounted on its tool
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    /// Write a page with pictures: an HTML file that needs no network
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+    /// The date that the page shows; it knows no clock
+    #[arg(long, value_name = "DATE", requires = "report")]
+    pub(crate) date: Option<String>,
     #[command(flatten)]
     pub(crate) changes: Changes,
     /// Print JSON
@@ -202,6 +210,44 @@ pub(crate) struct Measure {
     /// Write into this folder: report.html, and errors.csv with ΔX of every row
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// The date that the page shows; it knows no clock
+    #[arg(long, value_name = "DATE", requires = "out")]
+    pub(crate) date: Option<String>,
+    #[command(flatten)]
+    pub(crate) changes: Changes,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Monitor {
+    /// Spec file, or shipped name
+    pub(crate) spec: String,
+    /// Checks in the order of their dates: CSV files with the same few configurations each, or one with a column of dates
+    #[arg(required = true)]
+    pub(crate) data: Vec<PathBuf>,
+    /// What the columns are: a map (TOML), or the name of a shipped one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) map: PathBuf,
+    /// How far the tool point may move from where it was at the first check: when that is used up
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub(crate) tolerance: Option<String>,
+    /// Begin with the check of this date: after the machine was serviced or zeroed
+    #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
+    pub(crate) since: Option<String>,
+    /// On average no more than one false alarm in so many checks, over all charts together
+    #[arg(long, value_name = "CHECKS", default_value_t = 365, value_parser = clap::value_parser!(u32).range(10..=100_000))]
+    pub(crate) false_alarm: u32,
+    /// End with status 1 if there is an alarm
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Write a page with pictures: an HTML file that needs no network
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+    /// The date that the page shows; it knows no clock
+    #[arg(long, value_name = "DATE", requires = "report")]
+    pub(crate) date: Option<String>,
     #[command(flatten)]
     pub(crate) changes: Changes,
     /// Print JSON
@@ -229,6 +275,12 @@ pub(crate) struct Compensate {
     /// Write the corrected commands and what they leave: a CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    /// Write a page with pictures: an HTML file that needs no network
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+    /// The date that the page shows; it knows no clock
+    #[arg(long, value_name = "DATE", requires = "report")]
+    pub(crate) date: Option<String>,
     #[command(flatten)]
     pub(crate) changes: Changes,
     /// Print JSON

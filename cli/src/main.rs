@@ -16,9 +16,11 @@ mod interrupt;
 mod jacobian;
 mod list;
 mod measure;
+mod monitor;
 mod number;
 mod output;
 mod plan;
+mod provenance;
 mod simulate;
 mod table;
 
@@ -48,6 +50,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
         Some(Command::Measure(arguments)) => measure::run(arguments),
+        Some(Command::Monitor(arguments)) => monitor::run(arguments),
         Some(Command::Identify(arguments)) => identify::run(arguments),
         Some(Command::Compensate(arguments)) => compensate::run(arguments),
         Some(Command::Plan(arguments)) => plan::run(arguments),

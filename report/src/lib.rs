@@ -2,7 +2,8 @@
 //!
 //! Everything comes back as texts with the names of their files; nothing here writes. [`analysis`] is the report of an
 //! analysis: `axis` says how its numbers are shown, `svg` draws the figures one by one, `html` writes the page, with the
-//! same figures to rotate and to point at. [`measurement()`] is the page of a measurement.
+//! same figures to rotate and to point at. [`measurement()`], [`identification()`],
+//! [`compensation()`] and [`monitoring()`] are the pages about measurements.
 
 mod axis;
 mod figure;
@@ -12,5 +13,5 @@ mod shares;
 mod spheres;
 mod svg;
 
-pub use html::measurement;
+pub use html::{Provenance, compensation, identification, measurement, monitoring};
 pub use pictures::{File, analysis};

@@ -14,7 +14,7 @@
 //! | `nalgebra` | poses and Jacobians as nalgebra types, without copying | nalgebra |
 //! | `lanes` | the module `lanes`: many configurations at once | bytemuck, pulp |
 //! | `analysis` | the modules `analysis` (errors over a workspace) and `laws` (tests of your manipulator) | those of `lanes` and `nalgebra`, rand |
-//! | `identify` | the module `identify`: errors from measurements | those of `analysis` |
+//! | `identify` | the modules `identify` (errors from measurements) and `control` (charts of a machine that is checked again and again) | those of `analysis` |
 //! | `parallel` | sweeps on all cores: the same results, sooner | those of `analysis`, rayon |
 //!
 //! | convention | here |
@@ -54,6 +54,8 @@ mod x86;
 
 #[cfg(feature = "analysis")]
 pub mod analysis;
+#[cfg(feature = "identify")]
+pub mod control;
 #[cfg(feature = "identify")]
 pub mod identify;
 #[cfg(feature = "lanes")]

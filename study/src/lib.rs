@@ -49,10 +49,12 @@ pub mod identify;
 pub mod jacobian;
 pub mod list;
 pub mod measure;
+pub mod monitor;
 pub mod plan;
 pub mod simulate;
 
 pub mod data;
+pub mod hash;
 pub mod mistake;
 pub mod number;
 pub mod study_file;

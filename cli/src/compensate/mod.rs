@@ -12,6 +12,7 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
 use crate::output::{Outcome, json, write};
+use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
     let mut machine = Machine::find(&arguments.spec)?;
@@ -26,6 +27,12 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     let report = job.run(&mut Console::default())?;
     if let Some(file) = &arguments.out {
         write(file, &report.table(&job.map).csv())?;
+    }
+    if let Some(file) = &arguments.report {
+        let spec = &job.machine.spec;
+        let map = arguments.map.as_ref().map(|_| &job.map);
+        let provenance = provenance(spec, map, [("commands", &arguments.data)], arguments.date.as_ref())?;
+        write(file, &abbe_report::compensation(spec, &job.map, &report, &provenance))?;
     }
     let text = match arguments.json {
         true => json(&report)?,

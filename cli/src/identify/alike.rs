@@ -1,7 +1,6 @@
 //! What cannot be told apart, in words.
 
 use abbe_study::identify::Alike;
-use abbe_study::number;
 
 use crate::table::Table;
 
@@ -40,38 +39,11 @@ fn wrapped_at(text: &str, width: usize) -> String {
 fn sentences(groups: &[Alike]) -> Vec<Sentence<'_>> {
     let mut sentences: Vec<Sentence> = Vec::new();
     for group in groups {
-        let words = in_words(group);
+        let words = group.sentence();
         match sentences.last_mut() {
             Some(last) if last.reason == group.reason => last.groups.push(words),
             _ => sentences.push(Sentence { reason: &group.reason, groups: vec![words] }),
         }
     }
     sentences
-}
-
-fn in_words(group: &Alike) -> String {
-    let these = combination(&group.these);
-    let verb = if group.these.len() == 1 { "acts" } else { "act" };
-    if group.act_as.is_empty() {
-        format!("{these} cannot be seen")
-    } else {
-        format!("{these} {verb} as {}", combination(&group.act_as))
-    }
-}
-
-/// `e_r2 − 425 e_y2`.
-fn combination(terms: &[(String, f64)]) -> String {
-    let mut text = String::new();
-    for (name, factor) in terms {
-        let size = number::digits(factor.abs(), 4);
-        let factor_text = if size == "1" { String::new() } else { format!("{size} ") };
-        let sign = match (text.is_empty(), *factor < 0.0) {
-            (true, false) => "",
-            (true, true) => "−",
-            (false, false) => " + ",
-            (false, true) => " − ",
-        };
-        text += &format!("{sign}{factor_text}{name}");
-    }
-    text
 }

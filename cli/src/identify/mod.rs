@@ -15,6 +15,7 @@ use crate::arguments::{self, Robust, Terms};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, json, note, write};
+use crate::provenance::provenance;
 
 pub(crate) use alike::table as alike_table;
 
@@ -46,6 +47,13 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let written =
         arguments.out.as_ref().map(|file| write_found(file, arguments, &job, &report)).transpose()?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
+    if let Some(file) = &arguments.report {
+        let test = arguments.test.iter().map(|file| ("test", file));
+        let files = [("measurements", &arguments.data)].into_iter().chain(test);
+        let spec = &job.machine.spec;
+        let provenance = provenance(spec, Some(&job.map), files, arguments.date.as_ref())?;
+        write(file, &abbe_report::identification(spec, &job.map, &report, &provenance))?;
+    }
     if arguments.json {
         report.notes.iter().for_each(|line| note(line));
         return Ok(Outcome::checked(json(&report)?, accepted));

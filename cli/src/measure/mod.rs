@@ -11,6 +11,7 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::accept;
 use crate::output::{Outcome, cannot_write, json, write};
+use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let mut machine = Machine::find(&arguments.spec)?;
@@ -23,9 +24,12 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let spec = &job.machine.spec;
     if let Some(folder) = &arguments.out {
+        let provenance =
+            provenance(spec, Some(&job.map), [("measurements", &arguments.data)], arguments.date.as_ref())?;
+        let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
         std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
         write(&folder.join("errors.csv"), &report.table().csv())?;
-        write(&folder.join("report.html"), &abbe_report::measurement(spec, &report))?;
+        write(&folder.join("report.html"), &page)?;
     }
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
     Ok(Outcome::checked(if arguments.json { json(&report)? } else { text::text(spec, &report) }, accepted))

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::running::command;
 
 /// The fenced blocks of a document: language and text.
-fn blocks(text: &str) -> Vec<(&str, &str)> {
+pub(crate) fn blocks(text: &str) -> Vec<(&str, &str)> {
     text.split("```").skip(1).step_by(2).filter_map(|block| block.split_once('\n')).collect()
 }
 

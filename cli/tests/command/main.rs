@@ -10,6 +10,8 @@ mod identify;
 mod inputs;
 mod jacobian;
 mod measure;
+mod monitor;
+mod pages;
 mod readme;
 mod report;
 mod running;

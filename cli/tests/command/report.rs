@@ -51,7 +51,7 @@ fn without_script(report: &str) -> String {
 }
 
 /// Nothing is loaded: no address in it, and links go to files beside it.
-fn is_alone(report: &str) {
+pub(crate) fn is_alone(report: &str) {
     let own = without_script(report);
     for address in ["http:", "https:", "//cdn", "@import", "url(", "src=", "NaN", "Infinity"] {
         assert!(!own.contains(address), "{address}");

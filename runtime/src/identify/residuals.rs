@@ -232,6 +232,20 @@ impl Model<'_> {
         sum
     }
 
+    /// Measurement minus model at `x`, and how the model moves with every unknown: of each number, in units of the uncertainty.
+    pub fn linearized(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+    ) -> Result<Vec<(f64, Vec<f64>)>, Failure> {
+        let mut numbers = Vec::new();
+        self.residuals(room, observation, x, |residual, derivative| {
+            numbers.push((-residual, (0..x.len()).map(derivative).collect()));
+        })?;
+        Ok(numbers)
+    }
+
     /// Position errors, model minus measurement, one vector for every point that was measured, in the axes of the
     /// instrument. The length unit. Of a reading of a length, that along the direction in which it changes; angles have none.
     pub fn deviations(

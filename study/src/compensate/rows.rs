@@ -43,6 +43,9 @@ pub struct Row {
     pub reason: Option<String>,
     /// How far the joint that turns most is turned from the command (with poses: from where the ideal tool is there), rad.
     pub largest_turn: f64,
+    /// By variable: corrected minus what the row has; the length unit, or rad.
+    #[serde(skip)]
+    pub changes: Vec<f64>,
     /// What was asked for, with the corrected commands.
     #[serde(skip)]
     pub corrected: Observation,
@@ -97,6 +100,7 @@ pub(super) fn rows(task: &Task<'_>, data: &mut Data, notes: &mut dyn Notes) -> R
                 let names = description.variables.iter().map(|variable| variable.name.to_string());
                 rows.push(Row {
                     line: asked.line,
+                    changes: q.iter().zip(&asked.q).map(|(corrected, asked)| corrected - asked).collect(),
                     q: Named(names.zip(q.clone()).collect()),
                     before: Norms::new(&before),
                     after: Norms::new(&after),

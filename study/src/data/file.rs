@@ -6,6 +6,7 @@ use abbe_codegen::diagnostic::Diagnostics;
 use csv::StringRecord;
 
 use super::dialect::Dialect;
+use super::date::parse_date;
 use crate::mistake;
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
@@ -105,6 +106,18 @@ impl Record<'_> {
     /// What stands at a place.
     pub(super) fn text(&self, place: usize) -> &str {
         self.fields.get(place).unwrap_or_default()
+    }
+
+    /// The time at a place: a number, or of a date the days since 1970.
+    pub(super) fn time(&self, place: usize) -> Result<f64, String> {
+        match parse_date(self.text(place)) {
+            Some((_, time)) => Ok(time),
+            None => Err(format!(
+                "`{}` is `{}`, no date and no number",
+                self.heading[place],
+                self.text(place).escape_debug()
+            )),
+        }
     }
 
     /// The finite number at a place, or why it is none.

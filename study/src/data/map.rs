@@ -116,6 +116,11 @@ impl Map {
         &self.path
     }
 
+    /// The SHA-256 of its text.
+    pub fn hash(&self) -> String {
+        crate::hash::of_text(&self.text)
+    }
+
     /// Whether whole poses are measured.
     pub fn is_pose(&self) -> bool {
         matches!(self.layout, Layout::Pose(..))

@@ -4,6 +4,8 @@
 
 mod column;
 mod configurations;
+mod date;
+mod dated;
 mod dialect;
 mod file;
 mod keys;
@@ -19,6 +21,9 @@ mod table;
 mod turn;
 
 pub use column::{Channel, Column};
+pub use date::Calendar;
+pub(crate) use date::{in_name, parse_date};
+pub use dated::Dated;
 pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use outside::warn_of_extrapolation;

@@ -107,7 +107,7 @@ impl Data {
                     Err("the same as a row before it, digit by digit".to_owned())
                 }
             });
-            let row = row.and_then(|row| Ok((row, time.map(|place| record.number(place)).transpose()?)));
+            let row = row.and_then(|row| Ok((row, time.map(|place| record.time(place)).transpose()?)));
             match row {
                 Ok((observation, time)) => {
                     let station = station.map_or(0, |place| data.station(record.text(place)));

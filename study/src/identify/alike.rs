@@ -4,6 +4,8 @@ use abbe::identify::{Group, Model, Reason, Unknown};
 use abbe::{Description, VariableKind};
 use serde::Serialize;
 
+use crate::number;
+
 /// Unknowns that cannot be told apart: a combination that acts as another, or cannot be seen at all.
 #[derive(Clone, Debug, Serialize)]
 pub struct Alike {
@@ -26,6 +28,36 @@ impl Alike {
             reason: reason(group.reason, description),
         }
     }
+}
+
+impl Alike {
+    /// `e_z1 acts as e_z2`.
+    pub fn sentence(&self) -> String {
+        let these = combination(&self.these);
+        let verb = if self.these.len() == 1 { "acts" } else { "act" };
+        if self.act_as.is_empty() {
+            format!("{these} cannot be seen")
+        } else {
+            format!("{these} {verb} as {}", combination(&self.act_as))
+        }
+    }
+}
+
+/// `e_r2 − 425 e_y2`.
+fn combination(terms: &[(String, f64)]) -> String {
+    let mut text = String::new();
+    for (name, factor) in terms {
+        let size = number::digits(factor.abs(), 4);
+        let factor_text = if size == "1" { String::new() } else { format!("{size} ") };
+        let sign = match (text.is_empty(), *factor < 0.0) {
+            (true, false) => "",
+            (true, true) => "−",
+            (false, false) => " + ",
+            (false, true) => " − ",
+        };
+        text += &format!("{sign}{factor_text}{name}");
+    }
+    text
 }
 
 /// Why, with the names of the spec.

@@ -1,5 +1,7 @@
 //! What is asked, and the way to what comes out.
 
+use std::collections::HashSet;
+
 use abbe::identify::{Model, Observation, Place, Selection, Unknown, groups};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
@@ -16,6 +18,7 @@ use super::found::FoundModel;
 use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::meaning::{InNumbers, number_terms};
 use super::not_known::NotKnown;
+use super::point_residuals::{PointResidual, Valued};
 use super::readings::check_readings;
 use super::report::{
     Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report, Sizes,
@@ -177,6 +180,7 @@ fn report(
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().collect(),
+        points: points(solved, data, test)?,
         files,
         placed: found.placed.clone(),
         found,
@@ -254,6 +258,22 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
         Magnitude { source, declared, declared_deviation, value, standard_deviation, sentence }
     };
     own.iter().map(one).collect()
+}
+
+/// What is left of every point, for pictures.
+fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<PointResidual>, Diagnostics> {
+    let Solved { simple, simple_fit, model, fit, .. } = solved;
+    let (mut before, mut after) = (Valued::new(simple, &simple_fit.x), Valued::new(model, &fit.x));
+    let rejected: HashSet<u64> = fit.rejected(&data.observations).map(|row| row.line).collect();
+    let mut points = Vec::new();
+    for (data, is_test) in [(data, false)].into_iter().chain(test.map(|test| (test, true))) {
+        for row in &data.observations {
+            let is_rejected = !is_test && rejected.contains(&row.line);
+            let here = after.residuals(&mut before, row, is_test, is_rejected);
+            points.extend(here.map_err(|failure| mistake::whole(&data.file, failure))?);
+        }
+    }
+    Ok(points)
 }
 
 fn parameters(setup: &Setup, solved: &Solved, length: LengthUnit) -> Vec<Parameter> {

@@ -251,6 +251,28 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// A number of the chain that acts as constant errors of one frame.
+pub(crate) struct ChainError {
+    /// `zero of q2`, `upper_arm`.
+    pub(crate) name: String,
+    /// Whether it is an angle, or a pure number.
+    pub(crate) is_angle: bool,
+    /// The frame, from 0.
+    pub(crate) frame: usize,
+    /// Its six errors per unit of the number.
+    pub(crate) errors: [f64; 6],
+}
+
+/// All of them: joints first.
+pub(crate) fn chain_errors(spec: &Spec) -> Vec<ChainError> {
+    let mut graph = Graph::with_tables(&spec.tables);
+    let all = numbers(spec).into_iter().filter_map(|(name, number)| {
+        let (frame, errors) = constant_errors(&mut graph, spec, number)?;
+        Some(ChainError { name, is_angle: is_angle(spec, number), frame, errors })
+    });
+    all.collect()
+}
+
 /// Every number of the chain and its name: joints first, then what the spec names itself.
 fn numbers(spec: &Spec) -> Vec<(String, ChainNumber)> {
     let joints = spec.variables.iter().enumerate();

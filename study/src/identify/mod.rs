@@ -6,7 +6,7 @@
 //! the constants. `terms` are errors that richer models have, `candidates` those that are tried, `derived` the inputs that
 //! follow from the order of the rows; `choose` takes in what earns its place, `extended` is the spec that has it. `found` is the
 //! identified machine, `written` its spec, `placed` where it stands and what is mounted on its tool; `report` is what comes out,
-//! with `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
+//! with `point_residuals` for pictures, `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
 
 mod alike;
 mod candidates;
@@ -21,6 +21,7 @@ mod magnitude;
 mod meaning;
 mod not_known;
 mod placed;
+mod point_residuals;
 mod priors;
 mod reading;
 mod readings;
@@ -40,6 +41,7 @@ pub use gross::shown_lines;
 pub use job::Identify;
 pub use not_known::NotKnown;
 pub use placed::{Placed, PlacedStation};
+pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
     Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair, Parameter, Report,
@@ -49,5 +51,6 @@ pub use solve::Settings;
 pub use terms::{Angle, Basis, Place, Term, Wave};
 pub use written::WrittenSpec;
 
+pub(crate) use meaning::chain_errors;
 pub(crate) use readings::check_readings;
 pub(crate) use setup::Setup;

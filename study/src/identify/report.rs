@@ -8,6 +8,7 @@ use super::counts::Counts;
 use super::found::FoundModel;
 use super::not_known::NotKnown;
 use super::placed::Placed;
+use super::point_residuals::PointResidual;
 use crate::Accepted;
 use crate::data::{Summary, Unusable};
 
@@ -75,6 +76,9 @@ pub struct Report {
     /// The files: the data, and the test data if there are any.
     #[serde(skip)]
     pub files: Vec<Summary>,
+    /// What is left of every point: of the data, then of the test data.
+    #[serde(skip)]
+    pub points: Vec<PointResidual>,
     /// The identified machine.
     #[serde(skip)]
     pub found: FoundModel,

@@ -1,0 +1,41 @@
+//! `abbe monitor`: whether a machine that is checked again and again is still what it was.
+
+mod text;
+
+use abbe_study::Machine;
+use abbe_study::data::Map;
+use abbe_study::monitor::{Checks, Monitor, Settings};
+
+use crate::arguments;
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::number::length;
+use crate::output::{Outcome, json, write};
+use crate::provenance::provenance;
+
+pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
+    let mut machine = Machine::find(&arguments.spec)?;
+    machine.change(&arguments.changes.read(&machine.spec)?);
+    let map = Map::find(&arguments.map, &machine.spec)?;
+    let mut checks = Checks::read(&arguments.data, &map)?;
+    if let Some(date) = &arguments.since {
+        checks.since("--since", date)?;
+    }
+    let tolerance =
+        arguments.tolerance.as_ref().map(|text| length("--tolerance", text, &machine.spec)).transpose()?;
+    let settings = Settings {
+        checks_per_false_alarm: f64::from(arguments.false_alarm),
+        tolerance,
+        ..Settings::default()
+    };
+    let job = Monitor { machine, map, checks, settings };
+    let report = job.run(&mut Console::default())?;
+    if let Some(file) = &arguments.report {
+        let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
+        let provenance = provenance(spec, Some(&job.map), files, arguments.date.as_ref())?;
+        write(file, &abbe_report::monitoring(spec, &job.map, &report, &provenance))?;
+    }
+    let passed = !arguments.check || report.alarm.is_none();
+    let text = if arguments.json { json(&report)? } else { text::text(&job.machine.spec, &report) };
+    Ok(Outcome::checked(text, passed))
+}

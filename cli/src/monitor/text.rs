@@ -1,0 +1,62 @@
+//! What the checks say, for people.
+
+use abbe_codegen::spec::Spec;
+use abbe_study::monitor::{Chart, Report};
+use abbe_study::number::{fixed, percent};
+
+use crate::table::{Table, wrapped};
+
+/// How many charts are shown.
+const SHOWN: usize = 12;
+/// How many errors that act alike are named.
+const ALIKE: usize = 4;
+
+pub(super) fn text(spec: &Spec, report: &Report) -> String {
+    let mut parts = vec![format!("{}: watched\n\n", spec.title)];
+    for file in report.files.iter().filter(|file| !file.unusable.is_empty()) {
+        for line in file.lines() {
+            parts[0] += &format!("{}\n", wrapped(&line, 2));
+        }
+    }
+    let paragraph = |sentence: &String| wrapped(sentence, 0) + "\n";
+    parts[0] += &report.watched().iter().map(paragraph).collect::<String>();
+    parts.push(charts(report));
+    parts.push(report.findings().iter().map(paragraph).collect());
+    parts.join("\n")
+}
+
+fn charts(report: &Report) -> String {
+    let all = report.nearest_first();
+    let now = |chart: &Chart| chart.average.last().copied().unwrap_or_default();
+    let mut table =
+        Table::new(&["error", "acts alike", "last value", "", "average, share of the limit", "alarm"]);
+    let hidden = all.len().saturating_sub(SHOWN);
+    for chart in all.into_iter().take(SHOWN).chain([&report.left]) {
+        let (factor, unit) = if chart.unit == "rad" { (1e3, "mrad") } else { (1.0, chart.unit) };
+        let more = chart.alike.len().saturating_sub(ALIKE);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let alike = chart.alike.iter().take(ALIKE).map(String::as_str).collect::<Vec<_>>().join(", ");
+        table.row(vec![
+            chart.name.clone(),
+            alike + &more,
+            fixed(chart.values.last().copied().unwrap_or_default() * factor, 4),
+            unit.to_owned(),
+            percent(now(chart), 1.0),
+            chart.alarm.map_or(String::new(), |check| report.dates[check].clone()),
+        ]);
+    }
+    let mut text = table.right(&[2, 4]).to_string();
+    if hidden > 0 {
+        text += &format!("{hidden} more charts were never beyond, and are nearer to zero.\n");
+    }
+    if !report.unseen.is_empty() {
+        let count = report.unseen.len();
+        let names = report.unseen.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+        let more = if count > SHOWN { format!(" and {} more", count - SHOWN) } else { String::new() };
+        let line = format!(
+            "These cannot be told from where the instrument stands, or do not move what is measured: {names}{more}."
+        );
+        text += &(wrapped(&line, 0) + "\n");
+    }
+    text
+}

@@ -1,0 +1,128 @@
+//! `abbe monitor`, on the machine of its chapter.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::{TempDir, tempdir};
+
+use crate::documents::blocks;
+use crate::report::is_alone;
+use crate::running::{abbe, command, json, narrow, prints};
+
+/// The files of the chapter, and checks of the machine until a day.
+fn chapter() -> TempDir {
+    let folder = tempdir().unwrap();
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/watch-a-machine.md");
+    for (language, block) in blocks(&fs::read_to_string(page).unwrap()) {
+        if let (Some(name), "toml") =
+            (block.lines().next().and_then(|line| line.strip_prefix("# ")), language)
+        {
+            fs::write(folder.path().join(name), block).unwrap();
+        }
+    }
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (spec, map) = (at("worn.toml"), at("floor.toml"));
+    prints(&["plan", &spec, "--map", &map, "--sets", &at("mornings.toml"), "--out", &at("mornings.csv")]);
+    prints(&[
+        "simulate",
+        &spec,
+        "--map",
+        &map,
+        "--at",
+        &at("mornings.csv"),
+        "--seed",
+        "4",
+        "--out",
+        &at("checks.csv"),
+    ]);
+    folder
+}
+
+/// The rows of some days, with the heading.
+fn days(folder: &Path, days: std::ops::Range<usize>) -> String {
+    let text = fs::read_to_string(folder.join("checks.csv")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let rows = &lines[1 + 6 * days.start..1 + 6 * days.end];
+    format!("{}\n{}\n", lines[0], rows.join("\n"))
+}
+
+#[test]
+fn the_elbow_of_the_chapter_is_found() {
+    let folder = chapter();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (spec, map, checks, page) = (at("worn.toml"), at("floor.toml"), at("checks.csv"), at("page.html"));
+    let arguments = ["monitor", &spec, &checks, "--map", &map, "--disable", "wear", "--tolerance", "0.1mm"];
+    narrow(&prints(&arguments));
+    let with =
+        |more: &[&str]| [&arguments[..], more].concat().iter().map(|s| (*s).to_owned()).collect::<Vec<_>>();
+    let call = |more: &[&str]| {
+        let all = with(more);
+        let all: Vec<&str> = all.iter().map(String::as_str).collect();
+        abbe(&all)
+    };
+    let all = with(&["--json"]);
+    let report = json(&all.iter().map(String::as_str).collect::<Vec<_>>());
+    let finding = &report["finding"];
+    let names = [&[finding["name"].clone()][..], finding["as_well"].as_array().unwrap()].concat();
+    assert!(names.contains(&"zero of q3".into()), "{names:?}");
+    assert_eq!(finding["kind"], "drift");
+    let [first, last] = [0, 1].map(|i| finding["between"][i].as_f64().unwrap());
+    assert!(first <= 60.0 && 60.0 <= last, "{first} {last}");
+    let alarm = report["alarm"]["check"].as_u64().unwrap();
+    // 0.002 mrad at some 560 mm is about 1 µm a day.
+    assert!((60..80).contains(&alarm), "{alarm}");
+
+    assert_eq!(call(&["--check"]).status, 1);
+    assert_eq!(call(&[]).status, 0);
+    assert!(call(&["--since", "88"]).stdout.contains("No alarm"));
+    let wrong = call(&["--since", "soon"]);
+    assert_eq!(wrong.status, 2);
+    assert!(wrong.stderr.contains("`soon` is no date"), "{}", wrong.stderr);
+
+    prints(
+        &with(&["--report", &page, "--date", "2026-11-21"]).iter().map(String::as_str).collect::<Vec<_>>(),
+    );
+    let text = fs::read_to_string(&page).unwrap();
+    is_alone(&text);
+    for expected in [
+        "Date as given: 2026-11-21",
+        "What has changed",
+        "All charts",
+        "What is left",
+        "Laser tracker, bolted to the floor",
+    ] {
+        assert!(text.contains(expected), "{expected}");
+    }
+}
+
+#[test]
+fn files_are_checks_by_the_dates_in_their_names() {
+    let folder = chapter();
+    let map = fs::read_to_string(folder.path().join("floor.toml")).unwrap().replace("time = \"day\"\n", "");
+    fs::write(folder.path().join("files.toml"), map).unwrap();
+    let names: Vec<String> = (1..=20).map(|day| format!("check-2026-03-{day:02}.csv")).collect();
+    for (day, name) in names.iter().enumerate() {
+        fs::write(folder.path().join(name), days(folder.path(), day..day + 1)).unwrap();
+    }
+    let run = |files: &[&str]| {
+        let arguments =
+            [&["monitor", "worn.toml"][..], files, &["--map", "files.toml", "--disable", "wear", "--check"]]
+                .concat();
+        let output = command(&arguments).current_dir(folder.path()).output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let (status, stdout, stderr) = run(&names);
+    assert_eq!((status, &*stderr), (Some(0), ""));
+    assert!(stdout.contains("20 checks from 2026-03-01 to 2026-03-20; 6 configurations in each"), "{stdout}");
+    let (status, _, stderr) = run(&[names[3], names[2]]);
+    assert_eq!(status, Some(2));
+    assert!(stderr.contains("dates go back: 2026-03-03 comes after 2026-03-04"), "{stderr}");
+    // Other configurations.
+    let other = days(folder.path(), 4..5).replace("\n", "\n1").trim_end_matches('1').to_owned();
+    fs::write(folder.path().join("check-2026-03-21.csv"), other).unwrap();
+    let (status, _, stderr) = run(&[names[0], "check-2026-03-21.csv"]);
+    assert_eq!(status, Some(2));
+    assert!(stderr.contains("no configuration is in all checks"), "{stderr}");
+}

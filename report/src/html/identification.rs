@@ -1,0 +1,219 @@
+//! The page of an identification: which errors the machine has, how well they are known, and what is left.
+
+use abbe_codegen::spec::Spec;
+use abbe_study::data::Map;
+use abbe_study::identify::{Alike, Parameter, PointResidual, Report, Sizes};
+use abbe_study::number::{self, digits, fixed};
+
+use super::figure::Figures;
+use super::provenance::{Provenance, instrument};
+use super::residuals::{Names, Residual, figures};
+use super::{document, escaped, section};
+
+/// The page of an identification; `spec` and `map` are those of the job.
+pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
+    let heading = format!(
+        "<header>\n<p class=\"kind\">Errors from measurements</p>\n<h1>{}</h1>\n<p class=\"study\">{}</p>\n</header>\n",
+        escaped(&spec.title),
+        escaped(&report.title)
+    );
+    let lines = report.files.iter().flat_map(|file| file.lines());
+    let lines = lines.map(|line| format!("{}<br>\n", escaped(&line))).collect::<String>();
+    let notes = report.notes.iter().map(|note| format!("<p>{}</p>\n", escaped(note))).collect::<String>();
+    let body = [
+        heading,
+        summary(spec, report),
+        section("How good it is", &(sizes(spec, report) + &notes)),
+        section("Errors of the machine", &parameters(spec, report)),
+        section("What cannot be told apart", &groups(report)),
+        terms(spec, report),
+        section("What is left", &pictures(spec, report)),
+        section("Instrument", &instrument(spec, map)),
+        section("Ranges", &ranges(spec, report)),
+        section("Rows", &format!("<p>{lines}</p>\n")),
+        section("Input files", &provenance.table()),
+    ];
+    document(&format!("{}: errors from measurements", spec.title), &body.concat())
+}
+
+fn summary(spec: &Spec, report: &Report) -> String {
+    let unit = spec.length.symbol();
+    let decimals = number::error_decimals(spec.length);
+    let show = |value: f64| format!("{} {unit}", fixed(value, decimals));
+    let crossed = &report.cross_validation.after;
+    let mut cards = vec![
+        (
+            "Base and tool fitted",
+            show(report.fit.base_and_tool.mean),
+            "mean position error of the rows that were used".to_owned(),
+        ),
+        ("Identified", show(report.fit.after.mean), "the same rows".to_owned()),
+        ("Left out in turn", show(crossed.mean), format!("{} parts", report.cross_validation.folds)),
+    ];
+    if let Some(test) = &report.test {
+        cards.push((
+            "Test rows",
+            show(test.after.mean),
+            format!("{} rows, used for nothing else", test.rows),
+        ));
+    }
+    cards.push((
+        "Known",
+        format!("{} of {}", report.rank, report.unknowns),
+        "combinations of unknowns".to_owned(),
+    ));
+    let cards = cards.into_iter().map(|(name, value, note)| {
+        format!("<div class=\"card\"><span>{name}</span><b>{value}</b><small>{note}</small></div>\n")
+    });
+    format!("<div class=\"cards\">\n{}</div>\n", cards.collect::<String>())
+}
+
+fn sizes(spec: &Spec, report: &Report) -> String {
+    let decimals = number::error_decimals(spec.length);
+    let row = |name: &str, rows: usize, sizes: &Sizes| {
+        let cells =
+            [sizes.mean, sizes.rms, sizes.p95, sizes.max].map(|v| format!("<td>{}</td>", fixed(v, decimals)));
+        format!("<tr><td class=\"words\">{name}</td><td>{rows}</td>{}</tr>\n", cells.concat())
+    };
+    let mut rows = String::new();
+    for (set, compared) in [("fit", Some(&report.fit)), ("test", report.test.as_ref())] {
+        let Some(compared) = compared else { continue };
+        rows += &row(&format!("{set}: as delivered"), compared.rows, &compared.before);
+        rows += &row(&format!("{set}: base and tool fitted"), compared.rows, &compared.base_and_tool);
+        rows += &row(&format!("{set}: identified"), compared.rows, &compared.after);
+        if set == "fit" {
+            let name = format!("left out in turn, {} parts", report.cross_validation.folds);
+            rows += &row(&name, compared.rows, &report.cross_validation.after);
+        }
+    }
+    format!(
+        "<table class=\"ledger\"><thead><tr><th class=\"words\">position error, {}</th><th>rows</th><th>mean</th><th>rms</th><th>95 %</th>\
+         <th>max</th></tr></thead>\n<tbody>{rows}</tbody></table>\n<p>What is left is {} times what the instrument's uncertainty explains.</p>\n",
+        spec.length.symbol(),
+        digits(report.uncertainty_factor, 3)
+    )
+}
+
+fn parameters(spec: &Spec, report: &Report) -> String {
+    let decimals = number::error_decimals(spec.length);
+    let row = |parameter: &Parameter| {
+        let (unit, factor) = if parameter.unit == "rad" { ("mrad", 1e3) } else { (parameter.unit, 1.0) };
+        let decimals = if parameter.unit == "rad" { 4 } else { decimals };
+        let show = |value: f64| match parameter.unit {
+            "" => digits(value, 4),
+            _ => fixed(value * factor, decimals),
+        };
+        let sure = parameter.value.abs() / parameter.standard_deviation.max(1e-300);
+        let remark = if parameter.hardly_known { "hardly known" } else { "" };
+        format!(
+            "<tr><td class=\"words\">{}</td><td class=\"words\">{}</td><td>{}</td><td>{}</td><td class=\"words\">{unit}</td><td>{}</td>\
+             <td class=\"words\">{remark}</td></tr>\n",
+            escaped(&parameter.name),
+            escaped(parameter.frame_name.as_deref().unwrap_or_default()),
+            show(parameter.value),
+            show(parameter.standard_deviation),
+            fixed(sure.min(9999.0), 1),
+        )
+    };
+    let rows = report.parameters.iter().map(row).collect::<String>();
+    let meanings = report.meanings.iter().map(|meaning| format!("<li>{}</li>\n", escaped(&meaning.sentence)));
+    let meanings = match meanings.collect::<String>() {
+        list if list.is_empty() => list,
+        list => format!(
+            "<p>The same in numbers of the chain, each in place of the error in brackets:</p>\n<ul>\n{list}</ul>\n"
+        ),
+    };
+    format!(
+        "{meanings}<table class=\"ledger\"><thead><tr><th class=\"words\">error</th><th class=\"words\">of</th><th>value</th>\
+         <th>standard deviation σ</th><th></th><th>value/σ</th><th></th></tr></thead>\n<tbody>{rows}</tbody></table>\n\
+         <p>All others are held at zero.</p>\n"
+    )
+}
+
+/// Groups with the same reason together.
+fn groups(report: &Report) -> String {
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for group in &report.groups {
+        let sentence = escaped(&Alike::sentence(group));
+        match reasons.last_mut() {
+            Some((reason, sentences)) if *reason == group.reason => sentences.push(sentence),
+            _ => reasons.push((&group.reason, vec![sentence])),
+        }
+    }
+    if reasons.is_empty() {
+        return "<p>Everything that is unknown can be told apart.</p>\n".to_owned();
+    }
+    let rows = reasons.into_iter().map(|(reason, sentences)| {
+        format!(
+            "<tr><th class=\"wrapped\">{}</th><td>{}</td></tr>\n",
+            escaped(reason),
+            sentences.join("<br>")
+        )
+    });
+    format!("<table class=\"facts\"><tbody>{}</tbody></table>\n", rows.collect::<String>())
+}
+
+fn terms(spec: &Spec, report: &Report) -> String {
+    if report.terms.is_empty() {
+        return String::new();
+    }
+    let decimals = number::error_decimals(spec.length);
+    let rows = report.terms.iter().map(|term| {
+        format!(
+            "<tr><td class=\"words\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            escaped(&term.name),
+            fixed(term.before, decimals),
+            fixed(term.after, decimals),
+            if term.p < 1e-12 { "below 1e-12".to_owned() } else { digits(term.p, 2) }
+        )
+    });
+    let table = format!(
+        "<p>Root mean square of a coordinate on rows left out in turn, before and after, {}.</p>\n<table class=\"ledger\"><thead><tr>\
+         <th class=\"words\">term, in the order of their gain</th><th>before</th><th>after</th><th>p of the F-test</th></tr></thead>\n\
+         <tbody>{}</tbody></table>\n",
+        spec.length.symbol(),
+        rows.collect::<String>()
+    );
+    section("Richer terms", &table)
+}
+
+fn pictures(spec: &Spec, report: &Report) -> String {
+    let residual = |point: &'_ PointResidual| -> bool { !point.is_rejected };
+    let list = |is_test: bool| {
+        let points = report.points.iter().filter(move |point| point.is_test == is_test && residual(point));
+        let residuals = points.map(|point| Residual {
+            line: point.line,
+            q: &point.q,
+            point: point.point,
+            before: Some(point.before),
+            after: point.after,
+        });
+        residuals.collect::<Vec<_>>()
+    };
+    let names = Names { before: "base and tool fitted", after: "identified" };
+    let (mut drawn, test) = (Figures::new(), list(true));
+    figures(&mut drawn, &list(false), &names, spec);
+    let mut text = format!("<p>Rows that were used; gross errors are left out.</p>\n{}", drawn.html());
+    if !test.is_empty() {
+        let mut drawn = Figures::after(&drawn);
+        figures(&mut drawn, &test, &names, spec);
+        text += &format!("<h3>Test rows</h3>\n{}", drawn.html());
+    }
+    text
+}
+
+fn ranges(spec: &Spec, report: &Report) -> String {
+    let row = |fitted: &abbe_codegen::spec::Fitted| {
+        let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
+        format!(
+            "<tr><th>{}</th><td>{} … {}</td></tr>\n",
+            escaped(fitted.name(spec)),
+            escaped(&lower),
+            escaped(&upper)
+        )
+    };
+    let rows = report.found.fitted.iter().map(row).collect::<String>();
+    format!(
+        "<p>What is said holds where the rows were; beyond, it is extrapolated.</p>\n<table class=\"facts\"><tbody>{rows}</tbody></table>\n"
+    )
+}

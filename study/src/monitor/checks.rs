@@ -1,0 +1,128 @@
+//! The checks, in the order of their dates.
+
+use std::path::PathBuf;
+
+use abbe_codegen::diagnostic::Diagnostics;
+
+use crate::data::{Calendar, Data, Dated, Map, in_name, parse_date};
+use crate::mistake;
+
+/// One visit to the machine with the instrument.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// When, as the calendar of all checks counts.
+    pub time: f64,
+    /// Its rows.
+    pub data: Data,
+}
+
+/// All checks, the first one first.
+#[derive(Clone, Debug)]
+pub struct Checks {
+    /// What their times count.
+    pub calendar: Calendar,
+    /// The checks.
+    pub list: Vec<Check>,
+}
+
+const DATES: &str =
+    "a date is written 2026-03-14, with a time behind it or without, or it is a number of days";
+
+impl Checks {
+    /// Reads files, each a check; a file whose rows have several dates is as many checks.
+    ///
+    /// Dates are those of the map's `[time]`, or else those in the names of the files; if these have none, checks are counted.
+    pub fn read(files: &[PathBuf], map: &Map) -> Result<Self, Diagnostics> {
+        let mut checks: Vec<(Calendar, Check)> = Vec::new();
+        let names: Vec<Option<f64>> =
+            files.iter().map(|file| in_name(&file.file_name()?.to_string_lossy())).collect();
+        let named = names.iter().all(Option::is_some);
+        for (file, name) in files.iter().zip(names) {
+            let Dated { data, dates } = Dated::read(file, map)?;
+            match dates {
+                Some(dates) => checks.extend(split(data, &dates)?),
+                None => {
+                    let (calendar, time) = match name {
+                        Some(date) if named => (Calendar::Dates, date),
+                        _ => (Calendar::Checks, checks.len() as f64 + 1.0),
+                    };
+                    checks.push((calendar, Check { time, data }));
+                }
+            }
+        }
+        for pair in checks.windows(2) {
+            let [(before, first), (calendar, check)] = pair else { continue };
+            if before != calendar {
+                let message =
+                    format!("this counts in {}, the check before it in {}", name(*calendar), name(*before));
+                return Err(mistake::with_help(
+                    &check.data.file,
+                    message,
+                    "write dates everywhere, or days everywhere",
+                ));
+            }
+            if check.time < first.time {
+                let [here, earlier] = [check.time, first.time].map(|time| calendar.show(time));
+                let message = format!("dates go back: {here} comes after {earlier}");
+                return Err(mistake::with_help(
+                    &check.data.file,
+                    message,
+                    "give the checks in the order of their dates",
+                ));
+            }
+        }
+        let calendar = checks.first().map_or(Calendar::Checks, |(calendar, _)| *calendar);
+        Ok(Self { calendar, list: checks.into_iter().map(|(_, check)| check).collect() })
+    }
+
+    /// Leaves out what was before a date; `option` is what mistakes are shown under.
+    pub fn since(&mut self, option: &str, date: &str) -> Result<(), Diagnostics> {
+        let wrong = |message: String, help: &str| mistake::with_help(option, message, help);
+        let (calendar, since) = match (parse_date(date), self.calendar) {
+            (Some((Calendar::Days, number)), Calendar::Checks) => (Calendar::Checks, number),
+            (Some(date), _) => date,
+            (None, _) => return Err(wrong(format!("`{}` is no date", date.escape_debug()), DATES)),
+        };
+        if calendar != self.calendar {
+            let message = format!("this counts in {}, the checks in {}", name(calendar), name(self.calendar));
+            return Err(wrong(message, "write it as the checks are counted"));
+        }
+        self.list.retain(|check| check.time >= since);
+        match self.list.is_empty() {
+            true => Err(wrong("there is no check from then on".to_owned(), "give an earlier date")),
+            false => Ok(()),
+        }
+    }
+}
+
+fn name(calendar: Calendar) -> &'static str {
+    match calendar {
+        Calendar::Dates => "dates",
+        Calendar::Days => "days",
+        Calendar::Checks => "checks",
+    }
+}
+
+/// The rows of every day.
+fn split(data: Data, dates: &[String]) -> Result<Vec<(Calendar, Check)>, Diagnostics> {
+    let Data { file, observations, unusable, stations } = data;
+    let mut checks: Vec<(Calendar, Check)> = Vec::new();
+    for (row, date) in observations.into_iter().zip(dates) {
+        let Some((calendar, time)) = parse_date(date) else {
+            let message = format!("line {}: `{}` is no date", row.line, date.escape_debug());
+            return Err(mistake::with_help(&file, message, DATES));
+        };
+        match checks.last_mut() {
+            Some((_, check)) if check.time.floor() == time.floor() => check.data.observations.push(row),
+            _ => {
+                let (file, stations) = (file.clone(), stations.clone());
+                let data = Data { file, observations: vec![row], stations, ..Data::default() };
+                checks.push((calendar, Check { time, data }));
+            }
+        }
+    }
+    if let Some((_, first)) = checks.first_mut() {
+        first.data.unusable = unusable;
+    }
+    Ok(checks)
+}
