@@ -1,8 +1,9 @@
 //! The page of an identification: which errors the machine has, how well they are known, and what is left.
 
 use abbe_codegen::spec::Spec;
+use abbe_study::Accepted;
 use abbe_study::data::Map;
-use abbe_study::identify::{Alike, Parameter, PointResidual, Report, Sizes};
+use abbe_study::identify::{Alike, Kind, NotKnown, Parameter, Report, Sizes};
 use abbe_study::number::{self, digits, fixed};
 
 use super::figure::Figures;
@@ -22,9 +23,11 @@ pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Prov
     let notes = report.notes.iter().map(|note| format!("<p>{}</p>\n", escaped(note))).collect::<String>();
     let body = [
         heading,
+        verdict(spec, report.accepted.as_ref()),
         summary(spec, report),
         section("How good it is", &(sizes(spec, report) + &notes)),
-        section("Errors of the machine", &parameters(spec, report)),
+        section("Errors of the machine", &machine(spec, report)),
+        placed(spec, report),
         section("What cannot be told apart", &groups(report)),
         terms(spec, report),
         section("What is left", &pictures(spec, report)),
@@ -94,7 +97,64 @@ fn sizes(spec: &Spec, report: &Report) -> String {
     )
 }
 
-fn parameters(spec: &Spec, report: &Report) -> String {
+/// Whether declared limits are met, if any were declared.
+pub(super) fn verdict(spec: &Spec, accepted: Option<&Accepted>) -> String {
+    let Some(accepted) = accepted else { return String::new() };
+    let class = if accepted.met { "met" } else { "missed" };
+    let sentence = escaped(&accepted.sentence(spec.length));
+    format!("<section class=\"verdict\">\n<h2 class=\"{class}\">{sentence}</h2>\n</section>\n")
+}
+
+fn machine(spec: &Spec, report: &Report) -> String {
+    let meanings = report.meanings.iter().map(|meaning| format!("<li>{}</li>\n", escaped(&meaning.sentence)));
+    let meanings = match meanings.collect::<String>() {
+        list if list.is_empty() => list,
+        list => format!(
+            "<p>In numbers of the chain, each in place of the error in brackets:</p>\n<ul>\n{list}</ul>\n"
+        ),
+    };
+    let table = parameters(spec, report, |kind| kind == Kind::Machine);
+    let pairs = report.correlations.iter().take(12);
+    let pairs =
+        pairs.map(|pair| format!("{} with {} {}", pair.of[0], pair.of[1], fixed(pair.correlation, 3)));
+    let correlated = match pairs.collect::<Vec<_>>() {
+        pairs if pairs.is_empty() => String::new(),
+        pairs => {
+            let more = report.correlations.len() - pairs.len();
+            let more = if more > 0 { format!("; {more} more pairs") } else { String::new() };
+            format!("<p>Correlated by more than 0.9: {}{more}.</p>\n", escaped(&pairs.join(", ")))
+        }
+    };
+    format!("{meanings}{table}<p>All others are held at zero.</p>\n{correlated}{}", not_known(report))
+}
+
+/// What belongs to the station and to the tool.
+fn placed(spec: &Spec, report: &Report) -> String {
+    let is_placed = |kind: Kind| kind != Kind::Machine;
+    if !report.parameters.iter().any(|parameter| is_placed(parameter.kind)) {
+        return String::new();
+    }
+    let table = parameters(spec, report, is_placed);
+    let words = "<p>No errors of the machine: they do not go into the spec and are not compensated.</p>\n";
+    section("Where the machine stands, and what is mounted on its tool", &format!("{table}{words}"))
+}
+
+fn not_known(report: &Report) -> String {
+    let one = |not_known: &NotKnown| {
+        let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
+        let [told, expected] = [not_known.told, not_known.expected].map(|value| digits(value * factor, 2));
+        format!(
+            "<li>{}: these data alone tell it to ± {told} {unit}; ± {expected} {unit} is expected</li>\n",
+            escaped(&not_known.name)
+        )
+    };
+    match report.not_known.iter().map(one).collect::<String>() {
+        list if list.is_empty() => list,
+        list => format!("<p>Not known from these data, and held at zero:</p>\n<ul>\n{list}</ul>\n"),
+    }
+}
+
+fn parameters(spec: &Spec, report: &Report, is_shown: impl Fn(Kind) -> bool) -> String {
     let decimals = number::error_decimals(spec.length);
     let row = |parameter: &Parameter| {
         let (unit, factor) = if parameter.unit == "rad" { ("mrad", 1e3) } else { (parameter.unit, 1.0) };
@@ -115,18 +175,11 @@ fn parameters(spec: &Spec, report: &Report) -> String {
             fixed(sure.min(9999.0), 1),
         )
     };
-    let rows = report.parameters.iter().map(row).collect::<String>();
-    let meanings = report.meanings.iter().map(|meaning| format!("<li>{}</li>\n", escaped(&meaning.sentence)));
-    let meanings = match meanings.collect::<String>() {
-        list if list.is_empty() => list,
-        list => format!(
-            "<p>The same in numbers of the chain, each in place of the error in brackets:</p>\n<ul>\n{list}</ul>\n"
-        ),
-    };
+    let shown = report.parameters.iter().filter(|parameter| is_shown(parameter.kind));
+    let rows = shown.map(row).collect::<String>();
     format!(
-        "{meanings}<table class=\"ledger\"><thead><tr><th class=\"words\">error</th><th class=\"words\">of</th><th>value</th>\
-         <th>standard deviation σ</th><th></th><th>value/σ</th><th></th></tr></thead>\n<tbody>{rows}</tbody></table>\n\
-         <p>All others are held at zero.</p>\n"
+        "<table class=\"ledger\"><thead><tr><th class=\"words\">error</th><th class=\"words\">of</th><th>value</th>\
+         <th>standard deviation σ</th><th></th><th>value/σ</th><th></th></tr></thead>\n<tbody>{rows}</tbody></table>\n"
     )
 }
 
@@ -178,9 +231,8 @@ fn terms(spec: &Spec, report: &Report) -> String {
 }
 
 fn pictures(spec: &Spec, report: &Report) -> String {
-    let residual = |point: &'_ PointResidual| -> bool { !point.is_rejected };
     let list = |is_test: bool| {
-        let points = report.points.iter().filter(move |point| point.is_test == is_test && residual(point));
+        let points = report.points.iter().filter(move |point| point.is_test == is_test && !point.is_rejected);
         let residuals = points.map(|point| Residual {
             line: point.line,
             q: &point.q,

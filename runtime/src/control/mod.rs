@@ -9,6 +9,9 @@ mod distributions;
 mod ewma;
 mod self_starting;
 
+#[cfg(test)]
+mod tests;
+
 pub use change::{Change, Kind};
 pub use distributions::{normal_quantile, student_quantile, student_tails};
 pub use ewma::{ewma_limit, ewma_run_length};
