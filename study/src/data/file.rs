@@ -5,8 +5,8 @@ use std::path::Path;
 use abbe_codegen::diagnostic::Diagnostics;
 use csv::StringRecord;
 
-use super::dialect::Dialect;
 use super::date::parse_date;
+use super::dialect::Dialect;
 use crate::mistake;
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
@@ -110,14 +110,11 @@ impl Record<'_> {
 
     /// The time at a place: a number, or of a date the days since 1970.
     pub(super) fn time(&self, place: usize) -> Result<f64, String> {
-        match parse_date(self.text(place)) {
-            Some((_, time)) => Ok(time),
-            None => Err(format!(
-                "`{}` is `{}`, no date and no number",
-                self.heading[place],
-                self.text(place).escape_debug()
-            )),
-        }
+        let text = self.text(place);
+        let time = parse_date(text).map(|(_, time)| time).or_else(|| self.dialect.number(text));
+        time.filter(|time| time.is_finite()).ok_or_else(|| {
+            format!("`{}` is `{}`, no date and no number", self.heading[place], text.escape_debug())
+        })
     }
 
     /// The finite number at a place, or why it is none.

@@ -40,7 +40,7 @@ impl Checks {
         for (file, name) in files.iter().zip(names) {
             let Dated { data, dates } = Dated::read(file, map)?;
             match dates {
-                Some(dates) => checks.extend(split(data, &dates)?),
+                Some(dates) => checks.extend(split(data, &dates)),
                 None => {
                     let (calendar, time) = match name {
                         Some(date) if named => (Calendar::Dates, date),
@@ -104,25 +104,20 @@ fn name(calendar: Calendar) -> &'static str {
 }
 
 /// The rows of every day.
-fn split(data: Data, dates: &[String]) -> Result<Vec<(Calendar, Check)>, Diagnostics> {
-    let Data { file, observations, unusable, stations } = data;
+fn split(mut data: Data, dates: &[String]) -> Vec<(Calendar, Check)> {
     let mut checks: Vec<(Calendar, Check)> = Vec::new();
-    for (row, date) in observations.into_iter().zip(dates) {
-        let Some((calendar, time)) = parse_date(date) else {
-            let message = format!("line {}: `{}` is no date", row.line, date.escape_debug());
-            return Err(mistake::with_help(&file, message, DATES));
-        };
+    for (row, date) in std::mem::take(&mut data.observations).into_iter().zip(dates) {
+        let time = row.time.unwrap_or_default();
+        let calendar = parse_date(date).map_or(Calendar::Days, |(calendar, _)| calendar);
         match checks.last_mut() {
             Some((_, check)) if check.time.floor() == time.floor() => check.data.observations.push(row),
             _ => {
-                let (file, stations) = (file.clone(), stations.clone());
-                let data = Data { file, observations: vec![row], stations, ..Data::default() };
+                // The first check has those that cannot be used.
+                let unusable = std::mem::take(&mut data.unusable);
+                let data = Data { observations: vec![row], unusable, ..data.clone() };
                 checks.push((calendar, Check { time, data }));
             }
         }
     }
-    if let Some((_, first)) = checks.first_mut() {
-        first.data.unusable = unusable;
-    }
-    Ok(checks)
+    checks
 }
