@@ -110,13 +110,14 @@ fn what_is_found_is_the_machine() {
     let mut job = identify(&map, measurements(&map, 300, 1));
     job.test = Some(measurements(&map, 50, 2));
     let report = job.run(&mut ()).unwrap();
-    assert_eq!((report.rank, report.parameters.len()), (27, 27));
+    // The target stands on the last axis: two of the 27 combinations cannot be seen there, as the plan says.
+    assert_eq!((report.rank, report.parameters.len()), (25, 25));
     let test = report.test.unwrap();
     // Nothing but the instrument's noise is left: √3 σ of a point.
     assert!((test.after.rms - 0.02 * 3f64.sqrt()).abs() < 0.004, "{test:?}");
     assert!(test.before.rms > 10.0 * test.after.rms);
     let json = serde_json::to_value(&report).unwrap();
-    assert_eq!(json["rank"], 27);
+    assert_eq!(json["rank"], 25);
     assert!(json.get("found").is_none() && json.get("files").is_none());
 }
 

@@ -6,8 +6,9 @@ use abbe_study::compensate::Compensate;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Report, Settings};
 use abbe_study::measure::Measure;
+use abbe_study::plan::{Choice, Plan, Sets};
 use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Machine};
+use abbe_study::{Acceptance, Machine, Study};
 
 /// A UR5 with errors of its own.
 const ERRORS: &str = r#"
@@ -240,6 +241,20 @@ fn of_two_stations() {
     alike(left(found, map, unseen), [test.after.mean, test.after.max], 0.01);
 }
 
+/// How many combinations a plan says so many samples determine.
+fn planned(map: &Map, samples: usize) -> usize {
+    let machine = ur5();
+    let text = format!(
+        "[plan]\ntitle = \"samples\"\n\n[[set]]\nname = \"samples\"\nworkspace.joints = {{ samples = {samples} }}\n"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plan.toml");
+    std::fs::write(&file, text).unwrap();
+    let choice = Choice::Sets(Sets::find(&file, &machine.spec).unwrap());
+    let study = Study::find(None, &machine).unwrap();
+    Plan { machine, map: map.clone(), choice, study }.run(&mut ()).unwrap().rank
+}
+
 /// A reflector at the flange, on the last axis but for 0.3 mm: what it does not tell is held and named, not written.
 #[test]
 fn a_reflector_on_the_last_axis() {
@@ -252,14 +267,13 @@ fn a_reflector_on_the_last_axis() {
     assert!(report.condition < 1000.0, "{}", report.condition);
     assert!(!report.not_known.is_empty());
     for weak in &report.not_known {
-        assert!(weak.told > weak.expected, "{weak:?}");
+        assert!(weak.told > 0.5 * weak.expected, "{weak:?}");
     }
-    let arm_share = 0.01;
-    for parameter in &report.parameters {
-        if parameter.unit == "rad" {
-            assert!(parameter.standard_deviation < arm_share, "{parameter:?}");
-        }
+    for parameter in report.parameters.iter().filter(|parameter| parameter.unit == "rad") {
+        assert!(parameter.standard_deviation < 0.5 * 0.01, "{parameter:?}");
     }
+    // The plan says as much before, of the same rows.
+    assert_eq!(report.rank, planned(&guess, 60));
     // What is written turns the tool no farther than the errors of the machine do.
     let (found, _) = written(&report, &guess);
     let commands = measured(&guess, 40, 3);

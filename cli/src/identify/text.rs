@@ -150,9 +150,9 @@ fn not_known(spec: &Spec, report: &Report) -> String {
     };
     let all: Vec<String> = report.not_known.iter().map(one).collect();
     let line = format!(
-        "Not known from these data: {}. The data alone would tell them to what stands first, which is worse than what is \
-         expected: they are held at zero and not written. Other configurations, a target farther from the axes or a finer \
-         instrument tell more: `abbe plan {}` says how much.",
+        "Not known from these data: {}. The data alone would tell them to what stands first, which is no better than half of \
+         what is expected: they are held at zero and not written. Other configurations, a target farther from the axes or a \
+         finer instrument tell more: `abbe plan {}` says how much.",
         all.join(", "),
         spec.name
     );

@@ -64,6 +64,15 @@ fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
     );
     text += &format!("{}\n", wrapped(&sentence, 0));
     text += &format!("\n{}\n", alike_table(&report.groups));
+    if !report.not_known.is_empty() {
+        let names: Vec<&str> = report.not_known.iter().map(|not_known| &not_known.name[..]).collect();
+        let line = format!(
+            "Of {} these rows will tell too little beside what is expected before: an identification will hold them at zero. Other \
+             configurations, a target farther from the axes or a finer instrument tell more.",
+            names.join(", ")
+        );
+        text += &format!("{}\n", wrapped(&line, 0));
+    }
     let fine = |value: f64| format!("{} {unit}", digits(value, 3));
     let model = match report.model_error {
         0.0 => String::new(),

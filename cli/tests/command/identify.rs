@@ -399,3 +399,33 @@ fn an_instrument_that_stands_anywhere() {
     assert!(number(&report, &["fit", "after", "rms"]) < 0.04);
     assert!((report["base"][0][1].as_f64().unwrap() + 1.0).abs() < 0.01);
 }
+
+/// Limits make a verdict and the status; without limits nothing is called accepted. What is written is not what was read.
+#[test]
+fn limits_make_a_verdict() {
+    let bench = Bench::new(POINT);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "120", "--seed", "1"]));
+    let unseen = bench.file("unseen.csv", &bench.simulated(&["--samples", "40", "--seed", "2"]));
+    let out = bench.folder.path().join("found.toml");
+    let identify = ["identify", "ur5", path(&data), "--map", path(&bench.map), "--test", path(&unseen)];
+    let run = abbe(&[&identify[..], &["--accept", "mean 0.1 mm, max 0.2 mm", "--out", path(&out)]].concat());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("Accepted on the test rows: mean 0.0"), "{}", run.stdout);
+    let run = abbe(&[&identify[..], &["--accept", "mean 0.1 mm, rms 1 um"]].concat());
+    assert_eq!(run.status, 1, "{}", run.stderr);
+    assert!(run.stdout.contains("Not accepted on the test rows"), "{}", run.stdout);
+    assert!(!prints(&identify).contains("ccepted"));
+
+    let map = out.with_extension("map.toml");
+    let limits = std::fs::read_to_string(&map).unwrap() + "\n[accept]\np95 = \"2 um\"\n";
+    let limits = bench.file("limits.map.toml", &limits);
+    let run = abbe(&["measure", path(&out), path(&unseen), "--map", path(&limits)]);
+    assert_eq!(run.status, 1, "{}", run.stderr);
+    let measure = ["measure", path(&out), path(&unseen), "--map", path(&map)];
+    assert!(prints(&[&measure[..], &["--station", "new"]].concat()).contains("was found from these rows"));
+    narrow(&prints(&measure));
+    let again = ["identify", "ur5", path(&data), "--map", path(&map), "--out", path(&out)];
+    let run = abbe(&again);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("which would be overwritten"), "{}", run.stderr);
+}

@@ -99,8 +99,10 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
         false => knowable(&plain, data, &at, &options.expected, options.noise)?,
     };
     let numbers = data.iter().map(Observation::count).sum();
-    if numbers <= identifiable.rank {
-        return Err(Failure::TooFew { numbers, rank: identifiable.rank });
+    // What is told badly counts, too: as many numbers are explained by anything.
+    let rank = identifiable.rank + identifiable.weak.len();
+    if numbers <= rank {
+        return Err(Failure::TooFew { numbers, rank });
     }
     let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
     // The same place with what is held at zero: to first order, which is near enough to start from.

@@ -2,7 +2,7 @@
 //!
 //! Two rules. What data of a kind determine at all is a matter of rank. What these data tell is held against what was known
 //! before: with columns `J_k σ_k / σ` (σ_k expected of unknown k, σ of the instrument) a column whose part beyond all others
-//! is shorter than 1 is told worse than it was known.
+//! is shorter than 2 is told no better than to half of what was known.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,6 +15,10 @@ pub const THRESHOLD: f64 = 1e-8;
 /// The part of a column beyond others, as a share of its length, below which it acts as they do.
 const ALIKE: f64 = 1e-6;
 
+/// The share of what is expected of it to which an unknown must be told to be worth fitting: at this, the data say three times
+/// as much of it as was known.
+const TOLD: f64 = 0.5;
+
 /// What data of this kind determine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiable {
@@ -26,8 +30,8 @@ pub struct Identifiable {
     pub kept: Vec<usize>,
     /// Those held at zero, each with what it acts as: `column = Σ factor × column of a kept one`.
     pub held: Vec<(usize, Vec<(usize, f64)>)>,
-    /// Those of them that act as nothing else, but of which these data tell less than is known before; one for every
-    /// combination.
+    /// Those of them that act as nothing else, but of which these data tell too little beside what is known before; one for
+    /// every combination.
     pub weak: Vec<Weak>,
     /// All singular values of the matrix with columns of unit length, largest first.
     pub singular_values: Vec<f64>,
@@ -37,7 +41,7 @@ pub struct Identifiable {
     pub gap: f64,
 }
 
-/// An unknown of which data tell less than is known before.
+/// An unknown of which data tell too little beside what is known before: no better than to half of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weak {
     /// Which, by index.
@@ -154,7 +158,7 @@ impl Columns {
             while kept.len() < self.exact && pass > 1e-9 {
                 for &k in *group {
                     let new = rest.column(k).norm();
-                    let told = new * self.worth[k] > 1.0;
+                    let told = new * self.worth[k] * TOLD > 1.0;
                     if kept.len() < self.exact && !kept.contains(&k) && new > pass && told {
                         take_out(&mut rest, k);
                         kept.push(k);
@@ -180,7 +184,7 @@ impl Columns {
         let r = self.unit.select_columns(kept).qr().unpack_r();
         let inverse = r.solve_upper_triangular(&DMatrix::identity(kept.len(), kept.len()))?;
         let told = |i: usize| inverse.row(i).norm() / self.worth[kept[i]];
-        let bad = (0..kept.len()).filter(|i| told(*i) > 1.0);
+        let bad = (0..kept.len()).filter(|i| told(*i) > TOLD);
         bad.max_by(|a, b| {
             let key = |i: usize| (!first.contains(&kept[i]), told(i));
             let ((other_a, told_a), (other_b, told_b)) = (key(*a), key(*b));

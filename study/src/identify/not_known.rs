@@ -4,7 +4,8 @@ use abbe::identify::{Identifiable, Model, Unknown};
 use abbe_codegen::expr::LengthUnit;
 use serde::Serialize;
 
-/// An error of which these data tell less than is known before: it is held at zero and not written.
+/// An error of which these data tell too little beside what is known before, no better than to half of it: it is held at
+/// zero and not written.
 #[derive(Clone, Debug, Serialize)]
 pub struct NotKnown {
     /// The error.

@@ -41,7 +41,7 @@ pub struct Report {
     pub parameters: Vec<Parameter>,
     /// Joints' zeros, parameters and Denavit-Hartenberg numbers that can stand in the place of some of these.
     pub meanings: Vec<Meaning>,
-    /// Errors of which these data tell less than is known before; they are held at zero.
+    /// Errors of which these data tell too little beside what is known before; they are held at zero.
     pub not_known: Vec<NotKnown>,
     /// The magnitudes of sources of the spec that are to be found.
     pub magnitudes: Vec<Magnitude>,
