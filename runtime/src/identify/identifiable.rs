@@ -33,6 +33,8 @@ pub struct Identifiable {
     /// Those of them that act as nothing else, but of which these data tell too little beside what is known before; one for
     /// every combination.
     pub weak: Vec<Weak>,
+    /// Those held at zero that act only about as the combination that stands with them.
+    pub inexact: Vec<usize>,
     /// All singular values of the matrix with columns of unit length, largest first.
     pub singular_values: Vec<f64>,
     /// Condition number and observability of the kept columns, each of unit length.
@@ -203,16 +205,25 @@ impl Columns {
         };
         let observability = Observability::from_singular_values(&singular_values(&basis), rows);
         let weak = self.weak(&kept);
+        let inexact = self.inexact(&kept);
         Identifiable {
             rank: kept.len(),
             errors,
             weak,
+            inexact,
             kept,
             held,
             singular_values: self.singular_values,
             observability,
             gap,
         }
+    }
+
+    /// The columns that are no combination of those kept.
+    fn inexact(&self, kept: &[usize]) -> Vec<usize> {
+        let mut rest = self.unit.clone();
+        kept.iter().for_each(|k| take_out(&mut rest, *k));
+        (0..rest.ncols()).filter(|k| rest.column(*k).norm() > ALIKE).collect()
     }
 
     /// What acts as nothing that is kept, one for every combination: the best told first.

@@ -197,6 +197,9 @@ impl<'a> Basis<'a> {
         let mut coordinates = vec![0.0; self.forms.len()];
         for (component, error) in Component::ALL.into_iter().zip(errors).filter(|(_, error)| *error != 0.0) {
             let unknown = self.model.unknowns.iter().position(|u| *u == Unknown::Error(frame, component))?;
+            if self.fit.identifiable.inexact.contains(&unknown) {
+                return None;
+            }
             let parts = self.kept_coordinates(unknown);
             coordinates.iter_mut().zip(parts).for_each(|(sum, part)| *sum += error * part);
         }

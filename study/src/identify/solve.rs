@@ -82,13 +82,7 @@ pub(super) fn solve<'a>(
         }
         let at = embedded(&simple, &simple_fit.x, model);
         let expected = model.expected(&priors)?;
-        let options = Options { at, priors, expected, ..options.clone() };
-        let found = fit(model, rows, &options)?;
-        // What is worse than stated tells less.
-        if found.sigma < 1.5 {
-            return Ok(found);
-        }
-        fit(model, rows, &Options { noise: found.sigma, at: found.x, ..options })
+        fit(model, rows, &Options { at, priors, expected, ..options.clone() })
     };
     let crossed =
         |model: &Model, fit: &Fit| cross_validate(model, rows, fit, settings.folds).map_err(explained);
