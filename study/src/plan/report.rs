@@ -29,7 +29,7 @@ pub struct Report {
     pub unknowns: usize,
     /// Of base and frames alone, without the targets on the tool.
     pub machine: Counts,
-    /// Errors of which these rows will tell less than is known before.
+    /// Errors of which these rows will tell too little beside what is known before.
     pub not_known: Vec<NotKnown>,
     /// The condition number.
     pub condition: f64,
