@@ -46,7 +46,7 @@ pub struct Design {
 /// So many looks at a candidate there are at most; a fraction of a microsecond each.
 const LOOKS: usize = 3_000_000;
 /// Lists with fewer pairs than this are searched from several starts.
-const SHORT: usize = 30_000;
+const SHORT: usize = 2_000;
 const STARTS: usize = 6;
 /// An exchange that gains less than this share gains nothing.
 const GAIN: f64 = 1e-9;
