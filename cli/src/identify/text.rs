@@ -1,7 +1,7 @@
 //! What comes out, for people.
 
 use abbe_codegen::spec::Spec;
-use abbe_study::identify::{Kind, NotKnown, Report, Sizes, shown_lines};
+use abbe_study::identify::{Gain, Kind, NotKnown, Report, Sizes, shown_lines};
 use abbe_study::number::{self, digits, fixed};
 
 use super::alike;
@@ -161,10 +161,12 @@ fn not_known(spec: &Spec, report: &Report) -> String {
 
 fn errors(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
-    let mut table = Table::new(&["position error", "rows", "mean", "rms", "95 %", "max"]);
+    let mut table = Table::new(&["position error", "rows", "mean", "±", "rms", "95 %", "max"]);
     let mut row = |name: &str, rows: usize, sizes: &Sizes| {
-        let numbers = [sizes.mean, sizes.rms, sizes.p95, sizes.max].map(|value| fixed(value, decimals));
-        table.row([&[name.to_owned(), rows.to_string()][..], &numbers].concat());
+        let sure = sizes.standard_error.map_or("?".to_owned(), |error| fixed(error, decimals));
+        let [mean, rms, p95, max] =
+            [sizes.mean, sizes.rms, sizes.p95, sizes.max].map(|value| fixed(value, decimals));
+        table.row(vec![name.to_owned(), rows.to_string(), mean, sure, rms, p95, max]);
     };
     for (set, compared) in [("fit", Some(&report.fit)), ("test", report.test.as_ref())] {
         let Some(compared) = compared else { continue };
@@ -176,15 +178,17 @@ fn errors(spec: &Spec, report: &Report) -> String {
             row(&name, compared.rows, &report.cross_validation.after);
         }
     }
-    let mut text = format!("How good it is, {}\n{}", spec.length.symbol(), table.right(&[1, 2, 3, 4, 5]));
+    let mut text = format!("How good it is, {}\n{}", spec.length.symbol(), table.right(&[1, 2, 3, 4, 5, 6]));
     let line = if report.test.is_some() {
         "Nothing of the test rows was used to find or to choose anything."
     } else {
         "On data it has not seen: the rows left out in turn; `--test FILE` judges on a file of its own."
     };
-    text += &format!("{line}\n");
+    text += &format!("{line}\n{}\n", wrapped(&behind(report), 0));
     let factor = report.uncertainty_factor;
+    let is_chance = report.certainty.p_of_factor > 0.001;
     let line = match factor {
+        _ if is_chance => "What is left is what the instrument explains.".to_owned(),
         _ if factor > 1.5 => format!(
             "What is left is {} times what the instrument explains: the machine has errors that this model has not.",
             digits(factor, 3)
@@ -196,6 +200,9 @@ fn errors(spec: &Spec, report: &Report) -> String {
         _ => "What is left is what the instrument explains.".to_owned(),
     };
     text += &format!("{}\n", wrapped(&line, 0));
+    if let Some(order) = &report.order {
+        text += &format!("{}\n", wrapped(&order.sentence, 0));
+    }
     if let Some(accepted) = &report.accepted {
         text += &format!("{}\n", wrapped(&accepted.sentence(spec.length), 0));
     }
@@ -208,6 +215,44 @@ fn errors(spec: &Spec, report: &Report) -> String {
         text += &format!("{}\n", wrapped(&line, 0));
     }
     text
+}
+
+/// How many configurations stand behind the figures, and whether the machine is better than base and tool alone.
+fn behind(report: &Report) -> String {
+    let configurations = |count: usize| match count {
+        1 => "1 configuration".to_owned(),
+        count => format!("{count} configurations"),
+    };
+    let mut behind = format!("{} of the fit", configurations(report.fit.configurations));
+    if let Some(test) = &report.test {
+        behind += &format!(", {} of the test", configurations(test.configurations));
+    }
+    let judged = report.test.as_ref().map(|test| ("on the test rows", test.gain));
+    let better = judged.map_or(String::new(), |(place, gain)| {
+        format!(" Against base and tool fitted, {place}: {}.", comparison(gain, report.length))
+    });
+    let factor = digits(report.certainty.factor_95, 3);
+    let counted = match report.certainty.counted {
+        "numbers" => "",
+        "points" => " Visits of a configuration count as one.",
+        _ => " All that is measured at a configuration counts as one.",
+    };
+    format!(
+        "±: one standard error of the mean. Behind these figures stand {behind}.{counted} Standard deviations times {factor} \
+         hold with 95 %.{better}"
+    )
+}
+
+/// Whether one model is better than another, and how sure that is.
+fn comparison(gain: Gain, unit: &str) -> String {
+    let Some(error) = gain.standard_error else { return "one configuration cannot tell".to_owned() };
+    let by = format!("{} ± {} {unit}", digits(gain.mean.abs(), 3), digits(error, 2));
+    let p = if gain.p < 1e-12 { "below 1e-12".to_owned() } else { digits(gain.p, 2) };
+    match gain.p < 0.05 {
+        true if gain.mean > 0.0 => format!("better by {by} (configuration by configuration, p {p})"),
+        true => format!("worse by {by} (configuration by configuration, p {p})"),
+        false => format!("no difference that is more than chance ({by}, p {p})"),
+    }
 }
 
 fn terms(spec: &Spec, report: &Report) -> String {
@@ -232,11 +277,13 @@ fn terms(spec: &Spec, report: &Report) -> String {
     );
     let constant = report.cross_validation.constant.map_or(String::new(), |sizes| {
         format!(
-            "Left out in turn, constants alone: mean {} {unit}; with these terms {} {unit}.\n",
+            "Left out in turn, constants alone: mean {} {unit}; with these terms {} {unit}: {}.\n",
             fixed(sizes.mean, decimals),
-            fixed(report.cross_validation.after.mean, decimals)
+            fixed(report.cross_validation.after.mean, decimals),
+            report.cross_validation.gain.map_or(String::new(), |gain| comparison(gain, unit)),
         )
     });
+    let constant = wrapped(constant.trim_end(), 0) + "\n";
     let lines = report.terms.iter().flat_map(|term| &term.lines);
     let lines: String = lines.map(|line| format!("  {}\n", line.replace('\n', ", "))).collect();
     let mut text =

@@ -18,8 +18,10 @@ pub enum Failure {
     Machine(Error),
     /// There are not more numbers than combinations to be known: nothing would be left to judge the result by.
     TooFew {
-        /// Numbers measured.
+        /// Numbers measured, those of a configuration that was visited again counted once.
         numbers: usize,
+        /// At how many configurations.
+        configurations: usize,
         /// Combinations of unknowns that they determine.
         rank: usize,
     },
@@ -35,10 +37,11 @@ impl fmt::Display for Failure {
         match self {
             Self::Observation { line, error } => write!(f, "line {line}: {error}"),
             Self::Machine(error) => error.fmt(f),
-            Self::TooFew { numbers, rank } => {
+            Self::TooFew { numbers, configurations, rank } => {
                 write!(
                     f,
-                    "{numbers} numbers were measured for {rank} unknowns: none is left to judge the result by"
+                    "{numbers} independent numbers were measured ({configurations} configurations) for {rank} unknowns: \
+                     none is left to judge the result by"
                 )
             }
             Self::NotConverged { steps } => write!(f, "no least squares solution after {steps} steps"),

@@ -2,9 +2,9 @@
 
 use nalgebra::DMatrix;
 
-use super::robust::robust_scale;
+use super::clustered::{Independent, Known};
 use super::solver::Solver;
-use super::{Failure, Identifiable, Loss, Model, Observation, Options, identifiable, knowable};
+use super::{Configurations, Failure, Identifiable, Loss, Model, Observation, Options, identifiable, knowable};
 
 /// An observation with less weight than this counts as left out.
 pub(super) const REJECTED: f64 = 0.05;
@@ -22,11 +22,17 @@ pub struct Fit {
     pub priors: Vec<Option<f64>>,
     /// What the uncertainty of the instrument must be multiplied with to explain the residuals.
     pub sigma: f64,
+    /// Degrees of freedom of that, and of the covariance: Student's t says what standard deviations hold.
+    pub freedom: f64,
+    /// What was counted as independent.
+    pub independent: Independent,
+    /// How many configurations stand behind it; those of gross errors do not.
+    pub configurations: usize,
     /// Weighted sum of squared residuals, in units of the uncertainty.
     pub cost: f64,
     /// Numbers measured.
     pub numbers: usize,
-    /// The weight that the loss gives every observation, 1 to 0; their own weights come on top.
+    /// 0 for every observation that a robust loss left out, 1 for all others; their own weights come on top.
     pub weights: Vec<f64>,
     /// How many steps were made.
     pub steps: usize,
@@ -99,10 +105,14 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
         false => knowable(&plain, data, &at, &options.expected, options.noise)?,
     };
     let numbers = data.iter().map(Observation::count).sum();
-    // What is told badly counts, too: as many numbers are explained by anything.
+    // A configuration that is visited again tells no more of the machine. What is told badly counts, too: as many numbers
+    // are explained by anything.
+    let configurations = Configurations::new(data);
+    let independent = configurations.numbers(data.iter(), usize::MAX);
     let rank = identifiable.rank + identifiable.weak.len();
-    if numbers <= rank {
-        return Err(Failure::TooFew { numbers, rank });
+    if independent <= rank {
+        let configurations = configurations.count;
+        return Err(Failure::TooFew { numbers: independent, configurations, rank });
     }
     let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
     // The same place with what is held at zero: to first order, which is near enough to start from.
@@ -113,31 +123,28 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let start = identifiable.kept.iter().map(|k| start[*k]).collect();
     let mut solver = Solver::new(&kept, data, options, &identifiable.kept, start);
     if options.loss != Loss::Squares {
-        // Huber first: it comes near from anywhere; then the loss that was asked for. Gross errors never have their say.
-        for round in 0..60 {
-            let before = solver.x.clone();
-            solver.reweight(if round < 12 { Loss::Huber } else { options.loss })?;
-            solver.steps_at_most(3)?;
-            let moved = (&solver.x - &before).component_mul(&solver.scale()).amax();
-            if round >= 15 && moved < 1e-3 * solver.cost.sqrt() {
-                break;
-            }
-        }
+        solver.leave_out_gross_errors(options.loss, options.steps)?;
     }
     if !solver.steps_at_most(options.steps)? {
         return Err(Failure::NotConverged { steps: solver.steps });
     }
-    let weight: f64 = solver.weights.iter().zip(data).map(|(weight, row)| weight * row.count() as f64).sum();
-    let freedom = (weight - identifiable.rank as f64).max(1.0);
     let cost = solver.cost_of_data();
-    let sigma = match options.loss {
-        Loss::Squares => (cost / freedom).sqrt(),
-        // Of what is not gross.
-        _ => robust_scale(&mut solver.residuals()?.0),
-    };
-    let covariance = solver.covariance(sigma);
+    let Known { covariance, sigma, freedom, independent, configurations } = solver.known()?;
     let mut x = vec![0.0; model.unknowns.len()];
     identifiable.kept.iter().zip(solver.x.iter()).for_each(|(k, value)| x[*k] = *value);
     let (priors, weights, steps) = (options.priors.clone(), solver.weights, solver.steps);
-    Ok(Fit { identifiable, x, covariance, priors, sigma, cost, numbers, weights, steps })
+    Ok(Fit {
+        identifiable,
+        x,
+        covariance,
+        priors,
+        sigma,
+        freedom,
+        independent,
+        configurations,
+        cost,
+        numbers,
+        weights,
+        steps,
+    })
 }

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::fit::REJECTED;
 use super::linearize::{push, with_priors};
 use super::triangle::{Problem, Triangle};
-use super::{Failure, Figures, Fit, Model, Observation};
+use super::{Configurations, Distances, Failure, Fit, Model, Observation};
 use crate::analysis::sampling::halton;
 
 /// The part that each observation is left out with.
@@ -18,16 +18,17 @@ pub struct Folds {
 }
 
 impl Folds {
-    /// `rows` dealt to `count` folds of the same size, in an order without rhyme: neighbours do not stay together,
-    /// and the same every time.
-    pub fn new(rows: usize, count: usize) -> Self {
-        let count = count.clamp(2, rows.max(2));
-        let mut order: Vec<usize> = (0..rows).collect();
+    /// Configurations dealt to `count` folds of the same number, in an order without rhyme: neighbours do not stay
+    /// together, visits of one configuration do, and the same every time.
+    pub fn new(data: &[Observation], count: usize) -> Self {
+        let Configurations { count: configurations, number } = Configurations::new(data);
+        let count = count.clamp(2, configurations.max(2));
+        let mut order: Vec<usize> = (0..configurations).collect();
         let key = |i: &usize| (halton(i + 1, 1) * 1e3).fract();
         order.sort_by(|a, b| key(a).total_cmp(&key(b)));
-        let mut fold = vec![0; rows];
+        let mut fold = vec![0; configurations];
         order.iter().enumerate().for_each(|(place, i)| fold[*i] = place % count);
-        Self { count, fold }
+        Self { count, fold: number.iter().map(|i| fold[*i]).collect() }
     }
 }
 
@@ -56,8 +57,8 @@ pub fn cross_validate(
     data: &[Observation],
     fit: &Fit,
     count: usize,
-) -> Result<Figures, Failure> {
-    let folds = Folds::new(data.len(), count);
+) -> Result<Distances, Failure> {
+    let folds = Folds::new(data, count);
     let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
     let x: Vec<f64> = fit.identifiable.kept.iter().map(|k| fit.x[*k]).collect();
     let priors: Vec<Option<f64>> =
@@ -73,10 +74,11 @@ pub fn cross_validate(
     let mut norms = Vec::new();
     for ((weight, observation), fold) in fit.weighed(data).zip(&folds.fold) {
         if weight >= REJECTED {
-            norms.extend(kept.distances(&mut room, observation, &solutions[*fold])?);
+            let distances = kept.distances(&mut room, observation, &solutions[*fold])?;
+            norms.extend(distances.into_iter().map(|distance| (observation.configuration, distance)));
         }
     }
-    Ok(Figures::from_norms(norms))
+    Ok(Distances(norms))
 }
 
 /// All folds but one.

@@ -63,9 +63,11 @@
 //! # }
 //! ```
 
+mod clustered;
 mod columns;
 mod configurations;
 mod design;
+mod drift;
 mod failure;
 mod figures;
 mod fit;
@@ -79,6 +81,7 @@ mod linearize;
 mod model;
 mod observation;
 mod options;
+mod outliers;
 mod reading;
 mod registration;
 mod residuals;
@@ -93,12 +96,16 @@ mod triangle;
 mod unknown;
 
 #[cfg(test)]
+mod coverage;
+#[cfg(test)]
 mod tests;
 
+pub use clustered::Independent;
 pub use configurations::Configurations;
 pub use design::{Design, Objective, optimal, whole};
+pub use drift::{Drift, Follows, drift};
 pub use failure::Failure;
-pub use figures::Figures;
+pub use figures::{Comparison, Distances, Figures};
 pub use fit::{Fit, fit};
 pub use folds::{Folds, cross_validate};
 pub use groups::{Group, Reason, groups};
@@ -114,6 +121,6 @@ pub use robust::{Loss, robust_scale};
 pub use select::{Factored, Offer, Selection, select};
 pub use simulate::{Chance, simulate};
 pub use station::Station;
-pub use statistics::{FTest, Observability, f_test};
+pub use statistics::{FTest, Observability, deviation_beyond, f_test, student_beyond, student_factor};
 pub use tool_points::ToolPoints;
 pub use unknown::{Role, Unknown};

@@ -55,6 +55,19 @@ impl Observation {
         }
     }
 
+    /// Which numbers were measured, among all that such a row can have.
+    pub(super) fn places(&self) -> Vec<usize> {
+        let measured = |(place, number): (usize, &Option<f64>)| number.map(|_| place);
+        match &self.measured {
+            Measurement::Points(points) => {
+                let points = points.iter().enumerate().filter(|(_, point)| point.is_some());
+                points.flat_map(|(j, _)| 3 * j..3 * j + 3).collect()
+            }
+            Measurement::Pose(_) => (0..6).collect(),
+            Measurement::Readings(readings) => readings.iter().enumerate().filter_map(measured).collect(),
+        }
+    }
+
     /// How many numbers were measured: three for every target that was not hidden, six for a pose, one for a reading.
     pub fn count(&self) -> usize {
         match &self.measured {

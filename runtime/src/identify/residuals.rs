@@ -2,7 +2,7 @@
 
 use super::columns::{Frame, turned};
 use super::gradient::Gradient;
-use super::{Failure, Figures, Measurement, Model, Observation, Role, Uncertainty, Unknown};
+use super::{Distances, Failure, Figures, Measurement, Model, Observation, Role, Uncertainty, Unknown};
 use crate::analysis::sampling;
 use crate::chain::rotation_vector;
 use crate::{Component, Error, Pose, Quantity};
@@ -293,12 +293,22 @@ impl Model<'_> {
         observations: impl IntoIterator<Item = &'o Observation>,
         x: &[f64],
     ) -> Result<Figures, Failure> {
+        Ok(self.all_distances(observations, x)?.figures())
+    }
+
+    /// The norms of the position errors of all observations at `x`. The length unit.
+    pub fn all_distances<'o>(
+        &self,
+        observations: impl IntoIterator<Item = &'o Observation>,
+        x: &[f64],
+    ) -> Result<Distances, Failure> {
         let mut room = self.room();
         let mut norms = Vec::new();
         for observation in observations {
-            norms.extend(self.distances(&mut room, observation, x)?);
+            let distances = self.distances(&mut room, observation, x)?;
+            norms.extend(distances.into_iter().map(|distance| (observation.configuration, distance)));
         }
-        Ok(Figures::from_norms(norms))
+        Ok(Distances(norms))
     }
 
     /// The pose of the tool, and how its point moves per unit of every unknown.

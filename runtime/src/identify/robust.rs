@@ -31,11 +31,19 @@ impl Loss {
 
 /// A standard deviation that half of the values cannot spoil: the median of the absolute values / 0.6745.
 pub fn robust_scale(residuals: &mut [f64]) -> f64 {
+    robust_scale_after(residuals, 0)
+}
+
+/// The same of what is left by a fit of `spent` unknowns: the median of all but the `spent` smallest.
+///
+/// A fit brings as many residuals to nothing as it has unknowns: with few rows the median of all would be far too small
+/// (DuMouchel and O'Brien, *Integrating a robust option into a multiple regression computing environment*, 1989).
+pub(super) fn robust_scale_after(residuals: &mut [f64], spent: usize) -> f64 {
     if residuals.is_empty() {
         return 0.0;
     }
     residuals.iter_mut().for_each(|r| *r = r.abs());
-    let middle = residuals.len() / 2;
+    let middle = (residuals.len() + spent.min(residuals.len() - 1)) / 2;
     let (_, median, _) = residuals.select_nth_unstable_by(middle, f64::total_cmp);
     *median / 0.674_489_750_196_082
 }

@@ -3,21 +3,21 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::linearize::{linearize, with_priors};
-use super::robust::robust_scale;
-use super::triangle::{Problem, Triangle};
-use super::{Failure, Loss, Model, Observation, Options};
+use super::robust::robust_scale_after;
+use super::triangle::Problem;
+use super::{Configurations, Failure, Loss, Model, Observation, Options};
 
 /// A fit under way.
 pub(super) struct Solver<'a> {
-    model: &'a Model<'a>,
-    data: &'a [Observation],
-    priors: Vec<Option<f64>>,
+    pub(super) model: &'a Model<'a>,
+    pub(super) data: &'a [Observation],
+    pub(super) priors: Vec<Option<f64>>,
     bounds: Vec<Option<[f64; 2]>>,
     pub(super) x: DVector<f64>,
     pub(super) weights: Vec<f64>,
     /// The triangle of the data alone.
-    data_alone: DMatrix<f64>,
-    problem: Problem,
+    pub(super) data_alone: DMatrix<f64>,
+    pub(super) problem: Problem,
     pub(super) cost: f64,
     pub(super) steps: usize,
 }
@@ -121,25 +121,20 @@ impl<'a> Solver<'a> {
         Ok((all, norms))
     }
 
-    pub(super) fn reweight(&mut self, loss: Loss) -> Result<(), Failure> {
-        let (mut all, norms) = self.residuals()?;
-        let scale = robust_scale(&mut all).max(1e-300);
+    /// The scale of what is left of numbers that are not gross errors; visits of a configuration count once.
+    pub(super) fn robust_scale(&self) -> Result<f64, Failure> {
+        let mut all = self.residuals()?.0;
+        let configurations = Configurations::new(self.data);
+        let visits = all.len() as f64 / configurations.numbers(self.data.iter(), usize::MAX).max(1) as f64;
+        let spent = (self.x.len() as f64 * visits) as usize;
+        Ok(robust_scale_after(&mut all, spent).max(1e-300))
+    }
+
+    pub(super) fn reweight(&mut self, loss: Loss, scale: f64) -> Result<(), Failure> {
+        let norms = self.residuals()?.1;
         for ((weight, norm), observation) in self.weights.iter_mut().zip(norms).zip(self.data) {
             *weight = loss.weight(norm / scale, observation.count());
         }
         Ok(())
-    }
-
-    /// `(JᵀJ/σ² + P)⁻¹` with the information `P` of the priors.
-    pub(super) fn covariance(&self, sigma: f64) -> DMatrix<f64> {
-        let p = self.x.len();
-        let mut triangle = Triangle::new(p);
-        for row in self.data_alone.row_iter() {
-            triangle.push(row.iter().copied(), 1.0 / sigma.max(1e-300));
-        }
-        let problem = with_priors(triangle, &self.priors, self.x.as_slice());
-        let inverse = problem.a.rows(0, p).solve_upper_triangular(&DMatrix::identity(p, p));
-        let square = |inverse: DMatrix<f64>| &inverse * inverse.transpose();
-        inverse.map_or_else(|| DMatrix::from_element(p, p, f64::INFINITY), square)
     }
 }

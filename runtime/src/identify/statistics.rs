@@ -55,7 +55,36 @@ pub fn f_test(before: f64, after: f64, terms: usize, freedom: usize) -> FTest {
     let (k, n) = (terms.max(1) as f64, freedom.max(1) as f64);
     let f = ((before - after).max(0.0) / k) / (after / n).max(1e-300);
     // P(F > f) = I_{n/(n + k f)}(n/2, k/2).
-    FTest { f, terms, freedom, p: incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f)) }
+    FTest { f, terms, freedom, p: f_beyond(f, k, n) }
+}
+
+/// How likely a Student's t of `freedom` degrees is beyond `t`, either side: `I_{n/(n + t²)}(n/2, 1/2)`.
+pub fn student_beyond(t: f64, freedom: f64) -> f64 {
+    incomplete_beta(freedom / 2.0, 0.5, freedom / (freedom + t * t))
+}
+
+/// The factor of standard deviations that holds with this probability: of Student's t with `freedom` degrees.
+pub fn student_factor(probability: f64, freedom: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1e6);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if student_beyond(middle, freedom) > 1.0 - probability { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// How likely a standard deviation, of `freedom` degrees, is as far from 1 as this one, either way, if it is 1 in truth.
+///
+/// Wilson and Hilferty, 1931: `(χ²/n)^(1/3)` is nearly normal, of mean `1 − 2/(9n)` and variance `2/(9n)`.
+pub fn deviation_beyond(sigma: f64, freedom: f64) -> f64 {
+    let spread = 2.0 / (9.0 * freedom.max(1.0));
+    let z = (sigma.powf(2.0 / 3.0) - (1.0 - spread)) / spread.sqrt();
+    libm::erfc(z.abs() / core::f64::consts::SQRT_2)
+}
+
+/// How likely an F of `k` and `n` degrees is beyond `f`.
+pub(super) fn f_beyond(f: f64, k: f64, n: f64) -> f64 {
+    incomplete_beta(n / 2.0, k / 2.0, n / (n + k * f.max(0.0)))
 }
 
 /// Whether scores of independent configurations, a row each, have a mean: Hotelling's T², with as many configurations as are
@@ -105,7 +134,7 @@ fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Observability, f_test};
+    use super::{Observability, deviation_beyond, f_test, student_beyond, student_factor};
 
     #[test]
     fn probabilities_are_those_of_the_tables() {
@@ -116,6 +145,15 @@ mod tests {
             assert!((found.p - 0.05).abs() < 1e-4, "{k} {n}: {}", found.p);
         }
         assert_eq!(f_test(1.0, 1.0, 3, 30).p, 1.0);
+        // χ² of 10: 2.5 % below 3.247, 2.5 % above 20.483.
+        for square in [3.247f64, 20.483] {
+            assert!((deviation_beyond((square / 10.0).sqrt(), 10.0) - 0.05).abs() < 2e-3);
+        }
+        // Student's t: 2.228 for 10, 12.706 for 1, 1.984 for 100.
+        for (freedom, t) in [(10.0, 2.2281), (1.0, 12.7062), (100.0, 1.98397)] {
+            assert!((student_beyond(t, freedom) - 0.05).abs() < 1e-5);
+            assert!((student_factor(0.95, freedom) - t).abs() < 1e-3);
+        }
     }
 
     #[test]

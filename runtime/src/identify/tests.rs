@@ -361,7 +361,10 @@ fn too_little_is_said() {
     let model = model.with(model.constants(false));
     let data = sampled(&Pps, &[0, 1, 2, 3, 4, 5], 7, 1);
     assert!(matches!(fit(&model, &data, &Options::default()), Err(Failure::TooFew { numbers: 21, .. })));
-    assert!(matches!(fit(&model, &[], &Options::default()), Err(Failure::TooFew { numbers: 0, rank: 0 })));
+    assert!(matches!(
+        fit(&model, &[], &Options::default()),
+        Err(Failure::TooFew { numbers: 0, rank: 0, .. })
+    ));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use abbe::identify::{Factored, Figures, Folds, Observation, Offer, Selection, Unknown, select};
+use abbe::identify::{Distances, Factored, Folds, Observation, Offer, Selection, Unknown, select};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
@@ -25,7 +25,7 @@ pub(super) struct Chosen {
     /// Group by group, in the order in which they came in.
     pub(super) groups: Vec<(Vec<Term>, Selection)>,
     /// Of the model with constants alone on rows left out in turn, if richer terms were tried.
-    pub(super) constant: Option<Figures>,
+    pub(super) constant: Option<Distances>,
     /// How many groups were tried.
     pub(super) tried: usize,
     /// What must be said.
@@ -78,8 +78,8 @@ pub(super) fn choose(
         unknown.map(|unknown| Factored { unknown, factor })
     };
     let values = |row: &Observation| factors.iter().map(|basis| basis.value(&row.q, &row.u)).collect();
-    let folds = Folds::new(data.observations.len(), settings.folds);
-    let mut chosen = Chosen { constant: Some(solved.crossed), ..Chosen::default() };
+    let folds = Folds::new(&data.observations, settings.folds);
+    let mut chosen = Chosen { constant: Some(solved.crossed.clone()), ..Chosen::default() };
     for (i, stage) in stages.iter().enumerate() {
         if over(settings.time) {
             let rest: usize = stages[i..].iter().map(Vec::len).sum();

@@ -1,7 +1,7 @@
 //! The identified machine, as values: what is to be added to its spec.
 
 use abbe::Component;
-use abbe::identify::Unknown;
+use abbe::identify::{Configurations, Unknown};
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::spec::{Fitted, Spec};
 
@@ -113,12 +113,16 @@ impl FoundModel {
         found.fitted = fitted(spec, data);
         let (unit, file) = (spec.length.symbol(), std::path::Path::new(&data.file));
         found.reference = format!(
-            "Identified from {} rows of {} by abbe {}: rms {} {unit} left, {} {unit} on rows left out in turn",
+            "Identified from {} rows{} of {} by abbe {}: rms {} {unit} left, {} {unit} on rows left out in turn",
             data.observations.len(),
+            match Configurations::new(&data.observations).count {
+                count if count == data.observations.len() => String::new(),
+                count => format!(" ({count} configurations)"),
+            },
             file.file_name().unwrap_or_default().to_string_lossy(),
             env!("CARGO_PKG_VERSION"),
             digits(left, 4),
-            digits(solved.crossed.rms, 4),
+            digits(solved.crossed.figures().rms, 4),
         );
         found
     }

@@ -2,7 +2,10 @@
 
 use std::collections::HashSet;
 
-use abbe::identify::{Model, Observation, Place, Selection, Unknown, groups};
+use abbe::identify::{
+    Configurations, Fit, Independent, Model, Observation, Place, Selection, Unknown, deviation_beyond, drift,
+    groups, student_factor,
+};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
 use abbe_codegen::spec::Spec;
@@ -18,10 +21,11 @@ use super::found::FoundModel;
 use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::meaning::{InNumbers, number_terms};
 use super::not_known::NotKnown;
+use super::order::Order;
 use super::point_residuals::{PointResidual, Valued};
 use super::readings::check_readings;
 use super::report::{
-    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report, Sizes,
+    Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
     TermGain,
 };
 use super::setup::Setup;
@@ -118,7 +122,7 @@ fn report(
     let test_sizes = test.map(judged).transpose()?;
     let accepted = match &test_sizes {
         Some(test) => job.accept.judge("the test rows", &test.after),
-        None => job.accept.judge("rows left out in turn", &solved.crossed.into()),
+        None => job.accept.judge("rows left out in turn", &solved.crossed.figures().into()),
     };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
@@ -131,6 +135,9 @@ fn report(
         derived: derived.to_vec(),
         ..FoundModel::new(spec, solved, same, data, setup.pose, left)
     };
+    let crossed = solved.crossed.figures();
+    let order = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
+    let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -162,14 +169,22 @@ fn report(
             .map(|(a, b, correlation)| Pair { of: [name(a), name(b)], correlation })
             .collect(),
         uncertainty_factor: fit.sigma,
+        certainty: Certainty::new(fit),
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
         test: test_sizes,
         accepted,
         cross_validation: CrossValidation {
-            folds: (*folds).min(rows.len()),
-            constant: chosen.constant.map(Sizes::from),
-            after: solved.crossed.into(),
+            folds: (*folds).clamp(2, Configurations::new(rows).count.max(2)),
+            configurations: crossed.configurations,
+            constant: chosen.constant.as_ref().map(|constant| constant.figures().into()),
+            after: crossed.into(),
+            gain: chosen
+                .constant
+                .as_ref()
+                // Other gross errors make other rows.
+                .filter(|constant| constant.0.len() == solved.crossed.0.len())
+                .map(|constant| solved.crossed.compared_with(constant).into()),
         },
         terms: chosen
             .groups
@@ -177,6 +192,7 @@ fn report(
             .map(|(terms, selection)| gain(spec, &found, terms, selection, length))
             .collect(),
         tried: chosen.tried,
+        order: order.map(|drift| Order::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().collect(),
@@ -328,14 +344,34 @@ fn compared(
     data: &Data,
     rows: &[&Observation],
 ) -> Result<Compared, Diagnostics> {
-    let sizes = |model: &Model, x: &[f64]| {
-        let figures = model.figures(rows.iter().copied(), x);
-        figures.map(Sizes::from).map_err(|failure| mistake::whole(&data.file, failure))
+    let distances = |model: &Model, x: &[f64]| {
+        let distances = model.all_distances(rows.iter().copied(), x);
+        distances.map_err(|failure| mistake::whole(&data.file, failure))
     };
+    let simple = distances(&solved.simple, &solved.simple_fit.x)?;
+    let after = distances(&solved.model, &solved.fit.x)?;
     Ok(Compared {
         rows: rows.len(),
-        before: sizes(delivered, &[])?,
-        base_and_tool: sizes(&solved.simple, &solved.simple_fit.x)?,
-        after: sizes(&solved.model, &solved.fit.x)?,
+        configurations: after.figures().configurations,
+        before: distances(delivered, &[])?.figures().into(),
+        base_and_tool: simple.figures().into(),
+        after: after.figures().into(),
+        gain: after.compared_with(&simple).into(),
     })
+}
+
+impl Certainty {
+    fn new(fit: &Fit) -> Self {
+        Self {
+            configurations: fit.configurations,
+            counted: match fit.independent {
+                Independent::Numbers => "numbers",
+                Independent::Points => "points",
+                Independent::Configurations => "configurations",
+            },
+            freedom: fit.freedom,
+            factor_95: student_factor(0.95, fit.freedom),
+            p_of_factor: deviation_beyond(fit.sigma, fit.freedom),
+        }
+    }
 }

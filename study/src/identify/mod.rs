@@ -20,6 +20,7 @@ mod job;
 mod magnitude;
 mod meaning;
 mod not_known;
+mod order;
 mod placed;
 mod point_residuals;
 mod priors;
@@ -40,11 +41,12 @@ pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use gross::shown_lines;
 pub use job::Identify;
 pub use not_known::NotKnown;
+pub use order::Order;
 pub use placed::{Placed, PlacedStation};
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair, Parameter, Report,
+    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair, Parameter, Report,
     Sizes, TermGain,
 };
 pub use solve::Settings;

@@ -1,12 +1,13 @@
 //! What comes out of an identification.
 
-use abbe::identify::Figures;
+use abbe::identify::{Comparison, Figures};
 use serde::Serialize;
 
 use super::alike::Alike;
 use super::counts::Counts;
 use super::found::FoundModel;
 use super::not_known::NotKnown;
+use super::order::Order;
 use super::placed::Placed;
 use super::point_residuals::PointResidual;
 use crate::Accepted;
@@ -51,6 +52,8 @@ pub struct Report {
     pub correlations: Vec<Pair>,
     /// What the stated uncertainty must be multiplied with to explain what is left.
     pub uncertainty_factor: f64,
+    /// How sure all standard deviations are.
+    pub certainty: Certainty,
     /// Where `F_0` stands as the instrument sees it, errors of the base aside: rows of a homogeneous matrix.
     pub base: [[f64; 4]; 4],
     /// Where the machine stands and what is mounted on its tool, as found.
@@ -67,6 +70,8 @@ pub struct Report {
     pub terms: Vec<TermGain>,
     /// How many groups of terms were tried.
     pub tried: usize,
+    /// Whether what is left follows the order of the rows; none for too few rows to tell.
+    pub order: Option<Order>,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,
     /// Lines that a robust loss left out.
@@ -82,6 +87,21 @@ pub struct Report {
     /// The identified machine.
     #[serde(skip)]
     pub found: FoundModel,
+}
+
+/// What stands behind the standard deviations.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Certainty {
+    /// How many independent configurations.
+    pub configurations: usize,
+    /// What was counted: `numbers`, all measured ones; `points`, those of a configuration once; or `configurations`.
+    pub counted: &'static str,
+    /// Degrees of freedom that are left.
+    pub freedom: f64,
+    /// What a standard deviation is multiplied with for 95 %: Student's t.
+    pub factor_95: f64,
+    /// How likely an uncertainty factor as far from 1 is by chance.
+    pub p_of_factor: f64,
 }
 
 /// Indices of observability; see [`abbe::identify::Observability`].
@@ -183,6 +203,8 @@ pub struct Pair {
 pub struct Sizes {
     /// The mean of their norms.
     pub mean: f64,
+    /// The standard error of that, configurations counted; none if there is only one.
+    pub standard_error: Option<f64>,
     /// The root mean square.
     pub rms: f64,
     /// The largest.
@@ -196,12 +218,27 @@ pub struct Sizes {
 pub struct Compared {
     /// How many rows.
     pub rows: usize,
+    /// How many independent configurations they are of.
+    pub configurations: usize,
     /// As delivered: with the sources that the spec has itself.
     pub before: Sizes,
     /// With base and tool fitted.
     pub base_and_tool: Sizes,
     /// With everything.
     pub after: Sizes,
+    /// By how much everything is better than base and tool alone.
+    pub gain: Gain,
+}
+
+/// By how much one model's position errors are smaller than another's, at the same points.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Gain {
+    /// The mean of the differences; below 0 it is worse.
+    pub mean: f64,
+    /// The standard error of that, configurations counted; none if there is only one.
+    pub standard_error: Option<f64>,
+    /// How likely a mean so far from 0 is by chance if both are as good: paired, Student's t.
+    pub p: f64,
 }
 
 /// Position errors of rows that are left out in turn.
@@ -209,10 +246,14 @@ pub struct Compared {
 pub struct CrossValidation {
     /// In how many parts.
     pub folds: usize,
+    /// How many independent configurations are dealt to them.
+    pub configurations: usize,
     /// With constants alone, if richer terms were tried.
     pub constant: Option<Sizes>,
     /// With everything.
     pub after: Sizes,
+    /// By how much the richer terms are better than constants alone, if they were tried.
+    pub gain: Option<Gain>,
 }
 
 /// A group of terms that earned its place.
@@ -246,8 +287,15 @@ pub struct LeftOut {
 }
 
 impl From<Figures> for Sizes {
-    fn from(Figures { mean, rms, max, p95, .. }: Figures) -> Self {
-        Self { mean, rms, max, p95 }
+    fn from(Figures { mean, standard_error, rms, max, p95, .. }: Figures) -> Self {
+        let standard_error = Some(standard_error).filter(|error| error.is_finite());
+        Self { mean, standard_error, rms, max, p95 }
+    }
+}
+
+impl From<Comparison> for Gain {
+    fn from(Comparison { gain, standard_error, p, .. }: Comparison) -> Self {
+        Self { mean: gain + 0.0, standard_error: Some(standard_error).filter(|error| error.is_finite()), p }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use abbe::VariableKind;
-use abbe::identify::{Failure, Figures, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
+use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::Motion;
 
@@ -39,7 +39,7 @@ pub(super) struct Solved<'a> {
     pub(super) model: Model<'a>,
     pub(super) fit: Fit,
     /// On rows left out in turn.
-    pub(super) crossed: Figures,
+    pub(super) crossed: Distances,
     /// Sources of the spec whose magnitudes are unknowns of the model.
     pub(super) own: Vec<OwnMagnitude>,
     /// The terms whose magnitudes are the last unknowns of the model.
@@ -150,11 +150,13 @@ fn embedded(from: &Model, x: &[f64], to: &Model) -> Vec<f64> {
 pub(super) fn explained(failure: &Failure, data: &Data) -> Diagnostics {
     match failure {
         Failure::Observation { .. } | Failure::Machine(_) => mistake::whole(&data.file, failure),
-        Failure::TooFew { numbers, rank } => {
+        Failure::TooFew { numbers, configurations, rank } => {
             let message = format!(
-                "{numbers} numbers were measured for {rank} or more unknowns: nothing is left to judge the result by"
+                "{numbers} independent numbers were measured, at {configurations} configurations, for {rank} or more \
+                 unknowns: nothing is left to judge the result by"
             );
-            let help = "measure more configurations: twice as many numbers as unknowns at least";
+            let help = "measure at more configurations, until there are twice as many numbers as unknowns; visits of the same \
+                        configuration do not count";
             mistake::with_help(&data.file, message, help)
         }
         Failure::NotConverged { .. } => {

@@ -8,14 +8,14 @@ mod explained;
 mod iso9283;
 mod sentences;
 
+use abbe::identify::{Distances, Figures, Observation, drift};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 use crate::data::{Data, Map, Summary, Table, warn_of_extrapolation};
-use crate::identify::Sizes;
-use crate::identify::{Setup, check_readings};
+use crate::identify::{Order, Setup, Sizes, check_readings};
 use crate::{Acceptance, Accepted, Machine, Notes, mistake, number};
 
 pub use errors::RowError;
@@ -53,6 +53,12 @@ pub struct Report {
     pub repeated: Repeated,
     /// Whether what the spec leaves is within the limits that were declared, if any were.
     pub accepted: Option<Accepted>,
+    /// How many independent configurations the rows are of.
+    pub configurations: usize,
+    /// The standard error of the mean norm of ΔX, configurations counted; none if there is only one.
+    pub standard_error: Option<f64>,
+    /// Whether what the sources do not explain follows the order of the rows; none for too few rows to tell.
+    pub order: Option<Order>,
     /// How many rows could not be used.
     pub unusable: usize,
     /// The length unit as such.
@@ -157,7 +163,12 @@ impl Measure {
         let explained = explained::explained(&setup, &rows);
         let explained = explained.map_err(|failure| mistake::whole(&data.file, failure))?;
         let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = explained;
-        let accepted = accept.judge("these rows", &Sizes { mean, rms, max, p95 });
+        let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
+        let observations: Vec<&Observation> = rows.iter().map(|row| &row.observation).collect();
+        let order = drift(&setup.real, &observations, &[]);
+        let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
+        let norms = rows.iter().map(|row| (row.observation.configuration, row.distance()));
+        let Figures { configurations, standard_error, .. } = Distances(norms.collect()).figures();
         Ok(Report {
             name: machine.spec.name.clone(),
             length: unit,
@@ -168,6 +179,9 @@ impl Measure {
             explained,
             accepted,
             repeated: iso9283::repeated(&rows, setup.pose || setup.ideal.targets.len() > 1),
+            configurations,
+            standard_error: Some(standard_error).filter(|error| error.is_finite()),
+            order: order.map(|drift| Order::new(drift, setup.description.length)),
             unusable: data.unusable.len(),
             file: Summary { rows: rows.len(), ..data.summary() },
             base_fitted,

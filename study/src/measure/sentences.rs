@@ -6,11 +6,24 @@ use crate::number::{fixed, percent};
 impl Report {
     /// Repeatability and prediction in words.
     pub fn sentences(&self) -> Vec<String> {
-        let mut all = self.repeatability();
+        let mut all = vec![self.behind()];
+        all.extend(self.repeatability());
         all.extend(self.variation());
+        all.extend(self.order.iter().map(|order| order.sentence.clone()));
         all.extend(self.prediction());
         all.extend(self.accepted.iter().map(|accepted| accepted.sentence(self.unit)));
         all
+    }
+
+    fn behind(&self) -> String {
+        let configurations = match self.configurations {
+            1 => "one configuration: how far other ones differ is not known".to_owned(),
+            count => format!(
+                "{count} independent configurations; the standard error of the mean norm is {}",
+                self.standard_error.map_or("not known".to_owned(), |error| self.show(error))
+            ),
+        };
+        format!("Behind these figures stand {configurations}.")
     }
 
     fn show(&self, value: f64) -> String {
