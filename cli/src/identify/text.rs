@@ -185,6 +185,16 @@ fn errors(spec: &Spec, report: &Report) -> String {
         "On data it has not seen: the rows left out in turn; `--test FILE` judges on a file of its own."
     };
     text += &format!("{line}\n{}\n", wrapped(&behind(report), 0));
+    if let Some(outside) = &report.outside {
+        let [there, here] = [outside.known_outside, outside.known_within].map(|value| digits(value, 2));
+        let line = format!(
+            "{} test rows are outside the ranges of joints and inputs that were fitted: the place of the tool is known to {there} {} \
+             there, to {here} {} at the rows that were fitted (one standard deviation, by what was found; errors that this \
+             model has not grow unseen).",
+            outside.rows, report.length, report.length
+        );
+        text += &format!("{}\n", wrapped(&line, 0));
+    }
     let factor = report.uncertainty_factor;
     let is_chance = report.certainty.p_of_factor > 0.001;
     let line = match factor {

@@ -5,7 +5,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
 use crate::analysis::by_hand::Pps;
-use crate::analysis::joint_samples;
+use crate::analysis::{Workspace, joint_samples};
 
 /// Errors of the frames of a machine that is seen at one target or three.
 fn machine(targets: usize) -> Model<'static> {
@@ -57,13 +57,15 @@ fn drawn(
     (truth, measured)
 }
 
-/// Root mean square of error / standard deviation, and the shares within what Student's t says holds 68 and 95 %.
-fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, machines: u64) -> [f64; 3] {
-    let (mut squares, mut within, mut all) = (0.0, [0.0; 2], 0.0);
+/// Root mean square of error / standard deviation, the shares within what Student's t says holds 68 and 95 %, and the share of
+/// fits that leave any row out.
+fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, machines: u64) -> [f64; 4] {
+    let (mut squares, mut within, mut all, mut wronged) = (0.0, [0.0; 2], 0.0, 0.0);
     for seed in 0..machines {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let (truth, data) = drawn(model, list, sizes, &mut random);
         let found = fit(model, &data, &Options { loss, ..Options::default() }).unwrap();
+        wronged += f64::from(u8::from(found.rejected(&data).next().is_some())) / machines as f64;
         let mut expected = truth.clone();
         for (k, act_as) in &found.identifiable.held {
             act_as.iter().for_each(|(j, factor)| expected[*j] += factor * truth[*k]);
@@ -80,7 +82,7 @@ fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, ma
                 .for_each(|(count, factor)| *count += f64::from(u8::from(z <= factor)));
         }
     }
-    let result = [(squares / all).sqrt(), within[0] / all, within[1] / all];
+    let result = [(squares / all).sqrt(), within[0] / all, within[1] / all, wronged];
     println!(
         "{} rows, {loss:?}: rms z {:.3}, within {:.3} and {:.3}",
         list.len(),
@@ -98,7 +100,8 @@ fn robust_fits_of_few_rows_say_how_sure_they_are() {
     for rows in [12, 15, 25, 40] {
         let list = planned(&model, rows, 1);
         for loss in [Loss::Tukey, Loss::Huber] {
-            let [_, one, two] = coverage(&model, &list, [0.0, 0.02], loss, 80);
+            let [_, one, two, wronged] = coverage(&model, &list, [0.0, 0.02], loss, 80);
+            assert!(wronged <= 0.05, "{rows} {loss:?}: {wronged}");
             assert!((one - 0.68).abs() <= 0.06 && (two - 0.95).abs() <= 0.03, "{rows} {loss:?}: {one} {two}");
         }
     }
@@ -118,7 +121,7 @@ fn visits_of_a_configuration_count_once() {
     let model = machine(1);
     let list = planned(&model, 20, 10);
     for own in [0.1, 0.0] {
-        let [_, one, two] = coverage(&model, &list, [own, 0.02], Loss::Squares, 80);
+        let [_, one, two, _] = coverage(&model, &list, [own, 0.02], Loss::Squares, 80);
         assert!((one - 0.68).abs() <= 0.06 && (two - 0.95).abs() <= 0.03, "{own}: {one} {two}");
     }
 }

@@ -4,7 +4,9 @@ use nalgebra::DMatrix;
 
 use super::clustered::{Independent, Known};
 use super::solver::Solver;
-use super::{Configurations, Failure, Identifiable, Loss, Model, Observation, Options, identifiable, knowable};
+use super::{
+    Configurations, Failure, Identifiable, Loss, Model, Observation, Options, identifiable, knowable,
+};
 
 /// An observation with less weight than this counts as left out.
 pub(super) const REJECTED: f64 = 0.05;

@@ -22,6 +22,7 @@ use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::meaning::{InNumbers, number_terms};
 use super::not_known::NotKnown;
 use super::order::Order;
+use super::outside::Outside;
 use super::point_residuals::{PointResidual, Valued};
 use super::readings::check_readings;
 use super::report::{
@@ -138,6 +139,12 @@ fn report(
     let crossed = solved.crossed.figures();
     let order = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
+    let outside = |test: &Data| {
+        let test = test.at_stations(data).map_err(|name| elsewhere(test, &name))?;
+        let outside = Outside::new(solved, &found.fitted, rows, &test.observations);
+        outside.map_err(|failure| mistake::whole(&test.file, failure))
+    };
+    let outside = test.as_ref().map(outside).transpose()?.flatten();
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -174,6 +181,7 @@ fn report(
         fit: compared_fit,
         test: test_sizes,
         accepted,
+        outside,
         cross_validation: CrossValidation {
             folds: (*folds).clamp(2, Configurations::new(rows).count.max(2)),
             configurations: crossed.configurations,

@@ -21,6 +21,7 @@ mod magnitude;
 mod meaning;
 mod not_known;
 mod order;
+mod outside;
 mod placed;
 mod point_residuals;
 mod priors;
@@ -42,12 +43,13 @@ pub use gross::shown_lines;
 pub use job::Identify;
 pub use not_known::NotKnown;
 pub use order::Order;
+pub use outside::Outside;
 pub use placed::{Placed, PlacedStation};
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair, Parameter, Report,
-    Sizes, TermGain,
+    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair,
+    Parameter, Report, Sizes, TermGain,
 };
 pub use solve::Settings;
 pub use terms::{Angle, Basis, Place, Term, Wave};

@@ -8,6 +8,7 @@ use super::counts::Counts;
 use super::found::FoundModel;
 use super::not_known::NotKnown;
 use super::order::Order;
+use super::outside::Outside;
 use super::placed::Placed;
 use super::point_residuals::PointResidual;
 use crate::Accepted;
@@ -62,6 +63,8 @@ pub struct Report {
     pub fit: Compared,
     /// How good it is on the test data.
     pub test: Option<Compared>,
+    /// Test rows outside the ranges of joints and inputs that were fitted; none if there are no such rows.
+    pub outside: Option<Outside>,
     /// How good it is on rows left out in turn.
     pub cross_validation: CrossValidation,
     /// Whether it is within the limits that were declared, if any were.
