@@ -112,7 +112,7 @@ mod tests {
         let limits =
             Acceptance::read("--accept", "mean 0.15 mm, max 300 um", LengthUnit::Millimetre).unwrap();
         assert_eq!(limits.limits, [("mean", 0.15), ("max", 0.3)]);
-        let sizes = Sizes { mean: 0.1, rms: 0.2, max: 0.31, p95: 0.2 };
+        let sizes = Sizes { mean: 0.1, standard_error: None, rms: 0.2, max: 0.31, p95: 0.2 };
         let verdict = limits.judge("the test rows", &sizes).unwrap();
         assert!(!verdict.met && verdict.limits[0].met);
         assert_eq!(

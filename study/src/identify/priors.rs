@@ -66,7 +66,7 @@ impl Prior {
         let mut best: Option<(f64, f64)> = None;
         for share in SHARES {
             let Ok(fit) = fitted(model, Self::Share(share)) else { continue };
-            let rms = cross_validate(model, rows, &fit, folds)?.rms;
+            let rms = cross_validate(model, rows, &fit, folds)?.figures().rms;
             if best.is_none_or(|(_, least)| rms < least * (1.0 - BETTER)) {
                 best = Some((share, rms));
             }
