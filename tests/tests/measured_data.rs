@@ -6,7 +6,6 @@ use std::process::ExitCode;
 use abbe::Manipulator;
 use abbe::identify::{
     Figures, Measurement, Model, Observation, Options, Uncertainty, Unknown, cross_validate, fit, groups,
-    predicted,
 };
 use abbe_manipulators::{ur5, wam};
 use abbe_tests::needs::{Missing, Test, measured_data, run};
@@ -120,7 +119,8 @@ fn halves() -> Result<(), Missing> {
         let rows: Vec<Observation> = grid.iter().skip(first).step_by(2).cloned().collect();
         let options = Options { priors: model.priors(0.01).unwrap(), ..Options::default() };
         let found = fit(&model, &rows, &options).unwrap();
-        let deviations = predicted(&model, &found.identifiable, &found.covariance, &random).unwrap();
+        let points = model.tool_points(&random).unwrap();
+        let deviations = points.deviations(&found.identifiable, &found.covariance);
         (found.x, deviations)
     };
     let ((x, own), (y, other)) = (half(0), half(1));

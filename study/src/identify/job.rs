@@ -144,7 +144,7 @@ fn report(
         let outside = Outside::new(solved, &found.fitted, rows, &test.observations);
         outside.map_err(|failure| mistake::whole(&test.file, failure))
     };
-    let outside = test.as_ref().map(outside).transpose()?.flatten();
+    let outside = test.map(outside).transpose()?.flatten();
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),

@@ -1,6 +1,6 @@
 //! Test rows outside the ranges that were fitted, and how well the machine is known there.
 
-use abbe::identify::{Failure, Observation, predicted};
+use abbe::identify::{Failure, Observation};
 use abbe_codegen::spec::Fitted;
 use serde::Serialize;
 
@@ -31,7 +31,8 @@ impl Outside {
             return Ok(None);
         }
         let known = |rows: &[Observation]| {
-            let all = predicted(&solved.model, &solved.fit.identifiable, &solved.fit.covariance, rows)?;
+            let points = solved.model.tool_points(rows)?;
+            let all = points.deviations(&solved.fit.identifiable, &solved.fit.covariance);
             Ok(all.iter().sum::<f64>() / all.len().max(1) as f64)
         };
         Ok(Some(Self { rows: outside.len(), known_outside: known(&outside)?, known_within: known(rows)? }))
