@@ -8,7 +8,7 @@ mod explained;
 mod iso9283;
 mod sentences;
 
-use abbe::identify::{Distances, Figures, Observation, drift};
+use abbe::identify::{self, Figures, Observation, drift};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
 use abbe_interpreter::Interpreter;
@@ -168,7 +168,7 @@ impl Measure {
         let order = drift(&setup.real, &observations, &[]);
         let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
         let norms = rows.iter().map(|row| (row.observation.configuration, row.distance()));
-        let Figures { configurations, standard_error, .. } = Distances(norms.collect()).figures();
+        let Figures { configurations, standard_error, .. } = identify::Distances(norms.collect()).figures();
         Ok(Report {
             name: machine.spec.name.clone(),
             length: unit,
