@@ -2,7 +2,8 @@
 //!
 //! An instruction may be used where the machine has it. All have SSE2, in which sines and cosines go two by two. The other
 //! two types are named nowhere but in `lanes::InstructionSet::run`, which has asked the machine; a kernel gets them as a
-//! type parameter and cannot exist without them. Nothing here reads or writes memory: all values come and go in registers.
+//! type parameter and cannot exist without them. Values come and go in registers; memory is only read, and only the rows that
+//! [`Register::columns`] is given, which are borrowed arrays of four: no address is computed from an index.
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::*;
@@ -192,6 +193,21 @@ impl Register for Avx2 {
             _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(a), places))
         })
     }
+
+    #[inline(always)]
+    fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
+        let [a, b, c, d] = rows(row);
+        let [even, odd] = [pairs(a, c), pairs(b, d)];
+        // SAFETY: the machine has the instructions, see above.
+        unsafe {
+            [
+                Self(_mm256_unpacklo_pd(even[0], odd[0])),
+                Self(_mm256_unpackhi_pd(even[0], odd[0])),
+                Self(_mm256_unpacklo_pd(even[1], odd[1])),
+                Self(_mm256_unpackhi_pd(even[1], odd[1])),
+            ]
+        }
+    }
 }
 
 #[cfg(feature = "lanes")]
@@ -224,5 +240,61 @@ impl Register for Avx512 {
     fn shifted<const PLACES: u32>(Self(a): Self) -> Self {
         // SAFETY: the machine has the instruction, see above.
         Self(unsafe { _mm512_castsi512_pd(_mm512_slli_epi64::<PLACES>(_mm512_castpd_si512(a))) })
+    }
+
+    #[inline(always)]
+    fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
+        let [a, b, c, d, e, f, g, h] = rows(row);
+        // Of four lanes each.
+        let [first, second] = [[two(a, c), two(b, d)], [two(e, g), two(f, h)]];
+        // SAFETY: the machine has the instructions, see above.
+        unsafe {
+            // Columns 0 and 2 in turn, and columns 1 and 3.
+            let even = [_mm512_unpacklo_pd(first[0], first[1]), _mm512_unpacklo_pd(second[0], second[1])];
+            let odd = [_mm512_unpackhi_pd(first[0], first[1]), _mm512_unpackhi_pd(second[0], second[1])];
+            [
+                Self(_mm512_shuffle_f64x2::<0b10_00_10_00>(even[0], even[1])),
+                Self(_mm512_shuffle_f64x2::<0b10_00_10_00>(odd[0], odd[1])),
+                Self(_mm512_shuffle_f64x2::<0b11_01_11_01>(even[0], even[1])),
+                Self(_mm512_shuffle_f64x2::<0b11_01_11_01>(odd[0], odd[1])),
+            ]
+        }
+    }
+}
+
+/// The row of each lane. Functions and a loop, no closures: those could stay without the instruction set.
+#[cfg(feature = "lanes")]
+#[inline(always)]
+fn rows<'r, const LANES: usize>(row: impl Fn(usize) -> &'r [f64; 4]) -> [&'r [f64; 4]; LANES] {
+    let mut rows = [&[0.0; 4]; LANES];
+    for (lane, place) in rows.iter_mut().enumerate() {
+        *place = row(lane);
+    }
+    rows
+}
+
+/// The first halves of two rows in one register, and the second halves.
+#[cfg(feature = "lanes")]
+#[inline(always)]
+fn pairs(low: &[f64; 4], high: &[f64; 4]) -> [__m256d; 2] {
+    // SAFETY: the machine has the instructions, see above; read are numbers 0 and 1, then 2 and 3, of a row of four.
+    unsafe {
+        let [a, b] = [_mm_loadu_pd(low.as_ptr()), _mm_loadu_pd(high.as_ptr())];
+        let [c, d] = [_mm_loadu_pd(low.as_ptr().add(2)), _mm_loadu_pd(high.as_ptr().add(2))];
+        [
+            _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(a), b),
+            _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(c), d),
+        ]
+    }
+}
+
+/// Two rows in one register.
+#[cfg(feature = "lanes")]
+#[inline(always)]
+fn two(low: &[f64; 4], high: &[f64; 4]) -> __m512d {
+    // SAFETY: the machine has the instructions, see above; read are the four numbers of each row.
+    unsafe {
+        let [low, high] = [_mm256_loadu_pd(low.as_ptr()), _mm256_loadu_pd(high.as_ptr())];
+        _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(low), high)
     }
 }

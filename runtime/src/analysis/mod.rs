@@ -59,6 +59,8 @@ pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
 pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
+#[cfg(feature = "identify")]
+pub(crate) use sweep::in_order;
 pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, DRAWS, ErrorsAt, Statement, compliance, errors_at, normal_compliance,

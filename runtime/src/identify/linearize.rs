@@ -3,6 +3,23 @@
 use super::residuals::Room;
 use super::triangle::{Problem, Triangle};
 use super::{Failure, Model, Observation};
+use crate::analysis::in_order;
+
+/// Observations that one thread takes at a time: always the same, so that results are, too, for any number of threads.
+const ROWS: usize = 512;
+
+/// What `make` makes of every block of the data, given with the number of its first row, in their order.
+pub(super) fn by_blocks<T: Send>(
+    data: &[Observation],
+    make: impl Fn(usize, &[Observation]) -> Result<T, Failure> + Sync,
+    take: impl FnMut(T),
+) -> Result<(), Failure> {
+    let block = |block| {
+        let first = block * ROWS;
+        make(first, &data[first..data.len().min(first + ROWS)])
+    };
+    in_order(data.len().div_ceil(ROWS), block, take)
+}
 
 /// Residuals and derivatives of all observations at `x`, as a triangle; `weights` by observation, 1 if there are none.
 pub(super) fn linearize(
@@ -11,15 +28,25 @@ pub(super) fn linearize(
     x: &[f64],
     weights: Option<&[f64]>,
 ) -> Result<Triangle, Failure> {
-    let mut triangle = Triangle::new(model.unknowns.len());
-    let mut room = model.room();
-    for (i, observation) in data.iter().enumerate() {
-        let weight = weights.map_or(1.0, |weights| weights[i]);
-        if weight > 0.0 {
-            push(model, &mut room, observation, x, weight, &mut triangle)?;
+    let block = |first: usize, rows: &[Observation]| {
+        let mut triangle = Triangle::new(model.unknowns.len());
+        let mut room = model.room();
+        for (i, observation) in rows.iter().enumerate() {
+            let weight = weights.map_or(1.0, |weights| weights[first + i]);
+            if weight > 0.0 {
+                push(model, &mut room, observation, x, weight, &mut triangle)?;
+            }
         }
-    }
-    Ok(triangle)
+        Ok(triangle)
+    };
+    let mut all: Option<Triangle> = None;
+    by_blocks(data, block, |part| {
+        all = Some(match all.take() {
+            Some(before) => before.merged(part),
+            None => part,
+        });
+    })?;
+    Ok(all.unwrap_or_else(|| Triangle::new(model.unknowns.len())))
 }
 
 /// The same of one observation: a step solves `J dx = −r`.

@@ -83,6 +83,7 @@ mod observation;
 mod options;
 mod outliers;
 mod reading;
+mod reflections;
 mod registration;
 mod residuals;
 mod robust;

@@ -5,58 +5,59 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Rows that are gathered before they are folded in.
-const BLOCK: usize = 256;
+use super::reflections::{BLOCK, Fold};
+use crate::lanes::InstructionSet;
 
 /// The triangle of a stack of rows.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
-    /// `R`, and below it the rows that wait.
-    rows: DMatrix<f64>,
+    /// `R`, row by row.
+    r: Vec<f64>,
+    /// The rows that wait, column by column.
+    waiting: Vec<[f64; BLOCK]>,
     filled: usize,
-    above: usize,
 }
 
 impl Triangle {
     /// Of no rows; `unknowns` columns and one for the right side.
     pub(super) fn new(unknowns: usize) -> Self {
         let width = unknowns + 1;
-        Self { rows: DMatrix::zeros(width + BLOCK.max(width), width), filled: 0, above: 0 }
+        Self { r: vec![0.0; width * width], waiting: vec![[0.0; BLOCK]; width], filled: 0 }
     }
 
     /// Takes in a row: the derivatives, then the right side, all times `weight`.
     pub(super) fn push(&mut self, row: impl Iterator<Item = f64>, weight: f64) {
-        if self.filled == self.rows.nrows() {
-            self.fold();
-        }
-        for (j, value) in row.enumerate() {
-            self.rows[(self.filled, j)] = value * weight;
+        for (column, value) in self.waiting.iter_mut().zip(row) {
+            column[self.filled] = value * weight;
         }
         self.filled += 1;
+        if self.filled == BLOCK {
+            self.fold();
+        }
     }
 
     /// Of the rows of both; they have the same width.
     pub(super) fn merged(mut self, mut other: Self) -> Self {
         other.fold();
-        for row in other.rows.rows(0, other.filled).row_iter() {
+        for row in other.r.chunks_exact(self.waiting.len()) {
             self.push(row.iter().copied(), 1.0);
         }
         self
     }
 
     fn fold(&mut self) {
-        if self.filled > self.above {
-            let r = self.rows.rows(0, self.filled).into_owned().qr().unpack_r();
-            self.filled = r.nrows();
-            self.rows.rows_mut(0, self.filled).copy_from(&r);
+        if self.filled > 0 {
+            self.waiting.iter_mut().for_each(|column| column[self.filled..].fill(0.0));
+            InstructionSet::best().run(Fold { triangle: &mut self.r, block: &mut self.waiting });
+            self.filled = 0;
         }
-        self.above = self.filled;
     }
 
-    /// `R` of the unknowns and of the right side, `width` columns, at most as many rows.
+    /// `R` of the unknowns and of the right side: `width` columns, as many rows.
     pub(super) fn finish(mut self) -> DMatrix<f64> {
         self.fold();
-        self.rows.rows(0, self.filled).into_owned()
+        let width = self.waiting.len();
+        DMatrix::from_row_slice(width, width, &self.r)
     }
 }
 

@@ -70,7 +70,14 @@ pub trait Register: Pod + Send + Sync {
     /// The values of the lanes.
     fn lanes(&self) -> &[f64];
     /// Four registers from a row of four numbers for each lane.
-    fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4];
+    #[inline(always)]
+    fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
+        let mut rows = [&[0.0; 4]; WIDEST];
+        for (lane, place) in rows[..Self::WIDTH].iter_mut().enumerate() {
+            *place = row(lane);
+        }
+        [0, 1, 2, 3].map(|column| Self::from_fn(|lane| rows[lane][column]))
+    }
     /// `a + b`.
     fn add(a: Self, b: Self) -> Self;
     /// `a − b`.
@@ -128,12 +135,6 @@ macro_rules! by_array {
             let [a, b, c]: [[f64; $width]; 3] = [a, b, c].map(|register| bytemuck::cast(register));
             let result: [f64; $width] = core::array::from_fn(|lane| f(a[lane], b[lane], c[lane]));
             bytemuck::cast(result)
-        }
-
-        #[inline(always)]
-        fn columns<'r>(row: impl Fn(usize) -> &'r [f64; 4]) -> [Self; 4] {
-            let rows: [&[f64; 4]; $width] = core::array::from_fn(row);
-            [0, 1, 2, 3].map(|column| Self::from_fn(|lane| rows[lane][column]))
         }
 
         #[inline(always)]
@@ -372,11 +373,11 @@ impl<R: Register> Scalar for Lanes<R> {
             return (u - (rounded - number(ROUND)), coefficients.map(Self));
         }
         let x = self.to_slice();
-        let mut pieces = [0; WIDEST];
-        for ((piece, bucket), x) in pieces.iter_mut().zip(buckets).zip(x) {
-            *piece = table.piece_from(LookupTable::bucket_in(*bucket), *x);
+        let (mut pieces, mut knots) = ([0; WIDEST], [0.0; WIDEST]);
+        for lane in 0..R::WIDTH {
+            (pieces[lane], knots[lane]) = table.piece_from(LookupTable::bucket_in(buckets[lane]), x[lane]);
         }
-        let knots = Self::from_fn(|lane| table.knot(pieces[lane]));
-        (self - knots, R::columns(|lane| table.coefficients(pieces[lane])).map(Self))
+        let t = self - Self::from_fn(|lane| knots[lane]);
+        (t, R::columns(|lane| table.coefficients(pieces[lane])).map(Self))
     }
 }

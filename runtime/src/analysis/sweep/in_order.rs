@@ -8,7 +8,7 @@ const AHEAD: usize = 8;
 ///
 /// What is taken is the same for any number of threads; no more than two waves of blocks are held. With the
 /// feature `parallel` the threads are those of the rayon pool that it is called in.
-pub(in crate::analysis) fn in_order<T: Send, E: Send>(
+pub(crate) fn in_order<T: Send, E: Send>(
     count: usize,
     make: impl Fn(usize) -> Result<T, E> + Sync,
     mut take: impl FnMut(T),

@@ -6,7 +6,7 @@ mod rows;
 mod sweepable;
 
 pub(super) use block::Block;
-pub(super) use in_order::in_order;
+pub(crate) use in_order::in_order;
 pub(super) use rows::ready;
 pub use rows::{BLOCK, Row, Unevaluated, sweep};
 pub use sweepable::Sweepable;
