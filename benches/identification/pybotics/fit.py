@@ -2,7 +2,6 @@
 import sys
 
 import numpy as np
-import pandas as pd
 from pybotics.optimization import OptimizationHandler, compute_absolute_errors, optimize_accuracy
 from pybotics.robot import Robot
 from scipy.optimize import least_squares
@@ -15,9 +14,8 @@ CHAIN = [[0, 0, 0, 89.16], [HALF, 0, 0, 0], [0, -425, 0, 0], [0, -392.25, 0, 109
 
 
 def read(path):
-    data = pd.read_csv(path)
-    points = data[["x_t", "y_t", "z_t"]].to_numpy() - data[["x_dif", "y_dif", "z_dif"]].to_numpy()
-    return data[[f"joint_{i}" for i in range(1, 7)]].to_numpy() * ANGLE, points * POINT
+    data = np.loadtxt(path, delimiter=",", skiprows=1)
+    return data[:, 7:] * ANGLE, (data[:, 1:4] - data[:, 4:7]) * POINT
 
 
 handler = OptimizationHandler(

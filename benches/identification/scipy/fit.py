@@ -12,10 +12,8 @@ DH[:, 2] = np.radians(DH[:, 2])
 
 
 def read(path):
-    data = np.genfromtxt(path, delimiter=",", names=True)
-    column = lambda *names: np.column_stack([data[name] for name in names])
-    points = column("x_t", "y_t", "z_t") - column("x_dif", "y_dif", "z_dif")
-    return column(*(f"joint_{i}" for i in range(1, 7))) * ANGLE, points * POINT
+    data = np.loadtxt(path, delimiter=",", skiprows=1)
+    return data[:, 7:] * ANGLE, (data[:, 1:4] - data[:, 4:7]) * POINT
 
 
 def points(x, q):

@@ -18,11 +18,33 @@ pub(super) struct Frame {
     pub(super) after: Pose,
 }
 
+/// The errors of a frame, and what follows from them alone: worked out once for as long as they stay the same.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Displaced {
+    errors: [f64; 6],
+    pose: Pose,
+    /// Sine and cosine of the spin.
+    spin: (f64, f64),
+}
+
+impl Displaced {
+    pub(super) const NOTHING: Self = Self { errors: [0.0; 6], pose: Pose::IDENTITY, spin: (0.0, 1.0) };
+
+    /// By these errors.
+    pub(super) fn by(&mut self, errors: &[f64; 6]) -> &Self {
+        if self.errors != *errors {
+            let spin = Scalar::sin_cos(errors[Component::Spin.index()]);
+            *self = Self { errors: *errors, pose: displacement(errors), spin };
+        }
+        self
+    }
+}
+
 impl Frame {
-    /// The errors `e` behind the product `before`.
-    pub(super) fn new(before: &Pose, e: &[f64; 6]) -> Self {
-        let after = before.then(&displacement(e));
-        let (sine, cosine) = Scalar::sin_cos(e[Component::Spin.index()]);
+    /// The errors behind the product `before`.
+    pub(super) fn new(before: &Pose, errors: &Displaced) -> Self {
+        let after = before.then(&errors.pose);
+        let (sine, cosine) = errors.spin;
         let [x, y, z, _] = before.0;
         let roll = before.turn([sine, 0.0, cosine]);
         // Component order: x, y, z, spin, roll, pitch. R_x leaves its own axis where it is.

@@ -1,6 +1,6 @@
 //! Model minus measurement, and how it moves with every unknown.
 
-use super::columns::{Frame, turned};
+use super::columns::{Displaced, Frame, turned};
 use super::gradient::Gradient;
 use super::{Distances, Failure, Figures, Measurement, Model, Observation, Role, Uncertainty, Unknown};
 use crate::analysis::sampling;
@@ -14,6 +14,10 @@ pub struct Room {
     pub(super) errors: Vec<[f64; 6]>,
     effects: Vec<f64>,
     pub(super) frames: Vec<Frame>,
+    /// What the errors of base, frames and tool do.
+    displaced: Vec<Displaced>,
+    /// How a point moves with every unknown, once somebody has asked.
+    moves: Vec<[f64; 3]>,
     pub(super) targets: Vec<[f64; 3]>,
     pub(super) fixtures: Vec<[f64; 3]>,
     pub(super) zeros: Vec<f64>,
@@ -80,13 +84,15 @@ impl Model<'_> {
             .and_then(|()| self.manipulator.transforms(&observation.q, &self.s, &mut room.transforms))
             .map_err(|error| Failure::Observation { line: observation.line, error })?;
         room.frames.clear();
-        room.frames.push(Frame::new(&station.pose, &room.base));
+        let Room { displaced, frames, transforms, .. } = room;
+        frames.push(Frame::new(&station.pose, displaced[0].by(&room.base)));
         for i in 0..room.errors.len() {
-            let before = room.frames[i].after.then(&room.transforms[i]);
-            room.frames.push(Frame::new(&before, &room.errors[i]));
+            let before = frames[i].after.then(&transforms[i]);
+            frames.push(Frame::new(&before, displaced[i + 1].by(&room.errors[i])));
         }
-        let tool = room.frames[room.errors.len()].after.then(&room.transforms[room.errors.len()]);
-        room.frames.push(Frame::new(&tool.then(&self.mounting), &room.tool));
+        let last = room.errors.len();
+        let tool = frames[last].after.then(&transforms[last]);
+        frames.push(Frame::new(&tool.then(&self.mounting), displaced[last + 1].by(&room.tool)));
         Ok(())
     }
 
@@ -111,6 +117,8 @@ impl Model<'_> {
             errors: vec![[0.0; 6]; frames],
             effects: vec![0.0; description.effects.len()],
             frames: Vec::with_capacity(frames + 2),
+            displaced: vec![Displaced::NOTHING; frames + 2],
+            moves: Vec::new(),
             targets: self.targets.clone(),
             station: 0,
             fixtures: vec![[0.0; 3]; self.fixtures.len()],
@@ -147,6 +155,7 @@ impl Model<'_> {
         self.chain(room, observation, x)?;
         let [length, angle] = [self.uncertainty.length, self.uncertainty.angle].map(|sigma| sigma / weight);
         let last = room.frames[room.errors.len() + 1].after;
+        let mut moves = core::mem::take(&mut room.moves);
         match &observation.measured {
             Measurement::Points(points) => {
                 for (j, measured) in points.iter().enumerate() {
@@ -160,18 +169,20 @@ impl Model<'_> {
                         },
                     })?;
                     let point = last.apply(target);
+                    moves.clear();
                     for axis in 0..3 {
                         row((point[axis] - measured[axis]) / length, &mut |k| {
-                            self.point(room, k, j, point)[axis] / length
+                            self.moves_of(room, j, point, &mut moves)[k][axis] / length
                         });
                     }
                 }
             }
             Measurement::Pose(measured) => {
                 let point = last.position();
+                moves.clear();
                 for axis in 0..3 {
                     row((point[axis] - measured.0[3][axis]) / length, &mut |k| {
-                        self.point(room, k, usize::MAX, point)[axis] / length
+                        self.moves_of(room, usize::MAX, point, &mut moves)[k][axis] / length
                     });
                 }
                 let mut difference = last.then(&measured.inverse());
@@ -192,7 +203,22 @@ impl Model<'_> {
                 }
             }
         }
+        room.moves = moves;
         Ok(())
+    }
+
+    /// How a point of target `j` moves with every unknown: its three coordinates share them.
+    fn moves_of<'v>(
+        &self,
+        room: &Room,
+        j: usize,
+        point: [f64; 3],
+        moves: &'v mut Vec<[f64; 3]>,
+    ) -> &'v [[f64; 3]] {
+        if moves.is_empty() {
+            moves.extend((0..self.unknowns.len()).map(|k| self.point(room, k, j, point)));
+        }
+        moves
     }
 
     /// How a point of target `j` moves with unknown `k`.
