@@ -355,6 +355,34 @@ fn gross_errors_are_rejected_and_named() {
     }
 }
 
+/// More rows than one block of them, some of them wrong: on one thread, two and five.
+#[cfg(feature = "parallel")]
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let model = Model::ideal(&Pps, vec![[100.0, 0.0, 20.0], [0.0, 90.0, 5.0]], EXACT);
+    let richer = model.with(model.constants(false));
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(11);
+    let list = sampled(&Pps, &[0, 1, 2, 3, 4, 5], 1300, 2);
+    let truth: Vec<f64> = disturbed(&richer).iter().map(|x| x * 0.05).collect();
+    let mut data = measured(&richer, &truth, &list, 0.04, &mut random);
+    for row in data.iter_mut().step_by(50) {
+        let Measurement::Points(points) = &mut row.measured else { unreachable!() };
+        points[0].as_mut().unwrap()[1] += 7.0;
+    }
+    let on = |threads: usize, loss: Loss| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let found = fit(&richer, &data, &Options { loss, ..Options::default() }).unwrap();
+            let crossed = cross_validate(&richer, &data, &found, 10).unwrap();
+            (richer.figures(&data, &found.x).unwrap(), found, crossed)
+        })
+    };
+    for loss in [Loss::Squares, Loss::Tukey] {
+        let alone = on(1, loss);
+        assert!([2, 5].iter().all(|threads| on(*threads, loss) == alone));
+    }
+}
+
 #[test]
 fn too_little_is_said() {
     let model = Model::ideal(&Pps, vec![[0.0; 3]], EXACT);
