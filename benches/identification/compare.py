@@ -19,6 +19,10 @@ ABBE, VENVS, GRID, RANDOM = sys.argv[1:]
 TELLING = re.compile(r"Convergence:|Excluded:|Condition:|condition is satisfied|error:|help|warning|note:|Traceback|Error", re.I)
 
 
+# The longest that a program is waited for, s.
+PATIENCE = 600
+
+
 def lines(path, until=None):
     """Lines that somebody had to write: no comments, no docstrings, no prose about the robot."""
     text = re.sub(r'"""(?s:.*?)"""', '""', pathlib.Path(path).read_text())
@@ -28,7 +32,10 @@ def lines(path, until=None):
 
 def run(*command):
     start = time.monotonic()
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    try:
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        done = subprocess.CompletedProcess(command, 1, "", f"error: not done after {PATIENCE} s")
     return done, time.monotonic() - start
 
 
