@@ -98,19 +98,17 @@ impl LookupTable<'_> {
         (u - 0.5).max(-1.0).min(self.buckets()) + ROUND
     }
 
-    /// The piece of x and where it begins, where its bucket is known and points are not at equal distances.
+    /// The piece of x, where its bucket is known and points are not at equal distances.
     #[inline(always)]
-    pub(crate) fn piece_from(&self, bucket: usize, x: f64) -> (usize, f64) {
+    pub(crate) fn piece_from(&self, bucket: usize, x: f64) -> usize {
         let mut piece = self.starts.get(bucket).map_or(0, |start| *start as usize);
-        let mut knot = self.knot(piece);
         for step in (0..self.steps).rev() {
-            let next = self.knot(piece + (1 << step));
-            // Sums and choices, no branch: which side x is on cannot be guessed.
-            let beyond = x > next;
-            piece += usize::from(beyond) << step;
-            knot = if beyond { next } else { knot };
+            let next = piece + (1 << step);
+            if self.knots.get(next).is_some_and(|knot| x > *knot) {
+                piece = next;
+            }
         }
-        (piece, knot)
+        piece
     }
 
     /// The coefficients of a piece.
@@ -120,9 +118,9 @@ impl LookupTable<'_> {
         self.pieces.get(piece).unwrap_or(NONE)
     }
 
-    /// Where a piece begins; not a number behind the last.
+    /// Where a piece begins.
     #[inline(always)]
-    fn knot(&self, piece: usize) -> f64 {
+    pub(crate) fn knot(&self, piece: usize) -> f64 {
         self.knots.get(piece).copied().unwrap_or(f64::NAN)
     }
 
@@ -135,7 +133,7 @@ impl LookupTable<'_> {
         if self.starts.is_empty() {
             return (u - (rounded - ROUND), *self.coefficients(bucket));
         }
-        let (piece, knot) = self.piece_from(bucket, x);
-        (x - knot, *self.coefficients(piece))
+        let piece = self.piece_from(bucket, x);
+        (x - self.knot(piece), *self.coefficients(piece))
     }
 }

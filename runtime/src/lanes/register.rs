@@ -373,11 +373,11 @@ impl<R: Register> Scalar for Lanes<R> {
             return (u - (rounded - number(ROUND)), coefficients.map(Self));
         }
         let x = self.to_slice();
-        let (mut pieces, mut knots) = ([0; WIDEST], [0.0; WIDEST]);
-        for lane in 0..R::WIDTH {
-            (pieces[lane], knots[lane]) = table.piece_from(LookupTable::bucket_in(buckets[lane]), x[lane]);
+        let mut pieces = [0; WIDEST];
+        for ((piece, bucket), x) in pieces.iter_mut().zip(buckets).zip(x) {
+            *piece = table.piece_from(LookupTable::bucket_in(*bucket), *x);
         }
-        let t = self - Self::from_fn(|lane| knots[lane]);
-        (t, R::columns(|lane| table.coefficients(pieces[lane])).map(Self))
+        let knots = Self::from_fn(|lane| table.knot(pieces[lane]));
+        (self - knots, R::columns(|lane| table.coefficients(pieces[lane])).map(Self))
     }
 }
