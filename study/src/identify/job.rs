@@ -121,6 +121,8 @@ fn report(
     let o = identifiable.observability;
     let length = map.uncertainty.length;
     let test_sizes = test.map(judged).transpose()?;
+    let at_stations = |test: &Data| test.at_stations(data).map_err(|name| elsewhere(test, &name));
+    let test_here = test.map(at_stations).transpose()?;
     let accepted = match &test_sizes {
         Some(test) => job.accept.judge("the test rows", &test.after),
         None => job.accept.judge("rows left out in turn", &solved.crossed.figures().into()),
@@ -204,7 +206,7 @@ fn report(
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().collect(),
-        points: points(solved, data, test)?,
+        points: points(solved, data, test_here.as_ref())?,
         files,
         placed: found.placed.clone(),
         found,
