@@ -303,7 +303,7 @@ impl<'d> Item<'d> {
     }
 
     /// Whether the value is a string.
-    pub(crate) fn is_text(&self) -> bool {
+    pub fn is_text(&self) -> bool {
         self.value.get_ref().is_str()
     }
 

@@ -195,9 +195,14 @@ fn errors(spec: &Spec, report: &Report) -> String {
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }
+    text += &instruments(report);
     let factor = report.uncertainty_factor;
     let is_chance = report.certainty.p_of_factor > 0.001;
+    let estimated = !report.instruments.is_empty() && report.instruments.iter().all(|told| told.estimated);
     let line = match factor {
+        _ if estimated => "How good the instruments are was estimated from what is left: whether the machine has errors that \
+                           this model has not, it cannot tell."
+            .to_owned(),
         _ if is_chance => "What is left is what the instrument explains.".to_owned(),
         _ if factor > 1.5 => format!(
             "What is left is {} times what the instrument explains: the machine has errors that this model has not.",
@@ -263,6 +268,27 @@ fn comparison(gain: Gain, unit: &str) -> String {
         true => format!("worse by {by} (configuration by configuration, p {p})"),
         false => format!("no difference that is more than chance ({by}, p {p})"),
     }
+}
+
+/// How good each instrument is, if they are read one by one.
+fn instruments(report: &Report) -> String {
+    if report.instruments.is_empty() {
+        return String::new();
+    }
+    let mut table =
+        Table::new(&["instrument", "numbers", "standard deviation", "", "what is left, times that", ""]);
+    for told in &report.instruments {
+        let (unit, factor) = if told.unit == "rad" { ("mrad", 1e3) } else { (told.unit, 1.0) };
+        table.row(vec![
+            told.name.clone(),
+            told.numbers.to_string(),
+            digits(told.uncertainty * factor, 2),
+            unit.to_owned(),
+            digits(told.factor, 3),
+            if told.estimated { "estimated" } else { "stated" }.to_owned(),
+        ]);
+    }
+    table.right(&[1, 2, 4])
 }
 
 fn terms(spec: &Spec, report: &Report) -> String {

@@ -25,6 +25,11 @@ pub enum Failure {
         /// Combinations of unknowns that they determine.
         rank: usize,
     },
+    /// The machine touches nothing near a configuration.
+    Untouched {
+        /// The line of the observation.
+        line: u64,
+    },
     /// The steps do not come to an end: the model is far from what was measured.
     NotConverged {
         /// How many were made.
@@ -43,6 +48,9 @@ impl fmt::Display for Failure {
                     "{numbers} independent numbers were measured ({configurations} configurations) for {rank} unknowns: \
                      none is left to judge the result by"
                 )
+            }
+            Self::Untouched { line } => {
+                write!(f, "line {line}: within the limits, the tool does not come to where it is to touch")
             }
             Self::NotConverged { steps } => write!(f, "no least squares solution after {steps} steps"),
         }

@@ -93,8 +93,10 @@ mod solver;
 mod station;
 mod statistics;
 mod tool_points;
+mod touch;
 mod triangle;
 mod unknown;
+mod variance;
 
 #[cfg(test)]
 mod coverage;
@@ -124,4 +126,6 @@ pub use simulate::{Chance, simulate};
 pub use station::Station;
 pub use statistics::{FTest, Observability, deviation_beyond, f_test, student_beyond, student_factor};
 pub use tool_points::ToolPoints;
+pub use touch::touched;
 pub use unknown::{Role, Unknown};
+pub use variance::{VarianceComponent, variance_components};

@@ -81,6 +81,8 @@ pub struct Reading {
     pub zero_known: bool,
     /// One standard deviation: the length unit, or rad of an angle.
     pub uncertainty: f64,
+    /// Whether the machine is moved until it is zero: nothing is read then but the joints.
+    pub touched: bool,
     /// Which instrument it belongs to: all of those share what their uncertainty must be multiplied with.
     pub instrument: usize,
 }

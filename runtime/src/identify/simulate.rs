@@ -1,9 +1,9 @@
 //! Measurements of a machine whose errors are known: for tests, for teaching, for planning.
 
-use rand::RngExt;
+use rand::{Rng, RngExt};
 use rand_distr::Normal;
 
-use super::{Failure, Measurement, Model, Observation, Unknown};
+use super::{Failure, Measurement, Model, Observation, Unknown, touched};
 use crate::analysis::sampling::{draw, stream};
 use crate::chain::displacement;
 use crate::{Class, Distribution};
@@ -28,6 +28,9 @@ const APART: u64 = 0x6d65_6173_7572_6564;
 
 /// What would be seen at the configurations of `list`, on the exact chain with the known sources of `model`.
 ///
+/// Where readings are [touched](super::Reading::touched), the joints are those at which the real machine touches, by as much as
+/// the instrument's uncertainty off; joints that are the same in all rows stay.
+///
 /// Observation i follows from the seed and i alone. What was measured says which targets are seen, or that poses are.
 pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<Vec<Observation>, Failure> {
     let description = model.manipulator.description();
@@ -40,9 +43,13 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
         .collect();
     let model = model.with(random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect());
     let mut room = model.room();
+    let first = list.first().map_or(&[][..], |row| &row.q);
+    let moved: Vec<usize> =
+        (0..first.len()).filter(|j| list.iter().any(|row| row.q[*j] != first[*j])).collect();
     let one = |(i, asked): (usize, &Observation)| {
         let mut numbers = stream(chance.seed ^ APART, i);
         let x: Vec<f64> = random.iter().map(|(_, distribution)| draw(*distribution, &mut numbers)).collect();
+        let asked = &touching(&model, asked, &x, &moved, chance, &mut numbers)?;
         let pose = model.pose(&mut room, asked, &x)?;
         let readings = model.values(&mut room, asked, &x)?;
         let gross = numbers.random::<f64>() < chance.outliers;
@@ -72,7 +79,7 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
                 let measured = numbers.map(|(i, ((asked, reading), value))| {
                     let far = if i == 0 && !reading.gauge.is_angle() { shift[0] } else { 0.0 };
                     let value = value + far + noise(reading.uncertainty * factor);
-                    asked.map(|_| value)
+                    asked.map(|_| if reading.touched { 0.0 } else { value })
                 });
                 Measurement::Readings(measured.collect())
             }
@@ -80,4 +87,27 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
         Ok(Observation { measured, ..asked.clone() })
     };
     list.iter().enumerate().map(one).collect()
+}
+
+/// The same observation, where the real machine touches what it is to touch.
+fn touching(
+    model: &Model,
+    asked: &Observation,
+    x: &[f64],
+    moved: &[usize],
+    chance: &Chance,
+    numbers: &mut impl Rng,
+) -> Result<Observation, Failure> {
+    let Measurement::Readings(readings) = &asked.measured else { return Ok(asked.clone()) };
+    let factor = chance.noise.length / model.uncertainty.length;
+    let mut noise = |sigma: f64| Normal::new(0.0, sigma).map_or(0.0, |normal| numbers.sample(normal));
+    let wanted = readings.iter().zip(&model.readings).map(|(asked, reading)| {
+        asked.filter(|_| reading.touched).map(|_| noise(reading.uncertainty * factor))
+    });
+    let wanted: Vec<Option<f64>> = wanted.collect();
+    if wanted.iter().all(Option::is_none) {
+        return Ok(asked.clone());
+    }
+    let q = touched(model, asked, x, &wanted, moved)?.ok_or(Failure::Untouched { line: asked.line })?;
+    Ok(Observation { q, ..asked.clone() })
 }

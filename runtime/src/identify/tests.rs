@@ -120,6 +120,7 @@ fn every_gauge(robot: &dyn Manipulator) -> Model<'_> {
         zero: 0.5,
         zero_known: false,
         uncertainty: 1.0,
+        touched: false,
         instrument: 0,
     };
     let fixtures = vec![

@@ -2,14 +2,15 @@
 
 abbe_codegen::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
-    FORMS: ["the file"], ["point", "difference", "target", "pose"];
+    FORMS: ["the file"], ["point", "difference", "target", "pose", "instrument"];
     STANDS: ["the file"], ["station", "placement", "accept"];
-    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement"];
+    DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement", "setup"];
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
 
     POINT: ["[point]"], ["columns", "unit"];
     DIFFERENCE: ["[difference]"], ["target", "difference", "unit"];
     TARGET: ["[[target]]"], ["name", "columns", "unit", "position"];
+    INSTRUMENT: ["[[instrument]]"], ["name", "kind", "column", "columns", "unit", "target", "targets", "at", "direction", "mirror", "zero", "radius", "range", "setup", "uncertainty"];
     POSE: ["[pose]"], ["position", "unit"];
     TURN: ["[pose]"], ["quaternion", "matrix", "euler"];
     QUATERNION: ["[pose.quaternion]"], ["columns", "order"];

@@ -29,6 +29,7 @@ impl Map {
                 let [x, y, z] = rotation::from_numbers(turn, &known[3..])?;
                 Measurement::Pose(Pose([x, y, z, point(*factor)]))
             }
+            Layout::Instruments(all) => Measurement::Readings(all.read(numbers)?),
         })
     }
 
@@ -39,6 +40,8 @@ impl Map {
             station.chain(self.commanded()).map(|column| column.name.clone()).collect();
         if measured {
             names.extend(self.measured().into_iter().map(|column| column.name.clone()));
+        } else {
+            names.extend(self.setup().map(|column| column.name.clone()));
         }
         names
     }
@@ -64,6 +67,12 @@ impl Map {
             Channel::Fixed(_) => None,
         });
         let mut numbers: Vec<Option<f64>> = commanded.collect();
+        if let (Layout::Instruments(all), Measurement::Readings(readings)) = (&self.layout, &row.measured) {
+            match measured {
+                true => numbers.extend(all.numbers(readings)),
+                false => numbers.extend(self.setup().map(|_| all.setup_of(readings))),
+            }
+        }
         if !measured {
             return numbers;
         }

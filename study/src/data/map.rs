@@ -9,6 +9,7 @@ use abbe_codegen::spec::Spec;
 
 use super::column::{Channel, Column};
 use super::configurations::resolution;
+use super::instrument::Instruments;
 use super::station::{Placement, Stations};
 use super::turn::Turn;
 use crate::workspace::has_range;
@@ -47,6 +48,8 @@ pub enum Layout {
     Targets(Vec<Target>),
     /// Position and orientation.
     Pose([Column; 3], f64, Turn),
+    /// Instruments that are read one by one.
+    Instruments(Box<Instruments>),
 }
 
 /// A map, read and checked.
@@ -131,6 +134,7 @@ impl Map {
         match (&self.placement.targets, &self.layout) {
             (Some(targets), _) => targets.clone(),
             (None, Layout::Targets(targets)) => targets.iter().map(|target| target.position).collect(),
+            (None, Layout::Instruments(all)) => all.targets.clone(),
             _ => vec![[0.0; 3]],
         }
     }
@@ -182,15 +186,29 @@ impl Map {
                 *value = *fixed;
             }
         }
-        Observation::new(line, q, u, self.unmeasured())
+        Observation::new(line, q, u, self.unmeasured(None))
     }
 
-    /// What stands for a measurement before there is one.
-    pub(super) fn unmeasured(&self) -> Measurement {
-        match self.is_pose() {
-            true => Measurement::Pose(Pose::IDENTITY),
-            false => Measurement::Points(vec![Some([0.0; 3]); self.targets().len()]),
+    /// What stands for a measurement before there is one, in a setup if the map has a column for those.
+    pub(super) fn unmeasured(&self, setup: Option<f64>) -> Measurement {
+        match &self.layout {
+            Layout::Pose(..) => Measurement::Pose(Pose::IDENTITY),
+            Layout::Instruments(all) => Measurement::Readings(all.unread(&all.read_in(setup))),
+            _ => Measurement::Points(vec![Some([0.0; 3]); self.targets().len()]),
         }
+    }
+
+    /// The instruments that are read one by one, if the map has any.
+    pub fn instruments(&self) -> Option<&Instruments> {
+        match &self.layout {
+            Layout::Instruments(all) => Some(all),
+            _ => None,
+        }
+    }
+
+    /// The column of the setup, if there is one.
+    pub(super) fn setup(&self) -> Option<&Column> {
+        self.instruments().and_then(|all| all.setup.as_ref())
     }
 
     /// The columns of joints and inputs.
@@ -208,6 +226,7 @@ impl Map {
             Layout::Difference(target, difference, _) => target.iter().chain(difference).collect(),
             Layout::Targets(targets) => targets.iter().flat_map(|target| &target.columns).collect(),
             Layout::Pose(position, _, turn) => position.iter().chain(turn.columns()).collect(),
+            Layout::Instruments(all) => all.columns(),
         }
     }
 }

@@ -14,6 +14,7 @@ use super::column::{Channel, Column};
 use super::configurations::resolution;
 use super::keys;
 use super::map::{Base, Layout, Map, Target};
+use super::read_instruments::instruments;
 use super::rotation;
 use super::station::{Placement, StatedStation, Stations};
 use super::turn::{Order, Turn};
@@ -87,9 +88,23 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     head.check_keys(&[&keys::DATA], document);
     let joints = joints(root, document, spec);
     let inputs = inputs(root, document, spec);
-    let layout = layout(root, document, spec);
-    let length = head.required("uncertainty", document);
-    let length = length.and_then(|item| positive(&item, document, spec, Dimension::LENGTH));
+    let mut named = |key: &str| match head.get(key) {
+        Some(item) => column(&item, document).map(Some),
+        None => Some(None),
+    };
+    let (group, direction, time, setup) = (named("group"), named("direction"), named("time"), named("setup"));
+    let stated = match (head.get("uncertainty"), root.get("instrument")) {
+        (None, Some(_)) => Some(None),
+        _ => {
+            let item = head.required("uncertainty", document);
+            item.and_then(|item| positive(&item, document, spec, Dimension::LENGTH)).map(Some)
+        }
+    };
+    let layout = layout(root, stated.flatten(), setup.flatten(), document, spec);
+    let length = match (&layout, stated) {
+        (Some(Layout::Instruments(all)), Some(None)) => Some(all.uncertainty()),
+        (_, stated) => stated.flatten(),
+    };
     let is_pose = matches!(layout, Some(Layout::Pose(..)));
     let angle = match head.get("angle_uncertainty") {
         Some(item) => positive(&item, document, spec, Dimension::NONE),
@@ -99,11 +114,6 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         }
         None => Some(1.0),
     };
-    let mut named = |key: &str| match head.get(key) {
-        Some(item) => column(&item, document).map(Some),
-        None => Some(None),
-    };
-    let (group, direction, time) = (named("group"), named("direction"), named("time"));
     let bases = [("known", Base::Known), ("unknown", Base::Unknown), ("exact", Base::Exact)];
     let base = match head.get("base") {
         Some(item) => document.choice(&item, &bases)?,
@@ -112,6 +122,11 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     let stations = stations(root, &head, document, spec);
     let placement = placement(root, &head, document, spec, layout.as_ref());
     let accept = accept(root, document, spec);
+    let base = match &layout {
+        // All else that is unknown of where `F_0` is stands among the places of the instruments.
+        Some(Layout::Instruments(all)) if !all.see_the_base() => Base::Exact,
+        _ => base,
+    };
     Some(Map {
         title: head.optional_text("title", document),
         uncertainty: Uncertainty { length: length?, angle: angle? },
@@ -131,7 +146,12 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     })
 }
 
-fn positive(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<f64> {
+pub(super) fn positive(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<f64> {
     let value = constant(item, document, spec, dimension)?;
     if value > 0.0 {
         return Some(value);
@@ -141,7 +161,12 @@ fn positive(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Di
     None
 }
 
-fn constant(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<f64> {
+pub(super) fn constant(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<f64> {
     let scope = Scope::new(spec.length);
     let what = format!("`{}`", item.key);
     let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
@@ -217,11 +242,15 @@ fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dim
     Some(Channel::Column(column?, factor? * sign))
 }
 
-fn column(item: &Item<'_>, document: &mut Document) -> Option<Column> {
+pub(super) fn column(item: &Item<'_>, document: &mut Document) -> Option<Column> {
     document.string(item).map(|name| Column { name, span: Some(item.span()) })
 }
 
-fn columns<const N: usize>(section: &Section<'_>, key: &str, document: &mut Document) -> Option<[Column; N]> {
+pub(super) fn columns<const N: usize>(
+    section: &Section<'_>,
+    key: &str,
+    document: &mut Document,
+) -> Option<[Column; N]> {
     let item = section.required(key, document)?;
     let items: [Item<'_>; N] = document.entries(&item, &format!("{N} names of columns"))?;
     let columns: Vec<Column> = items.iter().filter_map(|item| column(item, document)).collect();
@@ -229,7 +258,12 @@ fn columns<const N: usize>(section: &Section<'_>, key: &str, document: &mut Docu
 }
 
 /// What the numbers are multiplied with: `unit`, a text such as "deg".
-fn unit(section: &Section<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<f64> {
+pub(super) fn unit(
+    section: &Section<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<f64> {
     let item = section.required("unit", document)?;
     let name = document.string(&item)?;
     if name.trim().is_empty() {
@@ -254,11 +288,24 @@ fn unit(section: &Section<'_>, document: &mut Document, spec: &Spec, dimension: 
     factor
 }
 
-fn layout(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Layout> {
+fn layout(
+    root: &Section<'_>,
+    stated: Option<f64>,
+    setup: Option<Column>,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<Layout> {
+    let alone = |item: &Item<'_>| {
+        keys::FORMS.contain(&item.key) && !["target", "instrument"].contains(&item.key.as_str())
+    };
+    if root.get("instrument").is_some() && !root.items().any(|item| alone(&item)) {
+        let all = instruments(root, stated, setup, document, spec)?;
+        return Some(Layout::Instruments(Box::new(all)));
+    }
     let mut forms = root.items().filter(|item| keys::FORMS.contain(&item.key));
     let (Some(form), None) = (forms.next(), forms.next()) else {
         let message = "a map says once what was measured";
-        let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more) and `[pose]`";
+        let help = "give one of `[point]`, `[difference]`, `[[target]]` (three or more), `[pose]` and `[[instrument]]`";
         document.mistake(Diagnostic::new(0..0, message).help(help));
         return None;
     };

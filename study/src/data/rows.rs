@@ -70,7 +70,9 @@ impl Data {
     fn rows(file: &Path, map: &Map, columns: Columns, once: bool) -> Result<Self, Diagnostics> {
         let table = File::read(file)?;
         let header = &table.heading;
-        let commanded: Vec<&Column> = map.commanded().collect();
+        // The setup is read with what is measured, if anything is.
+        let setup = map.setup().filter(|_| columns == Columns::Commanded);
+        let commanded: Vec<&Column> = map.commanded().chain(setup).collect();
         let measured = if columns == Columns::Measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
         // A plan says only if it can where it is for.
@@ -232,7 +234,7 @@ fn row(
     let u = map.inputs.iter().map(&mut channel).collect();
     let mut bits: Bits = commanded.iter().map(|value| value.to_bits()).collect();
     let Some(places) = measured else {
-        return Ok((bits, Observation::new(record.line, q, u, map.unmeasured())));
+        return Ok((bits, Observation::new(record.line, q, u, map.unmeasured(values.next()))));
     };
     let numbers = measured_numbers(record, places, map)?;
     bits.extend(numbers.iter().flatten().map(|value| value.to_bits()));
@@ -241,6 +243,13 @@ fn row(
 
 /// The numbers of what was measured, none where a target was hidden: its three fields are empty.
 fn measured_numbers(record: &Record, places: &[usize], map: &Map) -> Result<Vec<Option<f64>>, String> {
+    if matches!(map.layout, Layout::Instruments(_)) {
+        let number = |place: &usize| match record.is_empty(*place) {
+            true => Ok(None),
+            false => record.number(*place).map(Some),
+        };
+        return places.iter().map(number).collect();
+    }
     if !matches!(map.layout, Layout::Targets(_)) {
         return Ok(record.numbers(places)?.into_iter().map(Some).collect());
     }

@@ -1,7 +1,7 @@
 //! What cannot be told apart, by name.
 
-use abbe::identify::{Group, Model, Reason, Unknown};
-use abbe::{Description, VariableKind};
+use abbe::identify::{Group, Model, Reason, Unknown, groups};
+use abbe::{Component, Description, Error, VariableKind};
 use serde::Serialize;
 
 use crate::number;
@@ -17,8 +17,35 @@ pub struct Alike {
     pub reason: String,
 }
 
+/// All that cannot be told apart, whose variables in `moved` are moved, all others staying at `q`.
+pub(crate) fn alikes(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<Vec<Alike>, Error> {
+    let description = model.manipulator.description();
+    let found = groups(model, q, moved, pose)?;
+    let mut alikes: Vec<Alike> = found.iter().map(|group| Alike::new(group, model, description)).collect();
+    if model.readings.is_empty() || model.stations.iter().any(|station| !station.exact) {
+        return Ok(alikes);
+    }
+    // What an error of the base would act as: as the places of the fixtures, or nothing.
+    let base = Component::ALL.map(|component| Unknown::Base(0, component));
+    let with_base = model.with(base.into_iter().chain(model.unknowns.iter().copied()).collect());
+    let of_base = groups(&with_base, q, moved, pose)?.into_iter().filter(|group| {
+        let is_base = |(unknown, _): &(Unknown, f64)| matches!(unknown, Unknown::Base(..));
+        !group.these.is_empty() && group.these.iter().all(is_base)
+    });
+    alikes.extend(of_base.map(|group| {
+        Alike {
+            these: group.act_as.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect(),
+            act_as: Vec::new(),
+            reason:
+                "nobody knows where the instruments stand: what moves the whole machine acts as their places"
+                    .to_owned(),
+        }
+    }));
+    Ok(alikes)
+}
+
 impl Alike {
-    pub(crate) fn new(group: &Group, model: &Model, description: &Description) -> Self {
+    fn new(group: &Group, model: &Model, description: &Description) -> Self {
         let named = |combination: &[(Unknown, f64)]| {
             combination.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect()
         };

@@ -22,7 +22,10 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
     let part: Vec<Observation> = rows.iter().step_by(rows.len().div_ceil(ROWS).max(1)).cloned().collect();
     let priors = model.priors(0.01).ok()?;
     let robust = fit(model, &part, &Options { loss: Loss::Tukey, priors, ..Options::default() }).ok()?;
-    let bound = 10.0 * (robust.sigma * model.uncertainty.length);
+    // Of several instruments, the one that is worst.
+    let lengths = model.readings.iter().filter(|reading| !reading.gauge.is_angle());
+    let length = lengths.map(|reading| reading.uncertainty).reduce(f64::max);
+    let bound = 10.0 * robust.sigma * length.unwrap_or(model.uncertainty.length);
     let wrong: Vec<u64> = distances(model, rows, &robust.x)
         .ok()?
         .into_iter()

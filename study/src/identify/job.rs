@@ -3,21 +3,22 @@
 use std::collections::HashSet;
 
 use abbe::identify::{
-    Configurations, Fit, Independent, Model, Observation, Place, Selection, Unknown, deviation_beyond, drift,
-    groups, student_factor,
+    Configurations, Failure, Fit, Independent, Model, Observation, Place, Selection, Unknown, deviation_beyond, drift,
+    student_factor,
 };
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 
-use super::alike::Alike;
+use super::alike::alikes;
 use super::candidates::{Family, Harmonics, candidates};
 use super::choose::{Chosen, choose};
 use super::counts::Counts;
 use super::derived::{Derived, derived, with_columns, with_inputs};
 use super::extended::extended;
 use super::found::FoundModel;
+use super::instruments::{estimate, told};
 use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::meaning::{InNumbers, number_terms};
 use super::not_known::NotKnown;
@@ -29,6 +30,7 @@ use super::report::{
     Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
     TermGain,
 };
+use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::{Settings, Solved, solve};
 use super::terms::Term;
@@ -79,6 +81,8 @@ impl Identify {
             check_readings(&setup, map, &data)?;
         }
         setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, failure))?;
+        estimate(&mut setup, map, &data, settings.prior)
+            .map_err(|failure| mistake::whole(&data.file, failure))?;
         let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
         let test = self.test.as_ref().map(|test| completed(test, false));
         let identified = Identified { setup: &setup, solved: &solved, chosen: &chosen, derived: &derived };
@@ -110,7 +114,9 @@ fn report(
     let identifiable = &fit.identifiable;
     let name = |k: usize| model.name(model.unknowns[k]);
     let rows = &data.observations;
-    let alike = groups(model, &rows[0].q, &setup.moved(rows), setup.pose)
+    let fail = |failure: Failure| mistake::whole(&data.file, failure);
+    let scale = scale_note(&setup.ideal, rows, &setup.moved(rows)).map_err(fail)?;
+    let alike = alikes(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, error))?;
     let compared_fit = compared(solved, &setup.delivered, data, &fit.kept(rows).collect::<Vec<_>>())?;
     refuse_worse(&compared_fit, data, setup, map)?;
@@ -160,7 +166,7 @@ fn report(
         unexplained: (model.unknowns.len() - identifiable.rank)
             .saturating_sub(alike.len() + identifiable.weak.len()),
         not_known: NotKnown::all(model, identifiable, spec.length),
-        groups: alike.iter().map(|group| Alike::new(group, model, setup.description)).collect(),
+        groups: alike,
         meanings: in_numbers.meanings(spec, model, fit),
         magnitudes: magnitudes(spec, solved),
         parameters,
@@ -179,6 +185,7 @@ fn report(
             .collect(),
         uncertainty_factor: fit.sigma,
         certainty: Certainty::new(fit),
+        instruments: told(model, map, data, fit).map_err(fail)?,
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
         test: test_sizes,
@@ -205,7 +212,7 @@ fn report(
         order: order.map(|drift| Order::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected: fit.rejected(rows).map(|row| row.line).collect(),
-        notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().collect(),
+        notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).collect(),
         points: points(solved, data, test_here.as_ref())?,
         files,
         placed: found.placed.clone(),

@@ -1,6 +1,7 @@
 //! The generalized errors of a real machine, from measurements.
 //!
-//! `setup` places the machine before the instrument; `readings` asks whether the data are read as they were meant, `reading`
+//! `setup` places the machine before the instrument, `instruments` says how good every one of several is, `aim` where they can
+//! be read; `readings` asks whether the data are read as they were meant, `reading`
 //! has other ways to read them. `solve`
 //! fits and judges on the data alone, `gross` looks for gross errors; `magnitude` are sources of the spec that are fitted with
 //! the constants. `terms` are errors that richer models have, `candidates` those that are tried, `derived` the inputs that
@@ -8,6 +9,7 @@
 //! identified machine, `written` its spec, `placed` where it stands and what is mounted on its tool; `report` is what comes out,
 //! with `point_residuals` for pictures, `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
 
+mod aim;
 mod alike;
 mod candidates;
 mod choose;
@@ -16,6 +18,7 @@ mod derived;
 mod extended;
 mod found;
 mod gross;
+mod instruments;
 mod job;
 mod magnitude;
 mod meaning;
@@ -28,18 +31,21 @@ mod priors;
 mod reading;
 mod readings;
 mod report;
+mod scale;
 mod setup;
 mod solve;
 mod terms;
 mod written;
 
 pub use alike::Alike;
+pub(crate) use alike::alikes;
 pub use candidates::{Family, Harmonics, candidates};
 pub use counts::Counts;
 pub use derived::{Derived, DerivedKind};
 pub use extended::extended;
 pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use gross::shown_lines;
+pub use instruments::Told;
 pub use job::Identify;
 pub use not_known::NotKnown;
 pub use order::Order;
@@ -55,6 +61,8 @@ pub use solve::Settings;
 pub use terms::{Angle, Basis, Place, Term, Wave};
 pub use written::WrittenSpec;
 
+pub(crate) use aim::{aimed, unaimed};
 pub(crate) use meaning::chain_errors;
 pub(crate) use readings::check_readings;
+pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;

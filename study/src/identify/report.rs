@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::alike::Alike;
 use super::counts::Counts;
 use super::found::FoundModel;
+use super::instruments::Told;
 use super::not_known::NotKnown;
 use super::order::Order;
 use super::outside::Outside;
@@ -55,6 +56,8 @@ pub struct Report {
     pub uncertainty_factor: f64,
     /// How sure all standard deviations are.
     pub certainty: Certainty,
+    /// Instruments that are read one by one, each with what is left of its own numbers.
+    pub instruments: Vec<Told>,
     /// Where `F_0` stands as the instrument sees it, errors of the base aside: rows of a homogeneous matrix.
     pub base: [[f64; 4]; 4],
     /// Where the machine stands and what is mounted on its tool, as found.

@@ -2,7 +2,7 @@
 
 use abbe::analysis::sampling;
 use abbe::identify::{
-    Failure, Measurement, Model, Observation, Options, Role, Station, Unknown, fit, register,
+    Failure, Gauge, Measurement, Model, Observation, Options, Role, Station, Unknown, fit, register,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -69,8 +69,7 @@ impl<'a> Setup<'a> {
     }
 
     fn placed(manipulator: &'a dyn Manipulator, map: &Map, terms: usize) -> Result<Self, Diagnostics> {
-        let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
-        let ideal = Model { mounting: map.mounting(), ..ideal };
+        let ideal = Model { mounting: map.mounting(), ..ideal(manipulator, map) };
         let description = ideal.manipulator.description();
         let mut real = ideal.clone();
         let declared = description.sources.len() - terms;
@@ -170,6 +169,32 @@ impl<'a> Setup<'a> {
     }
 }
 
+/// The ideal chain, and what the instruments of a map look at.
+fn ideal<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
+    let ideal = Model::ideal(manipulator, map.targets(), map.uncertainty);
+    match map.instruments() {
+        Some(all) => Model { fixtures: all.fixtures.clone(), readings: all.readings.clone(), ..ideal },
+        None => ideal,
+    }
+}
+
+/// The points that were measured of every target, none of those that were not.
+fn points(model: &Model, observation: &Observation) -> Vec<Option<[f64; 3]>> {
+    match &observation.measured {
+        Measurement::Points(points) => points.clone(),
+        Measurement::Pose(_) => Vec::new(),
+        Measurement::Readings(values) => {
+            let coordinate = |j: usize, k: usize| {
+                let is_it = |gauge: Gauge| gauge == Gauge::Coordinate { target: j, axis: k };
+                let mut of_it = model.readings.iter().zip(values).filter(|(reading, _)| is_it(reading.gauge));
+                of_it.find_map(|(_, value)| *value)
+            };
+            let point = |j: usize| Some([coordinate(j, 0)?, coordinate(j, 1)?, coordinate(j, 2)?]);
+            (0..model.targets.len()).map(point).collect()
+        }
+    }
+}
+
 /// A start that misses by more than this share of the arm is far.
 const FAR: f64 = 0.01;
 
@@ -185,21 +210,16 @@ fn mount(model: &mut Model, rows: &[Observation], arm: f64) -> Result<(), Failur
     let mut sums = vec![([0.0; 3], 0.0); model.targets.len()];
     for row in rows {
         let back = bare.pose(&mut room, row, &[])?.inverse();
-        match &row.measured {
-            Measurement::Points(points) => {
-                for ((sum, count), point) in sums.iter_mut().zip(points) {
-                    let Some(point) = point else { continue };
-                    let place = back.apply(*point);
-                    *sum = std::array::from_fn(|i| sum[i] + place[i]);
-                    *count += 1.0;
-                }
-            }
-            Measurement::Readings(_) => {}
-            Measurement::Pose(pose) => {
-                let seen = back.then(pose);
-                from.extend(corners);
-                to.extend(corners.map(|corner| seen.apply(corner)));
-            }
+        for ((sum, count), point) in sums.iter_mut().zip(points(model, row)) {
+            let Some(point) = point else { continue };
+            let place = back.apply(point);
+            *sum = std::array::from_fn(|i| sum[i] + place[i]);
+            *count += 1.0;
+        }
+        if let Measurement::Pose(pose) = &row.measured {
+            let seen = back.then(pose);
+            from.extend(corners);
+            to.extend(corners.map(|corner| seen.apply(corner)));
         }
     }
     for (target, (sum, count)) in model.targets.iter_mut().zip(sums) {
@@ -241,20 +261,15 @@ pub(super) fn registered(
     let (mut from, mut to) = (Vec::new(), Vec::new());
     for observation in data.iter().filter(|row| row.station == station) {
         let pose = model.pose(&mut room, observation, &vec![0.0; model.unknowns.len()])?;
-        match &observation.measured {
-            Measurement::Points(points) => {
-                for (target, point) in model.targets.iter().zip(points) {
-                    if let Some(point) = point {
-                        from.push(pose.apply(*target));
-                        to.push(*point);
-                    }
-                }
+        if let Measurement::Pose(measured) = &observation.measured {
+            from.push(pose.position());
+            to.push(measured.position());
+        }
+        for (target, point) in model.targets.iter().zip(points(&model, observation)) {
+            if let Some(point) = point {
+                from.push(pose.apply(*target));
+                to.push(point);
             }
-            Measurement::Pose(measured) => {
-                from.push(pose.position());
-                to.push(measured.position());
-            }
-            Measurement::Readings(_) => {}
         }
     }
     Ok(register(&from, &to).filter(|found| found.breadth > 1e-6).map(|found| found.pose))

@@ -137,6 +137,11 @@ impl Measure {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, data, accept } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
+        if map.instruments().is_some() {
+            let help = "`abbe identify` says what is left of every instrument's readings";
+            let message = "how far off the tool is, points and poses tell: this map has instruments that are read one by one";
+            return Err(mistake::with_help(map.path(), message, help));
+        }
         let mut setup = Setup::new(&interpreter, map, data, 0)?;
         let fitted = check_readings(&setup, map, data)?;
         let base_fitted = setup.find_stations(map, data)?;

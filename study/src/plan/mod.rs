@@ -6,15 +6,15 @@ mod sets;
 
 use abbe::analysis::{Configuration, Workspace, joint_samples};
 use abbe::identify::{
-    Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, groups,
-    knowable, optimal, whole,
+    Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, knowable,
+    optimal, whole,
 };
 use abbe::{Description, Manipulator};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
 
 use crate::data::Map;
-use crate::identify::{Alike, Counts, NotKnown, Setup};
+use crate::identify::{Alike, Counts, NotKnown, Setup, aimed, alikes, scale_note, unaimed};
 use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, mistake};
 
@@ -84,7 +84,7 @@ impl Plan {
         let model_error = self.model_error / 3.0_f64.sqrt();
         let objective = Objective { criterion: Criterion::Variance, used: &tool_points, model_error };
         let Chosen { title, sets, rows, identifiable, design } =
-            self.choose(&interpreter, &model, objective, notes)?;
+            self.choose(&interpreter, &setup, &model, objective, notes)?;
         let numbers = rows.iter().map(Observation::count).sum::<usize>();
         let Some(design) = design.filter(|_| numbers > identifiable.rank) else {
             let rank = identifiable.rank;
@@ -105,7 +105,10 @@ impl Plan {
         let unseen = tool_points.unseen(judged, |k| sizes[k].unwrap_or(1.0));
         let unseen = unseen.into_iter().map(|(k, moves)| Unseen::new(&model, k, moves)).collect();
         let moved = setup.moved(&rows);
-        let alike = rows.first().map_or(Ok(Vec::new()), |row| groups(&model, &row.q, &moved, setup.pose));
+        if let Some(note) = scale_note(&setup.ideal, &rows, &moved).map_err(fail)? {
+            notes.note(&note);
+        }
+        let alike = rows.first().map_or(Ok(Vec::new()), |row| alikes(&model, &row.q, &moved, setup.pose));
         let alike = alike.map_err(|error| mistake::whole(&machine.origin, error))?;
         Ok(Report {
             name: machine.spec.name.clone(),
@@ -125,14 +128,22 @@ impl Plan {
             unseen,
             used: used.len(),
             predicted: Predicted { mean: spread.mean, rms: spread.rms, max: spread.max, p95: spread.p95 },
-            groups: alike.iter().map(|group| Alike::new(group, &model, description)).collect(),
+            groups: alike,
             observations: rows,
         })
+    }
+
+    fn aimed(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
+        let most = list.len();
+        let aimed = aimed(setup, &self.map, list, most);
+        let aimed = aimed.map_err(|failure| mistake::whole(&self.machine.origin, failure))?;
+        if aimed.is_empty() { Err(unaimed(self.map.path())) } else { Ok(aimed) }
     }
 
     fn choose(
         &self,
         manipulator: &Interpreter,
+        setup: &Setup,
         model: &Model,
         objective: Objective<'_>,
         notes: &mut dyn Notes,
@@ -146,7 +157,8 @@ impl Plan {
                     let u = asked.u.clone();
                     Observation { u, ..self.map.planned(line, asked) }
                 });
-                let rows = seen_nominally(model, rows).map_err(fail)?;
+                let rows = self.aimed(setup, rows.collect())?;
+                let rows = seen_nominally(model, rows.into_iter()).map_err(fail)?;
                 let identifiable = determined(model, &rows).map_err(fail)?;
                 let design = whole(model, &rows, &identifiable, &objective).map_err(fail)?;
                 Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
@@ -157,14 +169,15 @@ impl Plan {
                 let samples = joint_samples(manipulator, &moved, *candidates)
                     .and_then(|samples| samples.inputs(manipulator, &inputs));
                 let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
-                if *count > samples.len() {
+                let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
+                let list = self.aimed(setup, list.collect())?;
+                if *count > list.len() {
                     let message =
-                        format!("{count} configurations cannot be chosen from {} samples", samples.len());
+                        format!("{count} configurations cannot be chosen from {} samples", list.len());
                     let help = "each is chosen once at most: ask for more `--candidates`, or for fewer configurations";
                     return Err(mistake::with_help(&self.machine.origin, message, help));
                 }
-                let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
-                let list = seen_nominally(model, list).map_err(fail)?;
+                let list = seen_nominally(model, list.into_iter()).map_err(fail)?;
                 let identifiable = determined(model, &list).map_err(fail)?;
                 let objective = Objective { criterion: *criterion, ..objective };
                 let progress = &mut |done, total| notes.progress(done, total);

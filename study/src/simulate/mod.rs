@@ -9,10 +9,13 @@ use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 use crate::data::{Channel, Data, Map, Table};
-use crate::identify::Setup;
+use crate::identify::{Setup, aimed, unaimed};
 use crate::number::quantity;
 use crate::workspace::has_range;
 use crate::{Machine, Notes, mistake};
+
+/// How many configurations are tried for one at which instruments can be read.
+const TRIES: usize = 20;
 
 /// What would an instrument measure of this machine?
 pub struct Simulate {
@@ -58,16 +61,16 @@ impl Simulate {
         let Self { machine, map, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
+        let setup = Setup::at_home(&interpreter, map)?;
         let sampled;
         let list = match &self.at {
             Places::Rows(data) => data,
             Places::Samples(count) => {
                 self.note_fixed_inputs(notes);
-                sampled = self.sampled(&interpreter, *count)?;
+                sampled = self.sampled(&interpreter, &setup, *count)?;
                 &sampled
             }
         };
-        let setup = Setup::at_home(&interpreter, map)?;
         let Uncertainty { length, angle } = map.uncertainty;
         let noise = self.noise.unwrap_or(length);
         let chance = Chance {
@@ -116,10 +119,17 @@ impl Simulate {
         }
     }
 
-    fn sampled(&self, manipulator: &dyn Manipulator, count: usize) -> Result<Data, Diagnostics> {
+    /// Where instruments must be aimed, as many as that leads to.
+    fn sampled(
+        &self,
+        manipulator: &dyn Manipulator,
+        setup: &Setup,
+        count: usize,
+    ) -> Result<Data, Diagnostics> {
         let moved: Vec<usize> = self.map.moved().collect();
         let inputs = self.map.moved_inputs(&self.machine);
-        let samples = random_joint_samples(manipulator, &moved, count, self.seed)
+        let tries = if self.map.instruments().is_some() { TRIES * count } else { count };
+        let samples = random_joint_samples(manipulator, &moved, tries, self.seed)
             .and_then(|samples| samples.inputs(manipulator, &inputs));
         let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
         let stations = self.map.station_names();
@@ -127,11 +137,12 @@ impl Simulate {
             let station = i % stations.len();
             Observation { station, ..self.map.planned(line, sample) }
         });
-        Ok(Data {
-            file: "--samples".to_owned(),
-            observations: rows.collect(),
-            stations: stations.clone(),
-            ..Data::default()
-        })
+        let observations = aimed(setup, &self.map, rows.collect(), count)
+            .map_err(|failure| mistake::whole(&self.machine.origin, failure))?;
+        if observations.is_empty() {
+            return Err(unaimed(self.map.path()));
+        }
+        let file = "--samples".to_owned();
+        Ok(Data { file, observations, stations: stations.clone(), ..Data::default() })
     }
 }

@@ -1,0 +1,232 @@
+//! Instruments that are read one by one, several of them in one file.
+
+use abbe::identify::{Fixture, Gauge, Place, Reading};
+
+use super::column::Column;
+
+/// What kind of instrument it is, and what it looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The coordinates of a target, in the instrument's frame.
+    Point,
+    /// How far a target is from a point: a ballbar, a wire.
+    Distance,
+    /// A target is held at a point: nothing is read.
+    Contact,
+    /// A target touches a plane: nothing is read.
+    Plane,
+    /// A target touches a sphere: nothing is read.
+    Sphere,
+    /// How far a target is along a direction: a dial indicator with a flat tip.
+    Indicator,
+    /// How far two targets are apart.
+    Between,
+    /// By how much a mirror on the tool leans towards a direction: an autocollimator.
+    Angle,
+}
+
+/// One instrument of a map.
+#[derive(Clone, Debug)]
+pub struct Instrument {
+    /// What it is called.
+    pub name: String,
+    /// What it is.
+    pub kind: Kind,
+    /// The columns of its numbers: none if it is touched.
+    pub columns: Vec<Column>,
+    /// What makes them coherent.
+    pub factor: f64,
+    /// In which rows it is read: those with this number in the map's column `setup`; all if there is none.
+    pub setup: Option<f64>,
+    /// Between which readings it can be used: the length unit or rad.
+    pub range: Option<[f64; 2]>,
+    /// One standard deviation: none if the data are to tell it.
+    pub uncertainty: Option<f64>,
+    /// About where it looks, in `F_0`.
+    pub at: Option<[f64; 3]>,
+    /// Its readings, by index.
+    pub readings: std::ops::Range<usize>,
+}
+
+/// All instruments of a map, and what they look at.
+#[derive(Clone, Debug, Default)]
+pub struct Instruments {
+    /// One by one.
+    pub list: Vec<Instrument>,
+    /// Targets in the frame of the tool, about there.
+    pub targets: Vec<[f64; 3]>,
+    /// What stands still, in `F_0`.
+    pub fixtures: Vec<Fixture>,
+    /// All their readings.
+    pub readings: Vec<Reading>,
+    /// The column that says in which setup a row was measured.
+    pub setup: Option<Column>,
+}
+
+/// What an instrument looks at, and how good it is.
+pub(super) struct Look {
+    /// Its targets, by index.
+    pub(super) targets: Vec<usize>,
+    /// A point in `F_0`, the length unit.
+    pub(super) at: [f64; 3],
+    /// A direction in `F_0`.
+    pub(super) direction: [f64; 3],
+    /// The normal of a mirror, in the frame of the tool.
+    pub(super) mirror: [f64; 3],
+    /// What the instrument adds; unknown if none.
+    pub(super) zero: Option<f64>,
+    /// One standard deviation, or what stands for one that is unknown.
+    pub(super) uncertainty: f64,
+}
+
+impl Kind {
+    /// Whether the machine is moved until it touches: nothing but its joints is read.
+    pub fn is_touched(self) -> bool {
+        matches!(self, Self::Contact | Self::Plane | Self::Sphere)
+    }
+
+    /// How many columns it has.
+    pub fn columns(self) -> usize {
+        match self {
+            Self::Point => 3,
+            _ if self.is_touched() => 0,
+            _ => 1,
+        }
+    }
+}
+
+impl Instruments {
+    /// Adds the fixture and the readings of an instrument, and says which readings those are.
+    pub(super) fn add(&mut self, name: &str, kind: Kind, look: &Look) -> std::ops::Range<usize> {
+        let fixture = self.fixtures.len();
+        let place = match kind {
+            Kind::Distance | Kind::Contact | Kind::Sphere => Some(Place::Point(look.at)),
+            Kind::Plane | Kind::Indicator | Kind::Angle => Some(Place::Direction(look.direction)),
+            Kind::Point | Kind::Between => None,
+        };
+        self.fixtures.extend(place.map(|place| Fixture { name: name.to_owned(), place }));
+        let target = look.targets[0];
+        let gauges = match kind {
+            Kind::Point => (0..3).map(|axis| Gauge::Coordinate { target, axis }).collect(),
+            Kind::Distance | Kind::Sphere => vec![Gauge::Distance { target, from: fixture }],
+            Kind::Contact => (0..3).map(|axis| Gauge::Apart { target, from: fixture, axis }).collect(),
+            Kind::Plane | Kind::Indicator => vec![Gauge::Along { target, direction: fixture }],
+            Kind::Between => vec![Gauge::Between { targets: [target, *look.targets.last().unwrap_or(&0)] }],
+            Kind::Angle => vec![Gauge::Lean { mirror: look.mirror, direction: fixture }],
+        };
+        let first = self.readings.len();
+        // n · (p − at): zero where the target is at the place that it is stated to be about.
+        let along =
+            || -look.direction.iter().zip(look.at).map(|(n, x)| n * x).sum::<f64>() / norm(look.direction);
+        let (zero, zero_known) = match kind {
+            Kind::Point | Kind::Contact => (0.0, true),
+            Kind::Distance | Kind::Between | Kind::Sphere => (look.zero.unwrap_or(0.0), look.zero.is_some()),
+            Kind::Plane | Kind::Indicator => (along(), false),
+            Kind::Angle => (0.0, false),
+        };
+        self.readings.extend(gauges.into_iter().map(|gauge| Reading {
+            name: name.to_owned(),
+            gauge,
+            zero,
+            zero_known,
+            uncertainty: look.uncertainty,
+            touched: kind.is_touched(),
+            instrument: self.list.len(),
+        }));
+        first..self.readings.len()
+    }
+
+    /// Whether any of them sees where `F_0` is: the fixtures of all others stand in `F_0`.
+    pub(super) fn see_the_base(&self) -> bool {
+        self.list.iter().any(|instrument| instrument.kind == Kind::Point)
+    }
+
+    /// One standard deviation of the first that tells lengths.
+    pub(super) fn uncertainty(&self) -> f64 {
+        let lengths = self.readings.iter().find(|reading| !reading.gauge.is_angle());
+        lengths.map_or(1.0, |reading| reading.uncertainty)
+    }
+
+    /// Every setup, and the instruments that are read in it, by index; a single one if the map has no column for them.
+    pub fn setups(&self) -> Vec<(Option<f64>, Vec<usize>)> {
+        let mut numbers: Vec<f64> = self.list.iter().filter_map(|instrument| instrument.setup).collect();
+        numbers.sort_by(f64::total_cmp);
+        numbers.dedup();
+        let all = match numbers.is_empty() {
+            true => vec![None],
+            false => numbers.into_iter().map(Some).collect(),
+        };
+        all.into_iter().map(|setup| (setup, self.read_in(setup))).collect()
+    }
+
+    /// The instruments that are read in a setup.
+    pub(super) fn read_in(&self, setup: Option<f64>) -> Vec<usize> {
+        let read = |i: &usize| self.list[*i].setup.is_none() || self.list[*i].setup == setup;
+        (0..self.list.len()).filter(read).collect()
+    }
+
+    /// Readings that are still to come, of these instruments.
+    pub fn unread(&self, instruments: &[usize]) -> Vec<Option<f64>> {
+        let mut readings = vec![None; self.readings.len()];
+        for i in instruments {
+            readings[self.list[*i].readings.clone()].fill(Some(0.0));
+        }
+        readings
+    }
+
+    /// The setup in which these were read.
+    pub(super) fn setup_of(&self, readings: &[Option<f64>]) -> Option<f64> {
+        let read = |instrument: &&Instrument| {
+            instrument.setup.is_some() && readings[instrument.readings.clone()].iter().any(Option::is_some)
+        };
+        self.list.iter().find(read).and_then(|instrument| instrument.setup)
+    }
+
+    /// The readings that the numbers of a row are: first its setup, if there is a column for it, then the columns of all
+    /// instruments; none where a cell is empty. Or why they are none.
+    pub(super) fn read(&self, numbers: &[Option<f64>]) -> Result<Vec<Option<f64>>, String> {
+        let mut numbers = numbers.iter().copied();
+        let setup = self.setup.as_ref().and_then(|_| numbers.next().flatten());
+        let mut readings = vec![None; self.readings.len()];
+        let read = self.read_in(setup);
+        if read.is_empty() {
+            return Err("no instrument of the map is read in this setup".to_owned());
+        }
+        for (i, instrument) in self.list.iter().enumerate() {
+            let told: Vec<Option<f64>> = numbers.by_ref().take(instrument.columns.len()).collect();
+            let is_read = read.contains(&i);
+            if !is_read && told.iter().any(Option::is_some) {
+                return Err(format!("`{}` has a reading in a setup that is not its own", instrument.name));
+            }
+            for (place, reading) in instrument.readings.clone().enumerate() {
+                readings[reading] = match instrument.kind.is_touched() {
+                    true => is_read.then_some(0.0),
+                    false => told[place].map(|number| number * instrument.factor),
+                };
+            }
+        }
+        if readings.iter().all(Option::is_none) {
+            return Err("nothing was read".to_owned());
+        }
+        Ok(readings)
+    }
+
+    /// The numbers of readings, as [`read`](Self::read) takes them.
+    pub(super) fn numbers(&self, readings: &[Option<f64>]) -> Vec<Option<f64>> {
+        let mut numbers: Vec<Option<f64>> = self.setup.iter().map(|_| self.setup_of(readings)).collect();
+        for instrument in self.list.iter().filter(|instrument| !instrument.kind.is_touched()) {
+            let told = readings[instrument.readings.clone()].iter();
+            numbers.extend(told.map(|reading| reading.map(|value| value / instrument.factor)));
+        }
+        numbers
+    }
+
+    /// The columns of what is read.
+    pub(super) fn columns(&self) -> Vec<&Column> {
+        self.setup.iter().chain(self.list.iter().flat_map(|instrument| &instrument.columns)).collect()
+    }
+}
+
+pub(super) fn norm(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

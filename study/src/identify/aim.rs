@@ -1,0 +1,94 @@
+//! Configurations at which the instruments of a map can be read.
+
+use abbe::identify::{Failure, Fixture, Gauge, Measurement, Model, Observation, Place, Reading, touched};
+use abbe_codegen::diagnostic::Diagnostics;
+
+use super::setup::Setup;
+use crate::data::{Instruments, Kind, Map};
+use crate::mistake;
+
+/// The same configurations, each in one setup after the other and moved to where the ideal machine touches what it is to
+/// touch, stands at an indicator, and has readings within their ranges. Those that cannot are left out; `most` are enough.
+///
+/// Without instruments, or with such as are read anywhere, nothing is changed.
+pub(crate) fn aimed(
+    setup: &Setup,
+    map: &Map,
+    mut configurations: Vec<Observation>,
+    most: usize,
+) -> Result<Vec<Observation>, Failure> {
+    let Some(all) = map.instruments() else {
+        configurations.truncate(most);
+        return Ok(configurations);
+    };
+    let moved: Vec<usize> = map.moved().collect();
+    let aims: Vec<Aim> = all.setups().into_iter().map(|(_, read)| Aim::new(setup, all, &read)).collect();
+    let mut aimed = Vec::new();
+    for (i, configuration) in configurations.into_iter().enumerate() {
+        if aimed.len() == most {
+            break;
+        }
+        // The next setup when the last one has its row.
+        let aim = &aims[aimed.len() % aims.len()];
+        // The golden ratio spreads readings evenly over their ranges.
+        let share = (0.5 + (i / aims.len()) as f64 * 0.618_033_988_749_895).fract();
+        let wanted: Vec<Option<f64>> = aim.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
+        if let Some(q) = touched(&aim.model, &configuration, &[], &wanted, &moved)? {
+            let measured = Measurement::Readings(aim.unread.clone());
+            aimed.push(Observation { q, measured, ..configuration });
+        }
+    }
+    Ok(aimed)
+}
+
+/// What must hold in a setup.
+struct Aim<'a> {
+    /// The ideal machine, with a reading for each condition.
+    model: Model<'a>,
+    /// Between what each is to be.
+    wanted: Vec<[f64; 2]>,
+    /// The readings that are made.
+    unread: Vec<Option<f64>>,
+}
+
+impl<'a> Aim<'a> {
+    fn new(setup: &Setup<'a>, all: &Instruments, read: &[usize]) -> Self {
+        let mut model = Model { readings: Vec::new(), ..setup.ideal.clone() };
+        let mut wanted = Vec::new();
+        for instrument in read.iter().map(|i| &all.list[*i]) {
+            let readings = &all.readings[instrument.readings.clone()];
+            let [lower, upper] = instrument.range.unwrap_or_default();
+            match (instrument.kind, instrument.at) {
+                (Kind::Indicator, Some(at)) => {
+                    // Not only along the direction: the target must be before the tip.
+                    let Gauge::Along { target, direction } = readings[0].gauge else { continue };
+                    let Place::Direction(n) = all.fixtures[direction].place else { continue };
+                    let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+                    let from = model.fixtures.len();
+                    model.fixtures.push(Fixture { name: instrument.name.clone(), place: Place::Point(at) });
+                    for (axis, n) in n.iter().enumerate() {
+                        let gauge = Gauge::Apart { target, from, axis };
+                        model.readings.push(Reading { gauge, zero: 0.0, ..readings[0].clone() });
+                        wanted.push([lower, upper].map(|reading| reading * n / length));
+                    }
+                }
+                _ if instrument.kind.is_touched() || instrument.range.is_some() => {
+                    model.readings.extend(readings.iter().cloned());
+                    wanted.extend(readings.iter().map(|_| [lower, upper]));
+                }
+                _ => {}
+            }
+        }
+        Self { model, wanted, unread: all.unread(read) }
+    }
+}
+
+/// The mistake that no configuration can be measured.
+pub(crate) fn unaimed(map: &str) -> Diagnostics {
+    let help = "is `at` a place that the tool reaches, in F_0? can `range` be met there?";
+    mistake::with_help(
+        map,
+        "within the limits of the joints, no configuration was found at which these instruments can be read",
+        help,
+    )
+}

@@ -1,0 +1,215 @@
+//! Instruments that are read one by one: what they tell of a machine whose errors are known, and what they cannot tell.
+
+use std::collections::BTreeMap;
+
+use abbe_codegen::spec::Spec;
+use abbe_study::data::{Data, Map};
+use abbe_study::identify::{Identify, Prior, Report, Settings};
+use abbe_study::plan::{Choice, Plan};
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Acceptance, Machine, Study};
+
+/// What is wrong with the UR5 of these tests: by name, in mm and rad.
+const TRUTH: [(&str, f64); 6] =
+    [("e_x2", 0.6), ("e_s2", 0.8e-3), ("e_y3", -0.5), ("e_p3", -1.1e-3), ("e_z4", 0.4), ("e_r5", 0.7e-3)];
+
+const FRAMES: [&str; 6] = ["base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"];
+
+fn nominal() -> Machine {
+    Machine::find("ur5").unwrap()
+}
+
+fn real() -> Machine {
+    let mut text =
+        format!("{}\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\n", nominal().text().unwrap());
+    for (name, value) in TRUTH {
+        let (component, frame) = name.split_at(3);
+        let unit = if ["e_x", "e_y", "e_z"].contains(&component) { "mm" } else { "rad" };
+        let frame = FRAMES[frame.parse::<usize>().unwrap() - 1];
+        text += &format!("[[source.effect]]\nframe = \"{frame}\"\n{component} = \"{value} {unit}\"\n");
+    }
+    Machine::of_spec(Spec::parse("real.toml", &text).unwrap(), "real.toml")
+}
+
+/// A map with a ball beside the last axis, and these instruments.
+fn map(instruments: &str) -> Map {
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let ball = "[[target]]\nname = \"ball\"\nposition = [\"60 mm\", \"20 mm\", \"50 mm\"]\n";
+    let text = format!("[data]\nsetup = \"setup\"\n[joints]\n{joints}\n{ball}{instruments}");
+    Map::parse("map.toml", &text, &nominal().spec).unwrap_or_else(|mistake| panic!("{mistake}"))
+}
+
+/// An instrument in each of several setups.
+fn in_setups(kind: &str, rest: &[&str]) -> String {
+    let one = |(i, rest): (usize, &&str)| {
+        let n = i + 1;
+        format!("[[instrument]]\nname = \"{kind}{n}\"\nkind = \"{kind}\"\nsetup = {n}\n{rest}\n")
+    };
+    rest.iter().enumerate().map(one).collect()
+}
+
+const PLACES: [&str; 4] = [
+    "at = [\"400 mm\", \"200 mm\", \"300 mm\"]",
+    "at = [\"-350 mm\", \"250 mm\", \"200 mm\"]",
+    "at = [\"100 mm\", \"-450 mm\", \"400 mm\"]",
+    "at = [\"-200 mm\", \"-350 mm\", \"150 mm\"]",
+];
+
+fn contacts() -> Map {
+    let rest = PLACES.map(|at| format!("{at}\nuncertainty = \"0.01 mm\""));
+    map(&in_setups("contact", &rest.each_ref().map(String::as_str)))
+}
+
+fn planes() -> Map {
+    let directions = ["[0, 0, 1]", "[1, 0, 0.2]", "[0.1, 1, 0]"];
+    let rest: Vec<String> = directions
+        .iter()
+        .zip(PLACES)
+        .map(|(n, at)| format!("{at}\ndirection = {n}\nuncertainty = \"0.01 mm\""))
+        .collect();
+    map(&in_setups("plane", &rest.iter().map(String::as_str).collect::<Vec<_>>()))
+}
+
+fn indicators() -> Map {
+    let directions = ["[0, 0, 1]", "[1, 0, 0]", "[0, 1, 0]"];
+    let places = PLACES.iter().flat_map(|at| directions.map(|n| (at, n)));
+    let rest: Vec<String> = places
+        .map(|(at, n)| {
+            format!("column = \"dial\"\nunit = \"mm\"\n{at}\ndirection = {n}\nrange = [\"-4 mm\", \"4 mm\"]\nuncertainty = \"0.01 mm\"")
+        })
+        .collect();
+    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+    map(&in_setups("indicator", &rest))
+}
+
+fn sphere(radius: &str) -> Map {
+    let at = PLACES[0];
+    map(&format!(
+        "[[instrument]]\nname = \"sphere\"\nkind = \"sphere\"\n{at}\nradius = {radius}\nuncertainty = \"0.01 mm\"\n"
+    ))
+}
+
+fn distance(zero: &str, range: &str) -> Map {
+    let at = PLACES[0];
+    map(&format!(
+        "[[instrument]]\nname = \"bar\"\nkind = \"distance\"\ncolumn = \"length\"\nunit = \"mm\"\n{at}\nzero = {zero}\n{range}\nuncertainty = \"0.01 mm\"\n"
+    ))
+}
+
+fn simulated(map: &Map, samples: usize, seed: u64) -> Data {
+    let job = Simulate {
+        machine: real(),
+        map: map.clone(),
+        at: Places::Samples(samples),
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed,
+    };
+    let report = job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"));
+    // Through the file, as measurements come.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("data.csv");
+    std::fs::write(&path, report.table.csv()).unwrap();
+    Data::read(&path, map).unwrap_or_else(|mistake| panic!("{mistake}"))
+}
+
+fn identified(map: &Map, data: Data, prior: f64) -> Report {
+    let settings = Settings { loss: abbe::identify::Loss::Squares, prior: Prior::Share(prior), folds: 5 };
+    let job =
+        Identify { machine: nominal(), map: map.clone(), data, test: None, terms: Vec::new(), settings };
+    job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"))
+}
+
+/// How far what was found is from what it must be, in its standard deviations: the truth, and what is held acts as.
+fn z_scores(report: &Report) -> Vec<(String, f64)> {
+    let mut expected: BTreeMap<&str, f64> = TRUTH.into_iter().collect();
+    for held in &report.held {
+        let truth = TRUTH.iter().find(|(name, _)| *name == held.name).map_or(0.0, |(_, value)| *value);
+        for (name, factor) in &held.acts_as {
+            *expected.entry(name).or_default() += factor * truth;
+        }
+    }
+    let z = |parameter: &abbe_study::identify::Parameter| {
+        let expected = expected.get(parameter.name.as_str()).copied().unwrap_or_default();
+        (parameter.name.clone(), (parameter.value - expected) / parameter.standard_deviation)
+    };
+    report.parameters.iter().map(z).collect()
+}
+
+/// Every kind finds the machine again to within four of the standard deviations that it states.
+#[test]
+fn every_kind_finds_the_machine() {
+    let angle = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n\
+                 [[instrument]]\nname = \"mirror\"\nkind = \"angle\"\ncolumn = \"lean\"\nunit = \"mrad\"\ndirection = [0.2, 1, 0]\nmirror = [1, 0, 0]\nuncertainty = \"0.02 mrad\"\n";
+    for (name, map) in [
+        ("wire", distance("\"unknown\"", "")),
+        ("bar", distance("0", "range = [\"299 mm\", \"301 mm\"]")),
+        ("contacts", contacts()),
+        ("planes", planes()),
+        ("sphere", sphere("\"200 mm\"")),
+        ("indicators", indicators()),
+        ("tracker and mirror", map(angle)),
+    ] {
+        let report = identified(&map, simulated(&map, 240, 3), 0.002);
+        let z = z_scores(&report);
+        let rms = (z.iter().map(|(_, z)| z * z).sum::<f64>() / z.len() as f64).sqrt();
+        println!("{name}: rank {}, σ factor {:.3}, z rms {rms:.2}", report.rank, report.uncertainty_factor);
+        let far: Vec<_> = z.iter().filter(|(_, z)| z.abs() > 4.0).collect();
+        assert!(far.is_empty(), "{name}: {far:?}");
+        assert!((0.8..1.2).contains(&report.uncertainty_factor), "{name}: {}", report.uncertainty_factor);
+    }
+}
+
+/// The rank of a plan: six axes and a point of unknown place on the tool have 4 · 6 + 3 = 27 combinations, of which 6 are where
+/// the machine stands.
+#[test]
+fn ranks_are_those_of_theory() {
+    let tracker = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n";
+    for (name, map, expected) in [
+        ("tracker", map(tracker), 27),
+        // Three places of the bar's end instead of six of the base; its length is known.
+        ("bar", distance("0", "range = [\"299 mm\", \"301 mm\"]"), 24),
+        // Its zero is one more, and told: the lengths differ.
+        ("wire", distance("\"unknown\"", ""), 25),
+        ("sphere", sphere("\"200 mm\""), 24),
+        // Of the radius and the size of the machine, one can be told.
+        ("sphere of unknown radius", sphere("\"unknown\""), 24),
+        // Four places, of which twelve coordinates; three turns of the base and the size cannot be told.
+        ("contacts", contacts(), 27 - 6 + 12 - 1),
+        ("planes", planes(), 27 - 6 + 9 - 1),
+        ("indicators", indicators(), 27 - 6 + 36),
+    ] {
+        let machine = nominal();
+        let study = Study::find(None, &machine).unwrap();
+        let choice = Choice::Optimal { count: 100, candidates: 240 };
+        let report = Plan { machine, map, choice, study }
+            .run(&mut ())
+            .unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
+        println!("{name}: {} (theory {expected}), condition {:.0}", report.rank, report.condition);
+        assert_eq!(report.rank, expected, "{name}");
+    }
+}
+
+/// Two instruments that say nothing of how good they are: the data do.
+#[test]
+fn uncertainties_are_estimated() {
+    let both = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = UNCERTAIN1\n\
+                [[instrument]]\nname = \"wire\"\nkind = \"distance\"\ncolumn = \"length\"\nunit = \"mm\"\nat = [\"400 mm\", \"200 mm\", \"300 mm\"]\nzero = \"unknown\"\nuncertainty = UNCERTAIN2\n";
+    let with = |a: &str, b: &str| map(&both.replace("UNCERTAIN1", a).replace("UNCERTAIN2", b));
+    let data = simulated(&with("\"0.06 mm\"", "\"0.008 mm\""), 150, 11);
+    let report = identified(&with("\"unknown\"", "\"unknown\""), data, 0.01);
+    let told: Vec<f64> = report.instruments.iter().map(|told| told.uncertainty).collect();
+    // 450 and 150 numbers, less what goes into the unknowns: 3.5 and 7 % at one standard deviation.
+    assert!((told[0] / 0.06 - 1.0).abs() < 0.12 && (told[1] / 0.008 - 1.0).abs() < 0.25, "{told:?}");
+    assert!(report.instruments.iter().all(|told| told.estimated && (told.factor - 1.0).abs() < 0.01));
+}
+
+/// What readings cannot tell of the size of the machine is said.
+#[test]
+fn the_size_is_told_or_not() {
+    let said = |map: Map| identified(&map, simulated(&map, 120, 5), 0.002).notes.join("\n");
+    assert!(said(contacts()).contains("cannot tell how large the machine is"));
+    assert!(said(distance("0", "range = [\"299 mm\", \"301 mm\"]")).contains("mm per metre at best"));
+}
