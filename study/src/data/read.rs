@@ -455,6 +455,7 @@ fn placement(
     }
     let count = match layout {
         Some(Layout::Targets(targets)) => targets.len(),
+        Some(Layout::Instruments(all)) => all.targets.len(),
         _ => 1,
     };
     let list = section.required("targets", document)?;
