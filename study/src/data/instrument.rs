@@ -185,23 +185,23 @@ impl Instruments {
     /// The readings that the numbers of a row are: first its setup, if there is a column for it, then the columns of all
     /// instruments; none where a cell is empty. Or why they are none.
     pub(super) fn read(&self, numbers: &[Option<f64>]) -> Result<Vec<Option<f64>>, String> {
-        let mut numbers = numbers.iter().copied();
-        let setup = self.setup.as_ref().and_then(|_| numbers.next().flatten());
+        let skipped = usize::from(self.setup.is_some());
+        let setup = numbers[..skipped].first().copied().flatten();
+        let names = self.distinct_columns();
+        let told = |column: &Column| {
+            let place = names.iter().position(|other| other.name == column.name)?;
+            numbers.get(skipped + place).copied().flatten()
+        };
         let mut readings = vec![None; self.readings.len()];
         let read = self.read_in(setup);
         if read.is_empty() {
             return Err("no instrument of the map is read in this setup".to_owned());
         }
-        for (i, instrument) in self.list.iter().enumerate() {
-            let told: Vec<Option<f64>> = numbers.by_ref().take(instrument.columns.len()).collect();
-            let is_read = read.contains(&i);
-            if !is_read && told.iter().any(Option::is_some) {
-                return Err(format!("`{}` has a reading in a setup that is not its own", instrument.name));
-            }
+        for instrument in read.into_iter().map(|i| &self.list[i]) {
             for (place, reading) in instrument.readings.clone().enumerate() {
                 readings[reading] = match instrument.kind.is_touched() {
-                    true => is_read.then_some(0.0),
-                    false => told[place].map(|number| number * instrument.factor),
+                    true => Some(0.0),
+                    false => told(&instrument.columns[place]).map(|number| number * instrument.factor),
                 };
             }
         }
@@ -214,16 +214,30 @@ impl Instruments {
     /// The numbers of readings, as [`read`](Self::read) takes them.
     pub(super) fn numbers(&self, readings: &[Option<f64>]) -> Vec<Option<f64>> {
         let mut numbers: Vec<Option<f64>> = self.setup.iter().map(|_| self.setup_of(readings)).collect();
-        for instrument in self.list.iter().filter(|instrument| !instrument.kind.is_touched()) {
-            let told = readings[instrument.readings.clone()].iter();
-            numbers.extend(told.map(|reading| reading.map(|value| value / instrument.factor)));
+        for column in self.distinct_columns() {
+            let told = self.list.iter().find_map(|instrument| {
+                let place = instrument.columns.iter().position(|own| own.name == column.name)?;
+                readings[instrument.readings.start + place].map(|value| value / instrument.factor)
+            });
+            numbers.push(told);
         }
         numbers
     }
 
     /// The columns of what is read.
     pub(super) fn columns(&self) -> Vec<&Column> {
-        self.setup.iter().chain(self.list.iter().flat_map(|instrument| &instrument.columns)).collect()
+        self.setup.iter().chain(self.distinct_columns()).collect()
+    }
+
+    /// The columns of all instruments, each once: an instrument that is used in several setups has one column.
+    fn distinct_columns(&self) -> Vec<&Column> {
+        let mut distinct: Vec<&Column> = Vec::new();
+        for column in self.list.iter().flat_map(|instrument| &instrument.columns) {
+            if distinct.iter().all(|other| other.name != column.name) {
+                distinct.push(column);
+            }
+        }
+        distinct
     }
 }
 
