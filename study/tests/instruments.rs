@@ -116,9 +116,17 @@ fn simulated(map: &Map, samples: usize, seed: u64) -> Data {
 }
 
 fn identified(map: &Map, data: Data, prior: f64) -> Report {
-    let settings = Settings { loss: abbe::identify::Loss::Squares, prior: Prior::Share(prior), folds: 5 };
-    let job =
-        Identify { machine: nominal(), map: map.clone(), data, test: None, terms: Vec::new(), settings };
+    let settings =
+        Settings { loss: abbe::identify::Loss::Squares, prior: Prior::Share(prior), folds: 5, time: None };
+    let job = Identify {
+        machine: nominal(),
+        map: map.clone(),
+        data,
+        test: None,
+        terms: Vec::new(),
+        harmonics: Vec::new(),
+        settings,
+    };
     job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"))
 }
 
@@ -183,8 +191,12 @@ fn ranks_are_those_of_theory() {
     ] {
         let machine = nominal();
         let study = Study::find(None, &machine).unwrap();
-        let choice = Choice::Optimal { count: 100, candidates: 240 };
-        let report = Plan { machine, map, choice, study }
+        let choice = Choice::Optimal {
+            criterion: abbe::identify::Criterion::Determinant,
+            count: 100,
+            candidates: 240,
+        };
+        let report = Plan { machine, map, choice, study, model_error: 0.0 }
             .run(&mut ())
             .unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
         println!("{name}: {} (theory {expected}), condition {:.0}", report.rank, report.condition);
