@@ -126,6 +126,7 @@ fn identified(map: &Map, data: Data, prior: f64) -> Report {
         terms: Vec::new(),
         harmonics: Vec::new(),
         settings,
+        accept: Acceptance::default(),
     };
     job.run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}"))
 }

@@ -288,7 +288,7 @@ fn instruments(report: &Report) -> String {
             if told.estimated { "estimated" } else { "stated" }.to_owned(),
         ]);
     }
-    table.right(&[1, 2, 4])
+    format!("\n{}", table.right(&[1, 2, 4]))
 }
 
 fn terms(spec: &Spec, report: &Report) -> String {

@@ -35,11 +35,14 @@ impl Provenance {
 /// The instrument, and what it measured.
 pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
     let angle = format!(" and {} mrad", short(map.uncertainty.angle * 1e3));
-    let uncertainty = format!(
-        "{}{} (one standard deviation)",
-        number::quantity(map.uncertainty.length, spec.length.symbol()),
-        if map.is_pose() { &angle } else { "" }
-    );
+    let uncertainty = match &map.layout {
+        Layout::Instruments(_) => "every instrument has its own".to_owned(),
+        _ => format!(
+            "{}{} (one standard deviation)",
+            number::quantity(map.uncertainty.length, spec.length.symbol()),
+            if map.is_pose() { &angle } else { "" }
+        ),
+    };
     let base = match map.base {
         Base::Known => "in F<sub>0</sub> but for small errors",
         Base::Unknown => "anywhere: its place was fitted",
@@ -50,6 +53,10 @@ pub(super) fn instrument(spec: &Spec, map: &Map) -> String {
         Layout::Difference(..) => "the tool point, as commanded minus actual".to_owned(),
         Layout::Targets(targets) => format!("{} targets", targets.len()),
         Layout::Pose(..) => "position and orientation of the tool".to_owned(),
+        Layout::Instruments(all) => {
+            let names: Vec<String> = all.list.iter().map(|instrument| escaped(&instrument.name)).collect();
+            names.join(", ")
+        }
     };
     let facts = [
         ("Instrument", escaped(&map.title)),

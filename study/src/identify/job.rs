@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use abbe::identify::{
-    Configurations, Failure, Fit, Independent, Model, Observation, Place, Selection, Unknown, deviation_beyond, drift,
-    student_factor,
+    Configurations, Failure, Fit, Independent, Model, Observation, Place, Selection, Unknown,
+    deviation_beyond, drift, student_factor,
 };
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;

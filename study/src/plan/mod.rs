@@ -14,7 +14,7 @@ use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
 
 use crate::data::Map;
-use crate::identify::{Alike, Counts, NotKnown, Setup, aimed, alikes, scale_note, unaimed};
+use crate::identify::{Counts, NotKnown, Setup, aimed, alikes, scale_note, unaimed};
 use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, mistake};
 
