@@ -17,7 +17,7 @@ pub(super) struct Gradient {
     pub(super) along: [f64; 3],
     /// The same in the axes of `F_0`.
     along_in_f0: [f64; 3],
-    /// The target, or the normal of the mirror, in `F_0`.
+    /// What a direction is held against, in `F_0`: the target from where it is about, or the normal of the mirror.
     seen: [f64; 3],
 }
 
@@ -44,9 +44,9 @@ impl Model<'_> {
                 let along = core::array::from_fn(|i| f64::from(u8::from(i == axis)));
                 (target(j)[axis] - fixture(from)[axis], along, target(j))
             }
-            Gauge::Along { target: j, direction } => {
-                let n = fixture(direction);
-                (dot(n, target(j)), n, target(j))
+            Gauge::Along { target: j, about, direction } => {
+                let (n, apart) = (fixture(direction), difference(target(j), about));
+                (dot(n, apart), n, apart)
             }
             Gauge::Between { targets: [j, k] } => {
                 let apart = difference(target(j), target(k));

@@ -9,6 +9,9 @@ use super::{Failure, Fixture, Place, Reading, Role, Station, Uncertainty, Unknow
 use crate::analysis::sampling;
 use crate::{Class, Component, Manipulator, Pose};
 
+/// How well the direction of a fixture is known before, one standard deviation of a tilt: rad.
+const DIRECTION: f64 = 0.02;
+
 /// A manipulator with unknown errors, seen by an instrument.
 #[derive(Clone)]
 pub struct Model<'a> {
@@ -112,12 +115,14 @@ impl<'a> Model<'a> {
     /// What is known of any machine: its errors are some `share` of its size, turns some `share` of a radian.
     ///
     /// As standard deviations about zero for [`Options::priors`](super::Options::priors); none for base, tool and
-    /// magnitudes, which may be anything. What data tell weighs far more; this holds what they hardly tell.
+    /// magnitudes, which may be anything. Directions of fixtures are about where they are stated, to one degree. What data
+    /// tell weighs far more; this holds what they hardly tell.
     pub fn priors(&self, share: f64) -> Result<Vec<Option<f64>>, Failure> {
         let length = sampling::arm_length(self.manipulator, &self.s).map_err(Failure::Machine)?;
         let prior = |unknown: &Unknown| match unknown {
             Unknown::Error(_, component) if component.is_rotation() => Some(share),
             Unknown::Error(..) => Some(share * length),
+            Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture),
             _ => None,
         };
         Ok(self.unknowns.iter().map(prior).collect())
@@ -135,10 +140,16 @@ impl<'a> Model<'a> {
                 Unknown::Error(_, component) => of(1.0, component.is_rotation()),
                 Unknown::Base(_, component) | Unknown::Tool(component) => of(0.01, component.is_rotation()),
                 Unknown::Target(..) => of(0.01, false),
-                Unknown::Magnitude(_) | Unknown::Fixture(..) | Unknown::Zero(_) => None,
+                Unknown::Fixture(fixture, _) => self.direction_uncertainty(*fixture),
+                Unknown::Magnitude(_) | Unknown::Zero(_) => None,
             })
         };
         Ok(self.unknowns.iter().enumerate().map(expected).collect())
+    }
+
+    /// What is expected of the tilts of a fixture that is a direction.
+    fn direction_uncertainty(&self, fixture: usize) -> Option<f64> {
+        matches!(self.fixtures[fixture].place, Place::Direction(_)).then_some(DIRECTION)
     }
 
     /// Repeatable sources of the manipulator.

@@ -47,10 +47,12 @@ pub enum Gauge {
         /// Which coordinate.
         axis: usize,
     },
-    /// `n · p`: an indicator with a flat tip; a plane that is touched.
+    /// `n · (p − a)`: an indicator with a flat tip; a plane that is touched.
     Along {
         /// The target, by index.
         target: usize,
+        /// A place `a` near which it is read, so that a tilt of `n` is not confused with the zero; the length unit.
+        about: [f64; 3],
         /// The fixture, a direction.
         direction: usize,
     },

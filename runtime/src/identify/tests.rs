@@ -109,7 +109,7 @@ fn every_gauge(robot: &dyn Manipulator) -> Model<'_> {
         Gauge::Coordinate { target: 1, axis: 2 },
         Gauge::Distance { target: 0, from: 0 },
         Gauge::Apart { target: 1, from: 0, axis: 1 },
-        Gauge::Along { target: 0, direction: 1 },
+        Gauge::Along { target: 0, about: [800.0, -150.0, 300.0], direction: 1 },
         Gauge::Between { targets: [0, 1] },
         Gauge::Lean { mirror: [0.6, 0.0, 0.8], direction: 1 },
     ];

@@ -110,19 +110,17 @@ impl Instruments {
             Kind::Point => (0..3).map(|axis| Gauge::Coordinate { target, axis }).collect(),
             Kind::Distance | Kind::Sphere => vec![Gauge::Distance { target, from: fixture }],
             Kind::Contact => (0..3).map(|axis| Gauge::Apart { target, from: fixture, axis }).collect(),
-            Kind::Plane | Kind::Indicator => vec![Gauge::Along { target, direction: fixture }],
+            Kind::Plane | Kind::Indicator => {
+                vec![Gauge::Along { target, about: look.at, direction: fixture }]
+            }
             Kind::Between => vec![Gauge::Between { targets: [target, *look.targets.last().unwrap_or(&0)] }],
             Kind::Angle => vec![Gauge::Lean { mirror: look.mirror, direction: fixture }],
         };
         let first = self.readings.len();
-        // n · (p − at): zero where the target is at the place that it is stated to be about.
-        let along =
-            || -look.direction.iter().zip(look.at).map(|(n, x)| n * x).sum::<f64>() / norm(look.direction);
         let (zero, zero_known) = match kind {
             Kind::Point | Kind::Contact => (0.0, true),
             Kind::Distance | Kind::Between | Kind::Sphere => (look.zero.unwrap_or(0.0), look.zero.is_some()),
-            Kind::Plane | Kind::Indicator => (along(), false),
-            Kind::Angle => (0.0, false),
+            Kind::Plane | Kind::Indicator | Kind::Angle => (0.0, false),
         };
         self.readings.extend(gauges.into_iter().map(|gauge| Reading {
             name: name.to_owned(),

@@ -61,7 +61,7 @@ impl<'a> Aim<'a> {
             match (instrument.kind, instrument.at) {
                 (Kind::Indicator, Some(at)) => {
                     // Not only along the direction: the target must be before the tip.
-                    let Gauge::Along { target, direction } = readings[0].gauge else { continue };
+                    let Gauge::Along { target, direction, .. } = readings[0].gauge else { continue };
                     let Place::Direction(n) = all.fixtures[direction].place else { continue };
                     let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
                     let from = model.fixtures.len();
