@@ -95,7 +95,7 @@ fn what_cannot_be_had_within_limits_is_said() {
     assert_eq!(run.status, 1, "{}", run.stderr);
     narrow(&run.stdout);
     for expected in [
-        "q4 at its limit",
+        "q4 is at its limit",
         "d1 is commanded to -5 mm, beyond its limits 0 mm … 2256 mm",
         "`d1` is `x`, not a number",
     ] {

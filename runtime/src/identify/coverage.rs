@@ -7,6 +7,12 @@ use super::*;
 use crate::analysis::by_hand::Pps;
 use crate::analysis::{Workspace, joint_samples};
 
+/// As `identify` does: errors are expected to be no more than a hundredth of the arm.
+fn options(model: &Model, loss: Loss) -> Options {
+    let priors = model.priors(0.01).unwrap();
+    Options { loss, expected: model.expected(&priors).unwrap(), priors, ..Options::default() }
+}
+
 /// Errors of the frames of a machine that is seen at one target or three.
 fn machine(targets: usize) -> Model<'static> {
     let places = [[-200.0, 10.0, 150.0], [250.0, 0.0, -100.0], [30.0, 40.0, 300.0]];
@@ -64,7 +70,7 @@ fn coverage(model: &Model, list: &[Observation], sizes: [f64; 2], loss: Loss, ma
     for seed in 0..machines {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let (truth, data) = drawn(model, list, sizes, &mut random);
-        let found = fit(model, &data, &Options { loss, ..Options::default() }).unwrap();
+        let found = fit(model, &data, &options(model, loss)).unwrap();
         wronged += f64::from(u8::from(found.rejected(&data).next().is_some())) / machines as f64;
         let mut expected = truth.clone();
         for (k, act_as) in &found.identifiable.held {
@@ -135,7 +141,9 @@ fn copies_of_rows_say_nothing_new() {
         let (_, once) = drawn(&model, &planned(&model, 30, visits), [0.1, 0.02], &mut random);
         let ten_times: Vec<Observation> = (0..10).flat_map(|_| once.clone()).collect();
         let deviations = |data: &[Observation]| {
-            let found = fit(&model, data, &Options::default()).unwrap();
+            // The machine is five times as bad as its instrument: what it tells is judged by that.
+            let options = Options { noise: 5.0, ..options(&model, Loss::Squares) };
+            let found = fit(&model, data, &options).unwrap();
             assert_eq!(found.configurations, 30);
             found.standard_deviations()
         };
@@ -158,7 +166,7 @@ fn a_gross_error_among_few_rows_is_named() {
             let Measurement::Points(points) = &mut data[7].measured else { unreachable!() };
             points[0].as_mut().unwrap()[1] += 2.0;
             for loss in [Loss::Tukey, Loss::Huber] {
-                let found = fit(&model, &data, &Options { loss, ..Options::default() }).unwrap();
+                let found = fit(&model, &data, &options(&model, loss)).unwrap();
                 let rejected: Vec<u64> = found.rejected(&data).map(|row| row.line).collect();
                 assert_eq!(rejected, [9], "{rows} {visits} {seed} {loss:?}");
             }
