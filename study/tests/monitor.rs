@@ -280,7 +280,7 @@ fn checks_that_cannot_be_read_are_refused() {
     assert_eq!(checks.list.iter().map(|check| check.data.observations.len()).collect::<Vec<_>>(), [1, 1]);
     let wrong = file("wrong.csv", format!("date,{heading}\n1.3.2026,{row}"));
     assert!(mistake(&[wrong], &dated).contains("line 2: `date` is `1.3.2026`, no date and no number"));
-    assert!(mistake(&[first.clone()], &dated).contains("there is no column `date`"));
+    assert!(mistake(std::slice::from_ref(&first), &dated).contains("there is no column `date`"));
     let mut checks = Checks::read(&[first], &plain).unwrap();
     assert!(
         checks

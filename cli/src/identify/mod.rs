@@ -124,7 +124,7 @@ fn families(terms: &[Terms]) -> Vec<Family> {
 fn harmonics(arguments: &[String], spec: &Spec) -> Result<Vec<Harmonics>, Failure> {
     let read = |argument: &String| {
         let mistake = |message: &str| {
-            Failure::of(&format!("--harmonics {argument}"), message)
+            Failure::of(format!("--harmonics {argument}"), message)
                 .help("a revolute joint and how many times per turn of it: `--harmonics q2=1,2,101`")
         };
         let (joint, times) = argument.split_once('=').ok_or_else(|| mistake("there is no `=`"))?;

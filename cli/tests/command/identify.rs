@@ -372,7 +372,7 @@ fn too_few_rows() {
         &data,
         &[
             "24 independent numbers were measured, at 8 configurations, for 24 or more unknowns",
-            "measure more configurations",
+            "measure at more configurations",
         ],
     );
 }

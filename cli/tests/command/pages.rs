@@ -51,7 +51,9 @@ fn pages_say_what_they_rest_on_and_are_the_same_every_time() {
                 assert!(text.contains(expected), "{expected}");
             }
             assert!(text == written(), "another page the second time");
-            assert_eq!(text.contains("One in "), samples == "1500");
+            if arguments[0] == "identify" {
+                assert_eq!(text.contains("One in "), samples == "1500");
+            }
         }
     }
 }

@@ -168,7 +168,7 @@ fn gain(seen: &DMatrix<f64>, aimed: &DMatrix<f64>, rows: usize, i: usize, sign: 
         _ => {
             let square = |matrix: &DMatrix<f64>| {
                 let rows = matrix.rows(rows * i, rows);
-                &rows * rows.transpose()
+                rows * rows.transpose()
             };
             let Some(cholesky) = (DMatrix::identity(rows, rows) + square(seen) * sign).cholesky() else {
                 return f64::INFINITY;
@@ -187,7 +187,7 @@ fn gain_of<const N: usize>(seen: &DMatrix<f64>, aimed: &DMatrix<f64>, i: usize, 
         let mut square = SMatrix::<f64, N, N>::zeros();
         for column in matrix.column_iter() {
             let rows = column.fixed_rows::<N>(N * i);
-            square += &rows * rows.transpose();
+            square += rows * rows.transpose();
         }
         square
     };

@@ -256,7 +256,9 @@ fn chosen_rows(data: &[Observation], fit: &Fit, folds: &Folds, most: usize) -> V
     let numbers: usize = data.iter().map(Observation::count).sum();
     let step = numbers.div_ceil(most.max(1)).max(1);
     let mut rows = vec![Vec::new(); folds.count];
-    for i in (0..data.len()).filter(|i| fit.weights[*i] >= REJECTED && data[*i].configuration % step == 0) {
+    for i in
+        (0..data.len()).filter(|i| fit.weights[*i] >= REJECTED && data[*i].configuration.is_multiple_of(step))
+    {
         rows[folds.fold[i]].push(i);
     }
     rows

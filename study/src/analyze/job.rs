@@ -120,7 +120,7 @@ impl Analyze {
         let mut judged = Vec::new();
         for (measurand, tolerance) in Measurand::ALL.into_iter().zip(tolerances) {
             if let Some(tolerance) = tolerance {
-                judged.push(Judged::new(&budget, measurand, (tolerance, study.probability), &at)?);
+                judged.push(Judged::new(&budget, measurand, (tolerance, study.probability), at)?);
             }
         }
         let mut stated = Vec::new();

@@ -58,14 +58,14 @@ pub(crate) fn parse_date(text: &str) -> Option<(Calendar, f64)> {
 /// The date in the name of a file: `check-2026-03-14.csv`, `20260314_flange.csv`.
 pub(crate) fn in_name(name: &str) -> Option<f64> {
     let starts = (0..name.len()).filter(|i| *i == 0 || !name.as_bytes()[i - 1].is_ascii_digit());
-    let dates = starts.filter_map(|i| {
+    let mut dates = starts.filter_map(|i| {
         if let Some(date) = name.get(i..i + 10).and_then(day) {
             return Some(date);
         }
         let longer = name.as_bytes().get(i + 8).is_some_and(u8::is_ascii_digit);
         name.get(i..i + 8).filter(|_| !longer).and_then(compact)
     });
-    dates.last()
+    dates.next_back()
 }
 
 /// `20260314`.

@@ -99,8 +99,8 @@ pub(super) fn units(setup: &Setup) -> Vec<Vec<Change>> {
     let mut all = vec![Vec::new()];
     let mut add = |changes: [Change; 2]| {
         let with = |change: &Change| {
-            let change = change.clone();
-            all.iter().map(|others| [&others[..], &[change.clone()]].concat()).collect::<Vec<_>>()
+            let change = std::slice::from_ref(change);
+            all.iter().map(|others| [&others[..], change].concat()).collect::<Vec<_>>()
         };
         let more = changes.iter().flat_map(with).collect::<Vec<_>>();
         all.extend(more);

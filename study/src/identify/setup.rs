@@ -52,7 +52,7 @@ impl<'a> Setup<'a> {
             Ok(Station { name: name.clone(), pose, exact: map.base == Base::Exact })
         });
         let stations = stations.collect::<Result<Vec<_>, Diagnostics>>()?;
-        setup.stand_at(stations);
+        setup.stand_at(&stations);
         Ok(setup)
     }
 
@@ -64,7 +64,7 @@ impl<'a> Setup<'a> {
             name,
             exact: map.base == Base::Exact,
         };
-        setup.stand_at(map.station_names().into_iter().map(station).collect());
+        setup.stand_at(&map.station_names().into_iter().map(station).collect::<Vec<_>>());
         Ok(setup)
     }
 
@@ -83,9 +83,9 @@ impl<'a> Setup<'a> {
         Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm, declared })
     }
 
-    fn stand_at(&mut self, stations: Vec<Station>) {
+    fn stand_at(&mut self, stations: &[Station]) {
         for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
-            model.stations.clone_from(&stations);
+            model.stations = stations.to_vec();
         }
     }
 
@@ -134,7 +134,7 @@ impl<'a> Setup<'a> {
         let model = self.real.with(unknowns);
         let fit = fit(&model, &data.observations, &Options::default());
         let fit = fit.map_err(|failure| mistake::whole(&data.file, failure))?;
-        self.stand_at(found_stations(&model, &fit.x));
+        self.stand_at(&found_stations(&model, &fit.x));
         Ok(true)
     }
 

@@ -108,9 +108,9 @@ pub(super) fn solve<'a>(
     };
     if let (Prior::Auto, Prior::Share(share)) = (settings.prior, prior) {
         solved.notes.push(format!(
-            "note: errors are expected to be {} of the arm's length: of all that was tried, rows left out in turn fit \
+            "note: errors are expected to be {} % of the arm's length: of all that was tried, rows left out in turn fit \
              best with it, or as well as with less",
-            format!("{} %", digits(100.0 * share, 2))
+            digits(100.0 * share, 2)
         ));
     }
     Ok(solved)

@@ -164,7 +164,7 @@ impl Place {
 fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
     let (factor, basis, unit) = (number(magnitude), term.basis.text(spec), term.place.unit(spec));
     let error = match (term.basis, unit) {
-        (Basis::One, unit) => format!("\"{factor} {}\"", unit).replace(" \"", "\""),
+        (Basis::One, unit) => format!("\"{factor} {unit}\"").replace(" \"", "\""),
         (_, "" | "rad") => format!("\"{factor} * ({basis})\""),
         (_, unit) => format!("\"{factor} * (1 {unit} * {basis})\""),
     };

@@ -86,7 +86,7 @@ fn distances_between_two_configurations() {
 #[test]
 fn drift_in_the_order_of_time() {
     let at = |i: usize| {
-        let (block, side) = (i / 10, if i % 2 == 0 { 0.5 } else { -0.5 });
+        let (block, side) = (i / 10, if i.is_multiple_of(2) { 0.5 } else { -0.5 });
         let mut row = visit(0, [0.0; 3], [1.0 + 3.0 * block as f64 + side, 0.0, 0.0, 0.0, 0.0, 0.0]);
         row.observation.time = Some(i as f64);
         row
