@@ -364,7 +364,7 @@ impl<'d> Section<'d> {
         })
     }
 
-    /// The text of that key in one line, empty if there is none. What is no text is a mistake, but for the [`TEXTS`], of which
+    /// The text of that key in one line, empty if there is none. What is no text is a mistake; of `description` and `reference`
     /// [`check_keys`](Self::check_keys) says so.
     pub fn optional_text(&self, key: &str, document: &mut Document) -> String {
         let item = self.get(key).filter(|item| item.is_text() || !TEXTS.contains(&key));
@@ -372,7 +372,7 @@ impl<'d> Section<'d> {
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// Notes every key that is not known, with the nearest that is, and [`TEXTS`] that are none.
+    /// Notes every key that is not known, with the nearest that is, and a `description` or `reference` that is no text.
     pub fn check_keys(&self, known: &[&Keys], document: &mut Document) {
         for item in self.items().filter(|item| TEXTS.contains(&item.key.as_str())) {
             if known.iter().any(|keys| keys.contain(&item.key)) {
