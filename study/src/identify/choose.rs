@@ -24,12 +24,21 @@ const CHANCE: f64 = 0.05;
 pub(super) struct Chosen {
     /// Group by group, in the order in which they came in.
     pub(super) groups: Vec<(Vec<Term>, Selection)>,
-    /// Of the model with constants alone on rows left out in turn, if richer terms were tried.
-    pub(super) constant: Option<Distances>,
+    /// The model with constants alone, if richer terms were tried.
+    pub(super) constant: Option<Constant>,
     /// How many groups were tried.
     pub(super) tried: usize,
     /// What must be said.
     pub(super) notes: Vec<String>,
+}
+
+/// How the model with constants alone does.
+#[derive(Clone, Debug)]
+pub(super) struct Constant {
+    /// On rows left out in turn.
+    pub(super) crossed: Distances,
+    /// The lines that it rejects as gross errors.
+    pub(super) rejected: Vec<u64>,
 }
 
 /// Chooses from `stages` of groups of terms; those that begin when `time` is over are left out.
@@ -79,7 +88,9 @@ pub(super) fn choose(
     };
     let values = |row: &Observation| factors.iter().map(|basis| basis.value(&row.q, &row.u)).collect();
     let folds = Folds::new(&data.observations, settings.folds);
-    let mut chosen = Chosen { constant: Some(solved.crossed.clone()), ..Chosen::default() };
+    let rejected = solved.fit.rejected(&data.observations).map(|row| row.line).collect();
+    let constant = Constant { crossed: solved.crossed.clone(), rejected };
+    let mut chosen = Chosen { constant: Some(constant), ..Chosen::default() };
     for (i, stage) in stages.iter().enumerate() {
         if over(settings.time) {
             let rest: usize = stages[i..].iter().map(Vec::len).sum();

@@ -120,20 +120,18 @@ fn report(
         .map_err(|error| mistake::whole(&data.file, error))?;
     let compared_fit = compared(solved, &setup.delivered, data, &fit.kept(rows).collect::<Vec<_>>())?;
     refuse_worse(&compared_fit, data, setup, map)?;
-    let judged = |test: &Data| {
-        let test = test.at_stations(data).map_err(|name| elsewhere(test, &name))?;
-        compared(solved, &setup.delivered, &test, &test.observations.iter().collect::<Vec<_>>())
-    };
     let o = identifiable.observability;
     let length = map.uncertainty.length;
-    let test_sizes = test.map(judged).transpose()?;
     let at_stations = |test: &Data| test.at_stations(data).map_err(|name| elsewhere(test, &name));
-    let test_here = test.map(at_stations).transpose()?;
+    let test = test.map(at_stations).transpose()?;
+    let judged =
+        |test: &Data| compared(solved, &setup.delivered, test, &test.observations.iter().collect::<Vec<_>>());
+    let test_sizes = test.as_ref().map(judged).transpose()?;
     let accepted = match &test_sizes {
         Some(test) => job.accept.judge("the test rows", &test.after),
         None => job.accept.judge("rows left out in turn", &solved.crossed.figures().into()),
     };
-    let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
+    let files: Vec<Summary> = std::iter::once(data).chain(&test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
     let in_numbers = InNumbers::new(spec, model, fit);
     let left = compared_fit.after.rms;
@@ -148,11 +146,11 @@ fn report(
     let order = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
     let outside = |test: &Data| {
-        let test = test.at_stations(data).map_err(|name| elsewhere(test, &name))?;
         let outside = Outside::new(solved, &found.fitted, rows, &test.observations);
         outside.map_err(|failure| mistake::whole(&test.file, failure))
     };
-    let outside = test.map(outside).transpose()?.flatten();
+    let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
+    let outside = test.as_ref().map(outside).transpose()?.flatten();
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -194,14 +192,14 @@ fn report(
         cross_validation: CrossValidation {
             folds: (*folds).clamp(2, Configurations::new(rows).count.max(2)),
             configurations: crossed.configurations,
-            constant: chosen.constant.as_ref().map(|constant| constant.figures().into()),
+            constant: chosen.constant.as_ref().map(|constant| constant.crossed.figures().into()),
             after: crossed.into(),
             gain: chosen
                 .constant
                 .as_ref()
                 // Other gross errors make other rows.
-                .filter(|constant| constant.0.len() == solved.crossed.0.len())
-                .map(|constant| solved.crossed.compared_with(constant).into()),
+                .filter(|constant| constant.rejected == rejected)
+                .map(|constant| solved.crossed.compared_with(&constant.crossed).into()),
         },
         terms: chosen
             .groups
@@ -211,9 +209,9 @@ fn report(
         tried: chosen.tried,
         order: order.map(|drift| Order::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
-        rejected: fit.rejected(rows).map(|row| row.line).collect(),
+        rejected,
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).collect(),
-        points: points(solved, data, test_here.as_ref())?,
+        points: points(solved, data, test.as_ref())?,
         files,
         placed: found.placed.clone(),
         found,
