@@ -24,7 +24,7 @@ const ARRIVED: [f64; 2] = [1e-10, 1e-7];
 const LONGEST: f64 = 0.2;
 /// A step shorter than this, or a gain below this share, is none.
 const NOTHING: f64 = 1e-12;
-const STEPS: usize = 60;
+const STEPS: usize = 300;
 /// Of the differences, in rad and metres: an error of 1e-10 either way.
 const DIFFERENCE: f64 = 1e-6;
 /// How many further starts there are.
@@ -103,10 +103,12 @@ impl<'a> RealTool<'a> {
         Ok((best.q, best.after, rest))
     }
 
-    /// Another start may end elsewhere where the tool point is not reached, or a limit holds a variable.
+    /// Another start may end elsewhere where the tool point is not reached, where a limit holds a variable, and where six joints
+    /// or more do not make the turn: near a singular pose.
     fn may_gain(&self, place: &Place) -> bool {
         let at_limit = self.limits.iter().zip(&place.q).any(|(limits, q)| limits.contains(q));
-        at_limit || crate::compensator::norms(&place.after).0 > ARRIVED[0] * self.metre
+        let (length, angle) = crate::compensator::norms(&place.after);
+        at_limit || length > ARRIVED[0] * self.metre || place.q.len() >= 6 && angle > ARRIVED[1]
     }
 
     /// The command within its limits, then points about it.
