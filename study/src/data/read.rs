@@ -3,20 +3,19 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use abbe::Pose;
 use abbe::identify::{Uncertainty, register};
 use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
 use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, find_name, parse_value};
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_codegen::expr::Dimension;
+use abbe_codegen::spec::Spec;
 
-use super::column::{Channel, Column};
 use super::configurations::resolution;
 use super::keys;
 use super::map::{Base, Layout, Map, Target};
+use super::read_channels::{inputs, joints};
 use super::read_instruments::instruments;
-use super::rotation;
-use super::station::{Placement, StatedStation, Stations};
+use super::read_places::{placement, stations};
+use super::read_values::{column, columns, constant, positive, unit};
 use super::turn::{Order, Turn};
 use crate::acceptance::{Acceptance, FIGURES};
 
@@ -146,148 +145,6 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
     })
 }
 
-pub(super) fn positive(
-    item: &Item<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    dimension: Dimension,
-) -> Option<f64> {
-    let value = constant(item, document, spec, dimension)?;
-    if value > 0.0 {
-        return Some(value);
-    }
-    let mistake = Diagnostic::new(item.span(), format!("`{}` must be more than zero", item.key));
-    document.mistake(mistake.help("say what the instrument's data sheet says: one standard deviation"));
-    None
-}
-
-pub(super) fn constant(
-    item: &Item<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    dimension: Dimension,
-) -> Option<f64> {
-    let scope = Scope::new(spec.length);
-    let what = format!("`{}`", item.key);
-    let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
-    document.constant(item, &scope, entry).map(|(value, _)| value)
-}
-
-fn joints(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Channel>> {
-    let section = root.required("joints", document).and_then(|item| document.section(&item))?;
-    let names: Vec<&str> = spec.variables.iter().map(|variable| variable.name.as_str()).collect();
-    for item in section.items() {
-        find_name(document, item.key_span.clone(), &item.key, &names, "variable");
-    }
-    let channels = spec.variables.iter().map(|variable| {
-        let dimension = match variable.kind {
-            VariableKind::Revolute => Dimension::NONE,
-            VariableKind::Prismatic => Dimension::LENGTH,
-        };
-        let Some(item) = section.get(&variable.name) else {
-            let name = &variable.name;
-            let message = format!("`{name}` has no column");
-            let help = format!(
-                "add `{name} = {{ column = \"…\", unit = \"…\" }}`, or `{name} = {{ value = 0 }}` if it stays"
-            );
-            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
-            return None;
-        };
-        channel(&item, document, spec, dimension)
-    });
-    let channels: Vec<Option<Channel>> = channels.collect();
-    channels.into_iter().collect()
-}
-
-fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Vec<Channel>> {
-    let section = match root.get("inputs") {
-        Some(item) => Some(document.section(&item)?),
-        None => None,
-    };
-    let names: Vec<&str> = spec.inputs.iter().map(|input| input.name.as_str()).collect();
-    for item in section.iter().flat_map(Section::items) {
-        find_name(document, item.key_span.clone(), &item.key, &names, "input");
-    }
-    let channels =
-        spec.inputs.iter().map(|input| match section.as_ref().and_then(|section| section.get(&input.name)) {
-            Some(item) => channel(&item, document, spec, input.dimension),
-            None => Some(Channel::Fixed(input.value)),
-        });
-    let channels: Vec<Option<Channel>> = channels.collect();
-    channels.into_iter().collect()
-}
-
-/// `{ column = "…", unit = "…", sign = -1 }` or `{ value = … }`.
-fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<Channel> {
-    let mut section = document.section(item)?;
-    section.name = format!("`{}`", item.key);
-    section.check_keys(&[&keys::CHANNEL], document);
-    if let Some(value) = section.get("value") {
-        return constant(&value, document, spec, dimension).map(Channel::Fixed);
-    }
-    let column = section.required("column", document).and_then(|item| column(&item, document));
-    let factor = unit(&section, document, spec, dimension);
-    let sign = match section.get("sign") {
-        Some(item) => match constant(&item, document, spec, Dimension::NONE)? {
-            sign if sign.abs() == 1.0 => sign,
-            _ => {
-                document.mistake(
-                    Diagnostic::new(item.span(), "a sign is 1 or -1").help("a factor belongs into `unit`"),
-                );
-                return None;
-            }
-        },
-        None => 1.0,
-    };
-    Some(Channel::Column(column?, factor? * sign))
-}
-
-pub(super) fn column(item: &Item<'_>, document: &mut Document) -> Option<Column> {
-    document.string(item).map(|name| Column { name, span: Some(item.span()) })
-}
-
-pub(super) fn columns<const N: usize>(
-    section: &Section<'_>,
-    key: &str,
-    document: &mut Document,
-) -> Option<[Column; N]> {
-    let item = section.required(key, document)?;
-    let items: [Item<'_>; N] = document.entries(&item, &format!("{N} names of columns"))?;
-    let columns: Vec<Column> = items.iter().filter_map(|item| column(item, document)).collect();
-    columns.try_into().ok()
-}
-
-/// What the numbers are multiplied with: `unit`, a text such as "deg".
-pub(super) fn unit(
-    section: &Section<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    dimension: Dimension,
-) -> Option<f64> {
-    let item = section.required("unit", document)?;
-    let name = document.string(&item)?;
-    if name.trim().is_empty() {
-        let help = match dimension {
-            Dimension::NONE => "write `rad` or `deg`, or `1` for a pure number",
-            _ => "write `mm`, `m`, `kg` …: what the numbers of the file are in",
-        };
-        document.mistake(Diagnostic::new(item.span(), "this unit is empty").help(help));
-        return None;
-    }
-    if name.trim() == "1" && dimension == Dimension::NONE {
-        return Some(1.0);
-    }
-    let text = format!("1 {name}");
-    let mut line = Document::new("", text.as_str());
-    let what = format!("the unit `{}`", name.escape_debug());
-    let factor = parse_value(&mut line, 0..text.trim_end().len(), spec.length, dimension, &what);
-    if let (None, Some(found)) = (factor, line.found.into_iter().next()) {
-        let help = found.help.unwrap_or_else(|| "write `mm`, `deg`, `kg` …".to_owned());
-        document.mistake(Diagnostic::new(item.span(), found.message).help(help));
-    }
-    factor
-}
-
 fn layout(
     root: &Section<'_>,
     stated: Option<f64>,
@@ -393,89 +250,6 @@ fn targets(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Option<Layo
     None
 }
 
-/// The column of stations in `[data]`, and the `[[station]]` tables.
-fn stations(
-    root: &Section<'_>,
-    head: &Section<'_>,
-    document: &mut Document,
-    spec: &Spec,
-) -> Option<Stations> {
-    let column = match head.get("station") {
-        Some(item) => Some(column(&item, document)?),
-        None => None,
-    };
-    let mut stated: Vec<StatedStation> = Vec::new();
-    let Some(list) = root.get("station") else { return Some(Stations { column, stated }) };
-    for item in document.array(&list, "tables, each a [[station]]")? {
-        let mut section = document.section(&item)?;
-        section.span = item.span();
-        section.name = "this [[station]]".to_owned();
-        section.check_keys(&[&keys::STATION], document);
-        let name = section.optional_text("name", document);
-        let pose = place(&section, document, spec)?;
-        covariance(&section, document, 6)?;
-        if stated.iter().any(|station| station.name == name) {
-            let message = format!("there are two stations `{}`", name.escape_debug());
-            let help = "give each a `name` of its own";
-            document.mistake(Diagnostic::new(item.span(), message).help(help));
-            return None;
-        }
-        stated.push(StatedStation { name, pose });
-    }
-    if column.is_none() && stated.len() > 1 {
-        let help = "say under [data] which column names the station of a row: `station = \"…\"`";
-        let message = "several stations, and nothing that says where a row was measured";
-        document.mistake(Diagnostic::new(list.key_span.clone(), message).help(help));
-        return None;
-    }
-    Some(Stations { column, stated })
-}
-
-/// `[placement]`, and whether it is exact.
-fn placement(
-    root: &Section<'_>,
-    head: &Section<'_>,
-    document: &mut Document,
-    spec: &Spec,
-    layout: Option<&Layout>,
-) -> Option<Placement> {
-    let exact = match head.get("placement") {
-        Some(item) => document.choice(&item, &[("unknown", false), ("exact", true)])?,
-        None => false,
-    };
-    let mut placement = Placement { exact, ..Placement::default() };
-    let Some(item) = root.get("placement") else { return Some(placement) };
-    let mut section = document.section(&item)?;
-    section.name = "[placement]".to_owned();
-    section.check_keys(&[&keys::PLACEMENT], document);
-    if let Some(Layout::Pose(..)) = layout {
-        placement.mounting = Some(place(&section, document, spec)?);
-        covariance(&section, document, 6)?;
-        return Some(placement);
-    }
-    let count = match layout {
-        Some(Layout::Targets(targets)) => targets.len(),
-        Some(Layout::Instruments(all)) => all.targets.len(),
-        _ => 1,
-    };
-    let list = section.required("targets", document)?;
-    let mut targets = Vec::new();
-    for item in document.array(&list, "places, each three lengths in the frame of the tool")? {
-        let three: [Item<'_>; 3] = document.entries(&item, "three lengths in the frame of the tool")?;
-        let [x, y, z] = three.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-        targets.push([x?, y?, z?]);
-    }
-    if targets.len() != count {
-        let message = format!("there are {count} targets, and places of {}", targets.len());
-        let help = "one place for every target, in their order";
-        document.mistake(Diagnostic::new(list.span(), message).help(help));
-        return None;
-    }
-    covariance(&section, document, 3 * count)?;
-    placement.targets = Some(targets);
-    Some(placement)
-}
-
 /// `[accept]`: limits for rows that nothing is fitted to.
 fn accept(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Acceptance> {
     let Some(item) = root.get("accept") else { return Some(Acceptance::default()) };
@@ -486,39 +260,4 @@ fn accept(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Ac
     let limits =
         figures.map(|(figure, item)| Some((figure, constant(&item, document, spec, Dimension::LENGTH)?)));
     Some(Acceptance { limits: limits.collect::<Option<_>>()? })
-}
-
-/// A position and a quaternion: w x y z.
-fn place(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Pose> {
-    let position = section.required("position", document)?;
-    let position: [Item<'_>; 3] = document.entries(&position, "three lengths")?;
-    let [x, y, z] = position.map(|item| constant(&item, document, spec, Dimension::LENGTH));
-    let item = section.required("quaternion", document)?;
-    let numbers: [Item<'_>; 4] = document.entries(&item, "four numbers: w x y z")?;
-    let numbers = numbers.map(|item| constant(&item, document, spec, Dimension::NONE));
-    let numbers: Vec<f64> = numbers.into_iter().collect::<Option<_>>()?;
-    match rotation::from_quaternion(&numbers) {
-        Ok([a, b, c]) => Some(Pose([a, b, c, [x?, y?, z?]])),
-        Err(reason) => {
-            document.mistake(Diagnostic::new(item.span(), reason).help("write `[1, 0, 0, 0]` for no turn"));
-            None
-        }
-    }
-}
-
-/// A covariance that is for people and other programs: its size is checked.
-fn covariance(section: &Section<'_>, document: &mut Document, size: usize) -> Option<()> {
-    let Some(item) = section.get("covariance") else { return Some(()) };
-    let rows = document.array(&item, "rows of numbers")?;
-    let mut right = rows.len() == size;
-    for row in &rows {
-        right &= document.array(row, "numbers")?.len() == size;
-    }
-    if right {
-        return Some(());
-    }
-    let message = format!("this covariance must have {size} rows of {size} numbers");
-    document
-        .mistake(Diagnostic::new(item.span(), message).help("or leave it out: nothing is computed from it"));
-    None
 }

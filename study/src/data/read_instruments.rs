@@ -8,7 +8,7 @@ use abbe_codegen::spec::Spec;
 
 use super::column::Column;
 use super::instrument::{Instrument, Instruments, Kind, Look, norm};
-use super::read::{column, columns, constant, positive, unit};
+use super::read_values::{column, columns, constant, positive, unit};
 
 const KINDS: [(&str, Kind); 8] = [
     ("point", Kind::Point),

@@ -1,0 +1,131 @@
+//! Reads where the machine stands and what is mounted on its tool.
+
+use abbe::Pose;
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item, Section};
+use abbe_codegen::expr::Dimension;
+use abbe_codegen::spec::Spec;
+
+use super::keys;
+use super::map::Layout;
+use super::read_values::{column, constant};
+use super::rotation;
+use super::station::{Placement, StatedStation, Stations};
+
+/// The column of stations in `[data]`, and the `[[station]]` tables.
+pub(super) fn stations(
+    root: &Section<'_>,
+    head: &Section<'_>,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<Stations> {
+    let column = match head.get("station") {
+        Some(item) => Some(column(&item, document)?),
+        None => None,
+    };
+    let mut stated: Vec<StatedStation> = Vec::new();
+    let Some(list) = root.get("station") else { return Some(Stations { column, stated }) };
+    for item in document.array(&list, "tables, each a [[station]]")? {
+        let mut section = document.section(&item)?;
+        section.span = item.span();
+        section.name = "this [[station]]".to_owned();
+        section.check_keys(&[&keys::STATION], document);
+        let name = section.optional_text("name", document);
+        let pose = place(&section, document, spec)?;
+        covariance(&section, document, 6)?;
+        if stated.iter().any(|station| station.name == name) {
+            let message = format!("there are two stations `{}`", name.escape_debug());
+            let help = "give each a `name` of its own";
+            document.mistake(Diagnostic::new(item.span(), message).help(help));
+            return None;
+        }
+        stated.push(StatedStation { name, pose });
+    }
+    if column.is_none() && stated.len() > 1 {
+        let help = "say under [data] which column names the station of a row: `station = \"…\"`";
+        let message = "several stations, and nothing that says where a row was measured";
+        document.mistake(Diagnostic::new(list.key_span.clone(), message).help(help));
+        return None;
+    }
+    Some(Stations { column, stated })
+}
+
+/// `[placement]`, and whether it is exact.
+pub(super) fn placement(
+    root: &Section<'_>,
+    head: &Section<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    layout: Option<&Layout>,
+) -> Option<Placement> {
+    let exact = match head.get("placement") {
+        Some(item) => document.choice(&item, &[("unknown", false), ("exact", true)])?,
+        None => false,
+    };
+    let mut placement = Placement { exact, ..Placement::default() };
+    let Some(item) = root.get("placement") else { return Some(placement) };
+    let mut section = document.section(&item)?;
+    section.name = "[placement]".to_owned();
+    section.check_keys(&[&keys::PLACEMENT], document);
+    if let Some(Layout::Pose(..)) = layout {
+        placement.mounting = Some(place(&section, document, spec)?);
+        covariance(&section, document, 6)?;
+        return Some(placement);
+    }
+    let count = match layout {
+        Some(Layout::Targets(targets)) => targets.len(),
+        Some(Layout::Instruments(all)) => all.targets.len(),
+        _ => 1,
+    };
+    let list = section.required("targets", document)?;
+    let mut targets = Vec::new();
+    for item in document.array(&list, "places, each three lengths in the frame of the tool")? {
+        let three: [Item<'_>; 3] = document.entries(&item, "three lengths in the frame of the tool")?;
+        let [x, y, z] = three.map(|item| constant(&item, document, spec, Dimension::LENGTH));
+        targets.push([x?, y?, z?]);
+    }
+    if targets.len() != count {
+        let message = format!("there are {count} targets, and places of {}", targets.len());
+        let help = "one place for every target, in their order";
+        document.mistake(Diagnostic::new(list.span(), message).help(help));
+        return None;
+    }
+    covariance(&section, document, 3 * count)?;
+    placement.targets = Some(targets);
+    Some(placement)
+}
+
+/// A position and a quaternion: w x y z.
+fn place(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Pose> {
+    let position = section.required("position", document)?;
+    let position: [Item<'_>; 3] = document.entries(&position, "three lengths")?;
+    let [x, y, z] = position.map(|item| constant(&item, document, spec, Dimension::LENGTH));
+    let item = section.required("quaternion", document)?;
+    let numbers: [Item<'_>; 4] = document.entries(&item, "four numbers: w x y z")?;
+    let numbers = numbers.map(|item| constant(&item, document, spec, Dimension::NONE));
+    let numbers: Vec<f64> = numbers.into_iter().collect::<Option<_>>()?;
+    match rotation::from_quaternion(&numbers) {
+        Ok([a, b, c]) => Some(Pose([a, b, c, [x?, y?, z?]])),
+        Err(reason) => {
+            document.mistake(Diagnostic::new(item.span(), reason).help("write `[1, 0, 0, 0]` for no turn"));
+            None
+        }
+    }
+}
+
+/// A covariance that is for people and other programs: its size is checked.
+fn covariance(section: &Section<'_>, document: &mut Document, size: usize) -> Option<()> {
+    let Some(item) = section.get("covariance") else { return Some(()) };
+    let rows = document.array(&item, "rows of numbers")?;
+    let mut right = rows.len() == size;
+    for row in &rows {
+        right &= document.array(row, "numbers")?.len() == size;
+    }
+    if right {
+        return Some(());
+    }
+    let message = format!("this covariance must have {size} rows of {size} numbers");
+    document
+        .mistake(Diagnostic::new(item.span(), message).help("or leave it out: nothing is computed from it"));
+    None
+}

@@ -1,0 +1,81 @@
+//! Reads what stands in a map: constants, columns and units.
+
+use abbe_codegen::diagnostic::Diagnostic;
+use abbe_codegen::document::{Document, Item, Section};
+use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, parse_value};
+use abbe_codegen::spec::Spec;
+
+use super::column::Column;
+
+pub(super) fn positive(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<f64> {
+    let value = constant(item, document, spec, dimension)?;
+    if value > 0.0 {
+        return Some(value);
+    }
+    let mistake = Diagnostic::new(item.span(), format!("`{}` must be more than zero", item.key));
+    document.mistake(mistake.help("say what the instrument's data sheet says: one standard deviation"));
+    None
+}
+
+pub(super) fn constant(
+    item: &Item<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<f64> {
+    let scope = Scope::new(spec.length);
+    let what = format!("`{}`", item.key);
+    let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
+    document.constant(item, &scope, entry).map(|(value, _)| value)
+}
+
+pub(super) fn column(item: &Item<'_>, document: &mut Document) -> Option<Column> {
+    document.string(item).map(|name| Column { name, span: Some(item.span()) })
+}
+
+pub(super) fn columns<const N: usize>(
+    section: &Section<'_>,
+    key: &str,
+    document: &mut Document,
+) -> Option<[Column; N]> {
+    let item = section.required(key, document)?;
+    let items: [Item<'_>; N] = document.entries(&item, &format!("{N} names of columns"))?;
+    let columns: Vec<Column> = items.iter().filter_map(|item| column(item, document)).collect();
+    columns.try_into().ok()
+}
+
+/// What the numbers are multiplied with: `unit`, a text such as "deg".
+pub(super) fn unit(
+    section: &Section<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    dimension: Dimension,
+) -> Option<f64> {
+    let item = section.required("unit", document)?;
+    let name = document.string(&item)?;
+    if name.trim().is_empty() {
+        let help = match dimension {
+            Dimension::NONE => "write `rad` or `deg`, or `1` for a pure number",
+            _ => "write `mm`, `m`, `kg` …: what the numbers of the file are in",
+        };
+        document.mistake(Diagnostic::new(item.span(), "this unit is empty").help(help));
+        return None;
+    }
+    if name.trim() == "1" && dimension == Dimension::NONE {
+        return Some(1.0);
+    }
+    let text = format!("1 {name}");
+    let mut line = Document::new("", text.as_str());
+    let what = format!("the unit `{}`", name.escape_debug());
+    let factor = parse_value(&mut line, 0..text.trim_end().len(), spec.length, dimension, &what);
+    if let (None, Some(found)) = (factor, line.found.into_iter().next()) {
+        let help = found.help.unwrap_or_else(|| "write `mm`, `deg`, `kg` …".to_owned());
+        document.mistake(Diagnostic::new(item.span(), found.message).help(help));
+    }
+    factor
+}
