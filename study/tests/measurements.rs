@@ -134,7 +134,7 @@ fn the_identified_machine_is_measured_again() {
     let nominal = ur5();
     let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
-    let text = report.placed.written(&map, &nominal.spec, &report.found.reference, "found.map.toml").unwrap();
+    let text = report.found.written_map(&map, &nominal.spec, "found.map.toml").unwrap();
     let map = Map::parse("found.map.toml", &text, &nominal.spec).unwrap();
     let measured = Measure { machine, map, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
     assert_eq!(measured.row_errors.len(), 300);

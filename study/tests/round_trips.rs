@@ -147,7 +147,7 @@ fn written(report: &Report, map: &Map) -> (Machine, Map) {
     let nominal = ur5();
     let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let found = machine("found.toml", &spec.text);
-    let text = report.placed.written(map, &nominal.spec, &report.found.reference, "found.map.toml").unwrap();
+    let text = report.found.written_map(map, &nominal.spec, "found.map.toml").unwrap();
     let map = Map::parse("found.map.toml", &text, &found.spec).unwrap();
     (found, map)
 }

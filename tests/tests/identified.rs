@@ -72,7 +72,7 @@ fn written(report: &Report, nominal: &str) -> String {
 fn left(report: &Report, nominal: &str, base: &str, layout: &str, data: &Data) -> f64 {
     let found = machine(&written(report, nominal));
     let map = map(base, layout, &machine(nominal));
-    let map = report.found.placed.written(&map, &found.spec, &report.found.reference, "found.map.toml");
+    let map = report.found.written_map(&map, &found.spec, "found.map.toml");
     let map = Map::parse("found.map.toml", &map.expect("it is a map"), &found.spec).expect("it is a map");
     let (data, accept) = (data.clone(), Acceptance::default());
     let job = measure::Measure { machine: found, map, data, accept };

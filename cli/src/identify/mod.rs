@@ -82,8 +82,8 @@ fn write_found(
         return Err(Failure::of("--out", message).help("name another file"));
     }
     let spec = report.found.written(&machine.spec, &machine.text()?, &file.display().to_string())?;
-    let (found, name) = (&report.found, map_file.display().to_string());
-    let map = found.placed.written(&job.map, &machine.spec, &found.reference, &name)?;
+    let name = map_file.display().to_string();
+    let map = report.found.written_map(&job.map, &machine.spec, &name)?;
     write(file, &spec.text)?;
     write(&map_file, &map)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned() + "\n");

@@ -86,7 +86,7 @@ impl Compensate {
             check_poses(map)?;
         }
         let manipulator = machine.evaluator(true);
-        let mut data = self.data.clone();
+        let mut data = self.data.completed(map, &*manipulator, &machine.spec);
         in_f0(map, &mut data);
         let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         warn_of_extrapolation(&machine.spec, "rows", places, notes);

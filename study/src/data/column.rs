@@ -2,6 +2,8 @@
 
 use abbe_codegen::diagnostic::Span;
 
+use super::from_rows::FromRows;
+
 /// A column of the file.
 #[derive(Clone, Debug)]
 pub struct Column {
@@ -18,4 +20,6 @@ pub enum Channel {
     Column(Column, f64),
     /// It is the same in every row.
     Fixed(f64),
+    /// It follows from the rows.
+    FromRows(FromRows),
 }

@@ -6,6 +6,7 @@ abbe_codegen::tables! {
     STANDS: ["the file"], ["station", "placement", "accept"];
     DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement", "setup"];
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
+    FROM_ROWS: ["[inputs.NAME]"], ["approach", "gravity_moment", "frame"];
 
     POINT: ["[point]"], ["columns", "unit"];
     DIFFERENCE: ["[difference]"], ["target", "difference", "unit"];

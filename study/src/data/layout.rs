@@ -64,7 +64,7 @@ impl Map {
         let channels = self.joints.iter().zip(&row.q).chain(self.inputs.iter().zip(&row.u));
         let commanded = channels.filter_map(|(channel, value)| match channel {
             Channel::Column(_, factor) => Some(Some(value / factor)),
-            Channel::Fixed(_) => None,
+            Channel::Fixed(_) | Channel::FromRows(_) => None,
         });
         let mut numbers: Vec<Option<f64>> = commanded.collect();
         if let (Layout::Instruments(all), Measurement::Readings(readings)) = (&self.layout, &row.measured) {

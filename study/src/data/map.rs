@@ -215,7 +215,7 @@ impl Map {
     pub(super) fn commanded(&self) -> impl Iterator<Item = &Column> {
         self.joints.iter().chain(&self.inputs).filter_map(|channel| match channel {
             Channel::Column(column, _) => Some(column),
-            Channel::Fixed(_) => None,
+            Channel::Fixed(_) | Channel::FromRows(_) => None,
         })
     }
 

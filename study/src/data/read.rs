@@ -9,6 +9,7 @@ use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::Dimension;
 use abbe_codegen::spec::Spec;
 
+use super::column::Column;
 use super::configurations::resolution;
 use super::keys;
 use super::map::{Base, Layout, Map, Target};

@@ -3,9 +3,10 @@
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::{Dimension, find_name};
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_codegen::spec::{Input, Spec, VariableKind};
 
 use super::column::Channel;
+use super::from_rows::FromRows;
 use super::keys;
 use super::read_values::{column, constant, unit};
 
@@ -46,11 +47,75 @@ pub(super) fn inputs(root: &Section<'_>, document: &mut Document, spec: &Spec) -
     }
     let channels =
         spec.inputs.iter().map(|input| match section.as_ref().and_then(|section| section.get(&input.name)) {
-            Some(item) => channel(&item, document, spec, input.dimension),
+            Some(item) => match from_rows(&item, document) {
+                Some(section) => read_from_rows(&section, document, spec, input).map(Channel::FromRows),
+                None => channel(&item, document, spec, input.dimension),
+            },
             None => Some(Channel::Fixed(input.value)),
         });
     let channels: Vec<Option<Channel>> = channels.collect();
     channels.into_iter().collect()
+}
+
+/// The table of an input that follows from the rows, if it is one.
+fn from_rows<'d>(item: &Item<'d>, document: &mut Document) -> Option<Section<'d>> {
+    let section = item.is_table().then(|| document.section(item)).flatten()?;
+    keys::FROM_ROWS.keys.iter().any(|key| section.get(key).is_some()).then_some(section)
+}
+
+/// `{ approach = "q1" }` or `{ gravity_moment = "q2", frame = "wrist 1" }`.
+fn read_from_rows(
+    section: &Section<'_>,
+    document: &mut Document,
+    spec: &Spec,
+    input: &Input,
+) -> Option<FromRows> {
+    let mut section = section.clone();
+    section.name = format!("`{}`", input.name);
+    section.check_keys(&[&keys::FROM_ROWS], document);
+    let variable = |item: &Item<'_>, document: &mut Document| {
+        let names: Vec<&str> = spec.variables.iter().map(|variable| variable.name.as_str()).collect();
+        let name = document.string(item)?;
+        find_name(document, item.span(), &name, &names, "variable")
+    };
+    let (approach, moment, frame) = (section.get("approach"), section.get("gravity_moment"), section.get("frame"));
+    let is_number = input.dimension == Dimension::NONE;
+    match (approach, moment, frame) {
+        (Some(_), None, None) | (None, Some(_), _) if !is_number => {
+            let message = format!("`{}` is {}; what follows from the rows is -1, 0 or 1", input.name, input.dimension);
+            let help = "this needs an input that is a pure number: give it a `column` or a `value`";
+            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
+            None
+        }
+        (Some(item), None, None) => variable(&item, document).map(FromRows::Approach),
+        (None, Some(item), frame) => {
+            let joint = variable(&item, document)?;
+            if spec.variables[joint].kind != VariableKind::Revolute {
+                let message = format!("`{}` does not turn: no moment acts on it", spec.variables[joint].name);
+                document.mistake(Diagnostic::new(item.span(), message).help("name a revolute joint"));
+                return None;
+            }
+            let Some(frame) = frame else {
+                return Some(FromRows::GravityMoment { variable: joint, at: spec.frames.len() });
+            };
+            let names: Vec<&str> = spec.frames.iter().map(|frame| frame.name.as_str()).collect();
+            let name = document.string(&frame)?;
+            let at = find_name(document, frame.span(), &name, &names, "frame")?;
+            if at < spec.variables[joint].frame {
+                let message = format!("`{}` does not move the frame `{name}`", spec.variables[joint].name);
+                let help = "name the frame of the joint or one behind it, or none for the tool point";
+                document.mistake(Diagnostic::new(frame.span(), message).help(help));
+                return None;
+            }
+            Some(FromRows::GravityMoment { variable: joint, at })
+        }
+        _ => {
+            let help = "write `{ approach = \"JOINT\" }` or `{ gravity_moment = \"JOINT\", frame = \"FRAME\" }`";
+            let message = format!("how `{}` follows from the rows is not clear", input.name);
+            document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
+            None
+        }
+    }
 }
 
 /// `{ column = "…", unit = "…", sign = -1 }` or `{ value = … }`.

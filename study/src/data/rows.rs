@@ -229,6 +229,8 @@ fn row(
     let mut channel = |channel: &Channel| match channel {
         Channel::Column(_, factor) => values.next().unwrap_or_default() * factor,
         Channel::Fixed(value) => *value,
+        // All rows tell it together.
+        Channel::FromRows(_) => 0.0,
     };
     let q = map.joints.iter().map(&mut channel).collect();
     let u = map.inputs.iter().map(&mut channel).collect();

@@ -79,7 +79,7 @@ pub fn candidates(
             of_joint(&[1, 2], &[1, 2]),
             load,
             with(Family::Elastic, elastic),
-            of_kind(|kind| matches!(kind, DerivedKind::Direction(_) | DerivedKind::Pull { .. })),
+            of_kind(|kind| matches!(kind, DerivedKind::FromRows(_))),
         ]
         .concat(),
         [of_joint(&[3, 4], &[3]), gears.collect()].concat(),

@@ -62,11 +62,13 @@ impl Identify {
     /// Fits, judges and chooses on the data alone; then judges by the test data, if there are any.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, settings, .. } = self;
-        let moved: Vec<usize> = map.moved().collect();
-        let derived = derived(&machine.spec, &self.terms, &moved, self.data.observations.len());
+        let derived = derived(&machine.spec, map, &self.terms, self.data.observations.len());
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());
-        let completed = |data: &Data, fitted: bool| with_columns(&nominal, &spec, &derived, data, fitted);
+        let completed = |data: &Data, fitted: bool| {
+            let data = data.completed(map, &nominal, &spec);
+            with_columns(&nominal, &spec, &derived, &data, fitted)
+        };
         let data = completed(&self.data, true);
 
         let stages = candidates(&spec, &derived, &self.terms, &self.harmonics);

@@ -2,12 +2,9 @@
 
 use abbe::identify::{Fit, Model, Unknown};
 use abbe::{Component, Pose};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
 use serde::Serialize;
 
 use super::setup::{displaced, found_stations};
-use crate::data::{Map, quaternion};
 
 /// What was found of stations and tool.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -22,7 +19,7 @@ pub struct Placed {
     pub covariance: Vec<Vec<f64>>,
     /// Whether nothing of it was unknown.
     #[serde(skip)]
-    exact: bool,
+    pub(super) exact: bool,
 }
 
 /// A station that was found.
@@ -74,91 +71,4 @@ impl Placed {
             targets: if pose { Vec::new() } else { targets },
         }
     }
-
-    /// The map that the data were read with, with what was found; `path` is the name of its file. What an earlier
-    /// identification said of it is left out.
-    ///
-    /// What is written is a map, or it is not written.
-    pub fn written(
-        &self,
-        map: &Map,
-        spec: &Spec,
-        reference: &str,
-        path: &str,
-    ) -> Result<String, Diagnostics> {
-        let unit = spec.length.symbol();
-        let mut text = format!("{}\n\n{HEAD}# {reference}\n", without_places(map.text()).trim_end());
-        let place = |pose: &[[f64; 4]; 4]| {
-            let [x, y, z] = [0, 1, 2].map(|axis| pose[axis][3]);
-            let columns = [0, 1, 2].map(|j| [0, 1, 2].map(|i| pose[i][j]));
-            let [w, a, b, c] = quaternion(&columns).map(number);
-            format!("position = {}\nquaternion = [{w}, {a}, {b}, {c}]\n", lengths([x, y, z], unit))
-        };
-        for station in &self.stations {
-            let name = match &station.name[..] {
-                "" => String::new(),
-                name => format!("name = {}\n", quoted(name)),
-            };
-            let covariance = matrix(station.covariance.iter().map(|row| &row[..]));
-            text += &format!("[[station]]\n{name}{}{covariance}\n", place(&station.pose));
-        }
-        if !self.exact {
-            let covariance = matrix(self.covariance.iter().map(|row| &row[..]));
-            let places = match &self.mounting {
-                Some(pose) => place(pose),
-                None => {
-                    let targets =
-                        self.targets.iter().map(|target| format!("  {},\n", lengths(*target, unit)));
-                    format!("targets = [\n{}]\n", targets.collect::<String>())
-                }
-            };
-            text += &format!("[placement]\n{places}{covariance}");
-        }
-        let text = text.trim_end().to_owned() + "\n";
-        Map::parse(path, &text, spec)?;
-        Ok(text)
-    }
-}
-
-const HEAD: &str =
-    "# Where the machine stands and what is mounted on its tool, as found: no errors of the machine.\n";
-
-/// A map without the tables that `[[station]]` and `[placement]` are, and without what is said above them.
-fn without_places(text: &str) -> String {
-    let mut inside = false;
-    let kept = text.split_inclusive('\n').filter(|line| {
-        if line.starts_with('[') {
-            inside = ["[[station]]", "[placement]"].iter().any(|table| line.starts_with(table));
-        }
-        inside |= *line == HEAD;
-        !inside
-    });
-    kept.collect()
-}
-
-fn lengths(values: [f64; 3], unit: &str) -> String {
-    let [x, y, z] = values.map(|value| format!("\"{} {unit}\"", number(value)));
-    format!("[{x}, {y}, {z}]")
-}
-
-fn matrix<'r>(rows: impl Iterator<Item = &'r [f64]>) -> String {
-    let row = |row: &[f64]| {
-        let numbers: Vec<String> = row.iter().map(|value| format!("{:e}", rounded(*value, 4))).collect();
-        format!("  [{}],\n", numbers.join(", "))
-    };
-    format!("covariance = [\n{}]\n", rows.map(row).collect::<String>())
-}
-
-/// Digits enough for a nanometre at ten metres.
-fn number(value: f64) -> String {
-    format!("{:e}", rounded(value, 11))
-}
-
-fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.digits$e}").parse::<f64>().unwrap_or(value) + 0.0
-}
-
-/// A text as TOML has it.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }

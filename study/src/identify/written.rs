@@ -66,7 +66,7 @@ impl FoundModel {
 
     /// Whether a spec can say a term: not what is of the rows of one file.
     pub fn is_written(&self, spec: &Spec, found: &FoundTerm) -> bool {
-        self.derived(spec, found).is_none_or(Derived::is_of_the_machine)
+        self.derived(spec, found).is_none_or(|one| one.from_rows().is_some())
     }
 
     /// A term as lines of a spec, of the machine with the inputs that follow from the rows.
@@ -74,17 +74,21 @@ impl FoundModel {
         effect(&with_inputs(spec, &self.derived), &found.term, found.magnitude, "F_0")
     }
 
-    /// The inputs that terms need beside those of the spec.
-    fn inputs(&self, spec: &Spec) -> String {
+    /// The inputs that the terms that are written need beside those of the spec.
+    pub(super) fn needed(&self, spec: &Spec) -> Vec<&Derived> {
         let mut needed: Vec<&Derived> = Vec::new();
         for found in self.terms.iter().filter(|found| self.is_written(spec, found)) {
             needed.extend(self.derived(spec, found).filter(|one| !needed.contains(one)));
         }
+        needed
+    }
+
+    fn inputs(&self, spec: &Spec) -> String {
         let input = |one: &Derived| {
             let description = one.description(spec);
             format!("\n[inputs.{}]\nvalue = 0\nrange = [-1, 1]\ndescription = {description:?}\n", one.name)
         };
-        needed.into_iter().map(input).collect()
+        self.needed(spec).into_iter().map(input).collect()
     }
 
     /// Where all this was fitted.

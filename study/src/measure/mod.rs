@@ -142,6 +142,7 @@ impl Measure {
             let message = "how far off the tool is, points and poses tell: this map has instruments that are read one by one";
             return Err(mistake::with_help(map.path(), message, help));
         }
+        let data = &data.completed(map, &interpreter, &machine.spec);
         let mut setup = Setup::new(&interpreter, map, data, 0)?;
         let fitted = check_readings(&setup, map, data)?;
         let base_fitted = setup.find_stations(map, data)?;

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use abbe::Manipulator;
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::spec::Spec;
 
 use crate::data::{Calendar, Data, Dated, Map, in_name, parse_date};
 use crate::mistake;
@@ -73,6 +75,12 @@ impl Checks {
         }
         let calendar = checks.first().map_or(Calendar::Checks, |(calendar, _)| *calendar);
         Ok(Self { calendar, list: checks.into_iter().map(|(_, check)| check).collect() })
+    }
+
+    /// The same checks with the inputs that follow from their rows; `manipulator` is that of the spec.
+    pub(super) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Self {
+        let one = |check: &Check| Check { data: check.data.completed(map, manipulator, spec), ..check.clone() };
+        Self { calendar: self.calendar, list: self.list.iter().map(one).collect() }
     }
 
     /// Leaves out what was before a date; `option` is what mistakes are shown under.

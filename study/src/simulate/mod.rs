@@ -71,6 +71,7 @@ impl Simulate {
                 &sampled
             }
         };
+        let list = &list.completed(map, &interpreter, &machine.spec);
         let Uncertainty { length, angle } = map.uncertainty;
         let noise = self.noise.unwrap_or(length);
         let chance = Chance {
@@ -109,6 +110,7 @@ impl Simulate {
                 let value = match map.inputs[i] {
                     Channel::Fixed(value) => value,
                     Channel::Column(..) => input.value,
+                    Channel::FromRows(_) => continue,
                 };
                 notes.note(&format!(
                     "`{name}` stays at {}: the map has no column for it; with `{name} = {{ column = \"{name}\", unit = \"{unit}\" }}` \

@@ -1,0 +1,153 @@
+//! Inputs that no column has because the rows have them: by their order, or by the pose of the machine in each.
+
+use abbe::identify::Observation;
+use abbe::{Manipulator, Pose};
+use abbe_codegen::spec::Spec;
+
+use super::column::Channel;
+use super::map::Map;
+use super::rows::Data;
+
+/// How an input follows from the rows. Its value is −1, 0 or 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FromRows {
+    /// 1 where a joint came from smaller values in its last move, −1 from larger ones, 0 before it was moved.
+    Approach(usize),
+    /// 1 where a weight at the origin of a frame, or at the tool point behind the last, turns a joint forward, −1 where back.
+    GravityMoment {
+        /// The revolute joint.
+        variable: usize,
+        /// The frame, from 0; as many as there are frames stands for the tool point.
+        at: usize,
+    },
+}
+
+/// Of the moments on a joint: below this share of the largest there is none.
+const NOTHING: f64 = 1e-6;
+
+impl FromRows {
+    /// What it is, in one sentence.
+    pub fn description(&self, spec: &Spec) -> String {
+        match *self {
+            Self::Approach(variable) => {
+                let name = &spec.variables[variable].name;
+                format!("1 where the last move of {name} was forward, -1 where it was back")
+            }
+            Self::GravityMoment { variable, at } => {
+                let name = &spec.variables[variable].name;
+                let frame = spec.frames.get(at).map(|frame| format!("the origin of {}", frame.name));
+                let place = frame.unwrap_or_else(|| "the tool point".to_owned());
+                format!("1 where a weight at {place} turns {name} forward, -1 where it turns it back")
+            }
+        }
+    }
+
+    /// As the entry of a map's `[inputs]` has it, line by line.
+    pub fn lines(&self, spec: &Spec) -> String {
+        match *self {
+            Self::Approach(variable) => format!("approach = {:?}\n", spec.variables[variable].name),
+            Self::GravityMoment { variable, at } => {
+                let frame = spec.frames.get(at).map(|frame| format!("frame = {:?}\n", frame.name));
+                let joint = &spec.variables[variable].name;
+                format!("gravity_moment = {joint:?}\n{}", frame.unwrap_or_default())
+            }
+        }
+    }
+
+    /// Its values in rows that are in the order in which they were measured.
+    pub(crate) fn values(
+        &self,
+        manipulator: &dyn Manipulator,
+        spec: &Spec,
+        rows: &[&Observation],
+    ) -> Vec<f64> {
+        match *self {
+            Self::Approach(variable) => approaches(rows, variable),
+            Self::GravityMoment { variable, at } => moments(manipulator, spec, rows, variable, at),
+        }
+    }
+}
+
+impl Data {
+    /// The same rows with the inputs that follow from them; `manipulator` is that of the spec.
+    pub(crate) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Self {
+        let mut data = self.clone();
+        let order = in_order(&self.observations);
+        let sorted: Vec<&Observation> = order.iter().map(|i| &self.observations[*i]).collect();
+        for (input, channel) in map.inputs.iter().enumerate() {
+            let Channel::FromRows(follows) = channel else { continue };
+            let values = follows.values(manipulator, spec, &sorted);
+            order.iter().zip(values).for_each(|(i, value)| data.observations[*i].u[input] = value);
+        }
+        data
+    }
+}
+
+/// The indices of rows in the order in which they were measured: that of their times, if all have one.
+pub(crate) fn in_order(rows: &[Observation]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    if rows.iter().all(|row| row.time.is_some()) {
+        let time = |i: usize| rows[i].time.unwrap_or_default();
+        order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
+    }
+    order
+}
+
+/// The sign of the last move of a joint, row by row.
+fn approaches(rows: &[&Observation], variable: usize) -> Vec<f64> {
+    let mut last = 0.0;
+    let mut before = rows.first().map_or(0.0, |row| row.q[variable]);
+    let direction = |row: &&Observation| {
+        let moved = row.q[variable] - before;
+        if moved.abs() > 1e-9 * (1.0 + before.abs()) {
+            last = moved.signum();
+        }
+        before = row.q[variable];
+        last
+    };
+    rows.iter().map(direction).collect()
+}
+
+/// The sign of the moment `z · (p − o) × g` of a weight at p about a joint's axis z through o, nominally; 0 where a
+/// row cannot be evaluated, or where there is no moment worth its sign.
+fn moments(
+    manipulator: &dyn Manipulator,
+    spec: &Spec,
+    rows: &[&Observation],
+    variable: usize,
+    at: usize,
+) -> Vec<f64> {
+    let s: Vec<f64> = spec.parameters.iter().map(|parameter| parameter.value).collect();
+    let down = gravity(spec);
+    let mut transforms = vec![Pose::IDENTITY; spec.frames.len() + 1];
+    // A turn of the joint moves the point by `z × (p − o)`: a difference of poses says the same for all kinds of frames.
+    const STEP: f64 = 1e-4;
+    let mut height = |row: &Observation, by: f64| {
+        let mut q = row.q.clone();
+        q[variable] += by;
+        manipulator.transforms(&q, &s, &mut transforms).ok()?;
+        let place = transforms[..=at].iter().fold(Pose::IDENTITY, |before, one| before.then(one)).position();
+        Some((0..3).map(|k| place[k] * down[k]).sum::<f64>())
+    };
+    debug_assert!(at >= spec.variables[variable].frame, "the joint moves what is behind it");
+    let moments: Vec<f64> = rows
+        .iter()
+        .map(|&row| match (height(row, STEP), height(row, -STEP)) {
+            (Some(ahead), Some(behind)) => (ahead - behind) / (2.0 * STEP),
+            _ => 0.0,
+        })
+        .collect();
+    let largest = moments.iter().fold(0.0_f64, |largest, moment| largest.max(moment.abs()));
+    let least = (NOTHING * largest).max(1e-9);
+    moments.iter().map(|moment| if moment.abs() > least { moment.signum() } else { 0.0 }).collect()
+}
+
+/// The direction of gravity: against z of `F_0` if the spec does not say.
+fn gravity(spec: &Spec) -> [f64; 3] {
+    let stated = spec.gravity.as_ref().map(|entries| {
+        let value = |i: usize| entries[i].constant().unwrap_or_default();
+        let length = (0..3).map(|i| value(i).powi(2)).sum::<f64>().sqrt();
+        std::array::from_fn(|i| if length > 0.0 { value(i) / length } else { 0.0 })
+    });
+    stated.unwrap_or([0.0, 0.0, -1.0])
+}

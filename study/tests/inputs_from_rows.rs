@@ -1,0 +1,143 @@
+//! Backlash goes round: what `identify` finds by the order of rows, or by their poses, `measure` finds again.
+
+use abbe::identify::Loss;
+use abbe_codegen::spec::Spec;
+use abbe_study::data::{Data, Map};
+use abbe_study::identify::{Family, Identify, Prior, Report, Settings};
+use abbe_study::measure::Measure;
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Acceptance, Machine};
+
+/// A shoulder that rests on one side of its play as it came, an elbow as the weight of what is behind it pulls.
+const PLAY: &str = r#"
+[inputs.shoulder_from]
+value = 0
+range = [-1, 1]
+
+[inputs.elbow_pull]
+value = 0
+range = [-1, 1]
+
+[[source]]
+name = "play of the shoulder"
+class = "repeatable"
+joint = "q2"
+error = "0.4 mrad * shoulder_from"
+
+[[source]]
+name = "play of the elbow"
+class = "repeatable"
+joint = "q3"
+error = "0.5 mrad * elbow_pull"
+"#;
+
+const FOLLOWS: &str = "[inputs]\nshoulder_from = { approach = \"q2\" }\nelbow_pull = { gravity_moment = \"q3\" }\n";
+
+fn ur5() -> Machine {
+    Machine::find("ur5").unwrap()
+}
+
+fn machine(name: &str, text: &str) -> Machine {
+    Machine::of_spec(Spec::parse(name, text).unwrap(), name)
+}
+
+fn map(machine: &Machine, more: &str) -> Map {
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let point = "[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n";
+    let text = format!("[data]\nuncertainty = \"0.02 mm\"\n\n[joints]\n{joints}\n{more}{point}");
+    Map::parse("map.toml", &text, &machine.spec).unwrap()
+}
+
+/// Measurements of the machine with play; the file does not say on which side it was.
+fn measured(samples: usize, seed: u64) -> Data {
+    let real = machine("real.toml", &format!("{}{PLAY}", ur5().text().unwrap()));
+    let map = map(&real, FOLLOWS);
+    let at = Places::Samples(samples);
+    let job = Simulate { machine: real, map, at, noise: None, outliers: 0.0, random: false, seed };
+    let mut observations = job.run(&mut ()).unwrap().observations;
+    let sides = |input: usize| observations.iter().map(|row| row.u[input]).collect::<Vec<f64>>();
+    for side in [sides(0), sides(1)] {
+        assert!(side.contains(&1.0) && side.contains(&-1.0) && side.iter().all(|side| side.abs() <= 1.0));
+    }
+    observations.iter_mut().for_each(|row| row.u.clear());
+    Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() }
+}
+
+fn identified(map: &Map, test: &Data) -> Report {
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None };
+    let job = Identify {
+        machine: ur5(),
+        map: map.clone(),
+        data: measured(150, 1),
+        test: Some(test.clone()),
+        terms: vec![Family::Backlash],
+        harmonics: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    };
+    job.run(&mut ()).unwrap()
+}
+
+#[test]
+fn backlash_goes_round() {
+    let (nominal, test) = (ur5(), measured(60, 2));
+    let guess = map(&nominal, "");
+    let report = identified(&guess, &test);
+    let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
+    assert!(names.iter().any(|name| name.contains("q2_direction")), "{names:?}");
+    assert!(names.iter().any(|name| name.contains("q3_pull")), "{names:?}");
+    let after = report.test.as_ref().unwrap().after;
+    assert!(after.mean < 0.05, "{after:?}");
+
+    let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+    let found = machine("found.toml", &spec.text);
+    let text = report.found.written_map(&guess, &nominal.spec, "found.map.toml").unwrap();
+    assert!(text.contains("approach = \"q2\"") && text.contains("gravity_moment = \"q3\""), "{text}");
+    let left = |text: &str| {
+        let map = Map::parse("found.map.toml", text, &found.spec).unwrap();
+        let mut data = test.clone();
+        data.observations.iter_mut().for_each(|row| row.u = vec![0.0; found.spec.inputs.len()]);
+        let job = Measure { machine: found.clone(), map, data, accept: Acceptance::default() };
+        job.run(&mut ()).unwrap().explained.left_mean
+    };
+    let again = left(&text);
+    assert!((again - after.mean).abs() < 0.01 * after.mean, "{again} {after:?}");
+    // Without what the rows say it is another machine.
+    let silent = text.replace("approach = ", "value = 0 # ").replace("gravity_moment = ", "value = 0 # ");
+    let silent = silent.replace("frame = \"", "# frame = \"");
+    assert!(left(&silent) > 2.0 * after.mean, "{} {after:?}", left(&silent));
+}
+
+/// The map that is read may have its inputs in one line.
+#[test]
+fn inputs_in_one_line_are_kept() {
+    let text = PLAY.replace("[[source]]", "[[source]]\nenabled = false");
+    let nominal = machine("nominal.toml", &format!("{}{text}", ur5().text().unwrap()));
+    let table = map(&nominal, FOLLOWS);
+    let entries: Vec<&str> = FOLLOWS.trim_end().lines().skip(1).collect();
+    let joints = table.text().find("[joints]").unwrap();
+    let (head, rest) = table.text().split_at(joints);
+    let line = format!("{}inputs = {{ {} }}\n{}", "", entries.join(", "), "");
+    let text = format!("{line}{head}{}", rest.replace(FOLLOWS, ""));
+    let map = Map::parse("map.toml", &text, &nominal.spec).unwrap();
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None };
+    let mut data = measured(150, 1);
+    data.observations.iter_mut().for_each(|row| row.u = vec![0.0; 2]);
+    let job = Identify {
+        machine: nominal.clone(),
+        map: map.clone(),
+        data,
+        test: None,
+        terms: vec![Family::Backlash, Family::Load],
+        harmonics: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    };
+    let report = job.run(&mut ()).unwrap();
+    // The spec has inputs for both: no other one stands for them.
+    let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
+    assert!(names.contains(&"q2: joint error with shoulder_from"), "{names:?}");
+    assert!(!names.iter().any(|name| name.contains("q2_direction")), "{names:?}");
+    report.found.written_map(&map, &nominal.spec, "found.map.toml").unwrap();
+}
