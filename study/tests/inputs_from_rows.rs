@@ -31,7 +31,8 @@ joint = "q3"
 error = "0.5 mrad * elbow_pull"
 "#;
 
-const FOLLOWS: &str = "[inputs]\nshoulder_from = { approach = \"q2\" }\nelbow_pull = { gravity_moment = \"q3\" }\n";
+const FOLLOWS: &str =
+    "[inputs]\nshoulder_from = { approach = \"q2\" }\nelbow_pull = { gravity_moment = \"q3\" }\n";
 
 fn ur5() -> Machine {
     Machine::find("ur5").unwrap()

@@ -78,11 +78,13 @@ fn read_from_rows(
         let name = document.string(item)?;
         find_name(document, item.span(), &name, &names, "variable")
     };
-    let (approach, moment, frame) = (section.get("approach"), section.get("gravity_moment"), section.get("frame"));
+    let (approach, moment, frame) =
+        (section.get("approach"), section.get("gravity_moment"), section.get("frame"));
     let is_number = input.dimension == Dimension::NONE;
     match (approach, moment, frame) {
         (Some(_), None, None) | (None, Some(_), _) if !is_number => {
-            let message = format!("`{}` is {}; what follows from the rows is -1, 0 or 1", input.name, input.dimension);
+            let message =
+                format!("`{}` is {}; what follows from the rows is -1, 0 or 1", input.name, input.dimension);
             let help = "this needs an input that is a pure number: give it a `column` or a `value`";
             document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
             None
@@ -110,7 +112,8 @@ fn read_from_rows(
             Some(FromRows::GravityMoment { variable: joint, at })
         }
         _ => {
-            let help = "write `{ approach = \"JOINT\" }` or `{ gravity_moment = \"JOINT\", frame = \"FRAME\" }`";
+            let help =
+                "write `{ approach = \"JOINT\" }` or `{ gravity_moment = \"JOINT\", frame = \"FRAME\" }`";
             let message = format!("how `{}` follows from the rows is not clear", input.name);
             document.mistake(Diagnostic::new(section.span.clone(), message).help(help));
             None
