@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use abbe_codegen::spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Report, Settings};
+use abbe_study::measure::Measure;
 use abbe_study::plan::{Choice, Plan};
 use abbe_study::simulate::{Places, Simulate};
 use abbe_study::{Acceptance, Machine, Study};
@@ -116,13 +117,17 @@ fn simulated(map: &Map, samples: usize, seed: u64) -> Data {
 }
 
 fn identified(map: &Map, data: Data, prior: f64) -> Report {
+    identified_with(map, data, None, prior)
+}
+
+fn identified_with(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Report {
     let settings =
         Settings { loss: abbe::identify::Loss::Squares, prior: Prior::Share(prior), folds: 5, time: None };
     let job = Identify {
         machine: nominal(),
         map: map.clone(),
         data,
-        test: None,
+        test,
         terms: Vec::new(),
         harmonics: Vec::new(),
         settings,
@@ -224,4 +229,55 @@ fn the_size_is_told_or_not() {
     let said = |map: Map| identified(&map, simulated(&map, 120, 5), 0.002).notes.join("\n");
     assert!(said(contacts()).contains("cannot tell how large the machine is"));
     assert!(said(distance("0", "range = [\"299 mm\", \"301 mm\"]")).contains("mm per metre at best"));
+}
+
+/// What is found of the machine and of what instruments look at goes round: `measure` says of unseen rows what `identify` said,
+/// in the unit of every instrument.
+#[test]
+fn what_is_found_is_measured_again() {
+    let wire_in_um = distance("\"unknown\"", "").text().replace("unit = \"mm\"\nat", "unit = \"um\"\nat");
+    let wire_in_um = Map::parse("map.toml", &wire_in_um, &nominal().spec).unwrap();
+    let lean = "[[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n\
+                [[instrument]]\nname = \"mirror\"\nkind = \"angle\"\ncolumn = \"lean\"\nunit = \"mrad\"\ndirection = [0.2, 1, 0]\nmirror = [1, 0, 0]\nuncertainty = \"0.02 mrad\"\n";
+    // Three coordinates have √3 of the noise, one number has it itself; the rest is what 240 rows do not tell.
+    for (name, map, noise) in [
+        ("wire", wire_in_um, vec![10.0]),
+        ("contacts", contacts(), vec![0.01 * 3f64.sqrt(); 4]),
+        ("planes", planes(), vec![0.01; 3]),
+        ("sphere", sphere("\"200 mm\""), vec![0.01]),
+        ("indicators", indicators(), vec![0.01; 12]),
+        ("tracker and mirror", self::map(lean), vec![0.02 * 3f64.sqrt(), 0.02]),
+    ] {
+        let unseen = simulated(&map, 120, 5);
+        let report = identified_with(&map, simulated(&map, 240, 3), Some(unseen.clone()), 0.002);
+        let test = report.test.unwrap();
+        let nominal = nominal();
+        let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+        let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
+        let text = report.found.written_map(&map, &nominal.spec, "found.map.toml").unwrap();
+        let found = Map::parse("found.map.toml", &text, &machine.spec).unwrap_or_else(|m| panic!("{name}: {m}"));
+        let measure = |map: Map| {
+            let job = Measure { machine: machine.clone(), map, data: unseen.clone(), accept: Acceptance::default() };
+            job.run(&mut ()).unwrap_or_else(|mistake| panic!("{name}: {mistake}"))
+        };
+        let measured = measure(found.clone());
+        let left = measured.explained.left_mean;
+        assert!(!measured.base_fitted, "{name}");
+        assert!((left - test.after.mean).abs() <= 0.01 * test.after.mean, "{name}: {left} {test:?}");
+        assert_eq!(measured.instruments.len(), noise.len(), "{name}");
+        let (mut squares, mut count) = (0.0, 0.0);
+        for (one, noise) in measured.instruments.iter().zip(noise) {
+            assert!(one.ideal.rms > 3.0 * one.left.rms, "{name}: {one:?}");
+            assert!(one.left.standard_error.unwrap() < 0.5 * noise, "{name}: {one:?}");
+            squares += one.count as f64 * (one.left.rms / noise).powi(2);
+            count += one.count as f64;
+        }
+        // Of 120 numbers at least the root mean square is within 13 % with two standard deviations.
+        let share = f64::sqrt(squares / count);
+        println!("{name}: {share:.3}");
+        assert!((0.87..1.2).contains(&share), "{name}: {share} {:?}", measured.instruments);
+        // Set up anew, they are found for the machine as it is known: the rows tell more of them than of the machine.
+        let anew = measure(found.newly_stationed());
+        assert!(anew.base_fitted && anew.explained.left_rms < 1.1 * measured.explained.left_rms, "{name}");
+    }
 }

@@ -329,7 +329,7 @@ fn rows_of_a_right_model_are_as_it_should_be() {
                     .run(&mut ())
                     .unwrap();
             right += usize::from(report.sentences().join(" ").contains("as it should be"));
-            inside += report.explained.inside / count as f64;
+            inside += report.explained.inside.unwrap() / count as f64;
         }
         (right, inside)
     };

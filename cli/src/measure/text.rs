@@ -1,8 +1,8 @@
 //! The results for people.
 
 use abbe_codegen::spec::Spec;
-use abbe_study::measure::{Report, Size};
-use abbe_study::number::fixed;
+use abbe_study::measure::{InstrumentErrors, Report, Size};
+use abbe_study::number::{digits, fixed};
 
 use crate::table::{Table, wrapped};
 
@@ -13,17 +13,47 @@ pub(super) fn text(spec: &Spec, report: &Report) -> String {
     }
     if report.base_fitted {
         parts[0] += &(wrapped(
-            "Where the instrument stands was found from these rows, for the machine as its spec has it: what all rows have in common is not in the errors.",
+            match report.instruments.is_empty() {
+                true => "Where the instrument stands was found from these rows, for the machine as its spec has it: what all rows have in common is not in the errors.",
+                false => "Where the instruments stand was found from these rows, for the machine as its spec has it: what that explains is not in the errors. Places that `identify --out` found are in its map.",
+            },
             0,
         ) + "\n");
     }
-    parts.push(format!(
-        "ΔX = measured − ideal, {} and mrad\n{}",
-        report.length,
-        errors(&report.errors, report.decimals())
-    ));
+    match report.instruments.is_empty() {
+        true => parts.push(format!(
+            "ΔX = measured − ideal, {} and mrad\n{}",
+            report.length,
+            errors(&report.errors, report.decimals())
+        )),
+        false => parts.push(format!(
+            "Reading − prediction with the repeatable sources of the spec; in brackets the rms without them\n{}",
+            instruments(&report.instruments)
+        )),
+    }
     parts.extend(report.sentences().into_iter().map(|sentence| wrapped(&sentence, 0) + "\n"));
     parts.join("\n")
+}
+
+fn instruments(all: &[InstrumentErrors]) -> String {
+    let mut table =
+        Table::new(&["", "unit", "read", "mean", "std. error", "rms", "(ideal)", "largest", "stated σ"]);
+    for one in all {
+        let show = |value: f64| digits(value, 4);
+        let InstrumentErrors { name, unit, count, left, ideal, uncertainty, .. } = one;
+        table.row([
+            name.clone(),
+            unit.clone(),
+            count.to_string(),
+            show(left.mean),
+            left.standard_error.map_or(String::new(), |error| digits(error, 2)),
+            show(left.rms),
+            format!("({})", show(ideal.rms)),
+            show(left.max),
+            uncertainty.map_or("unknown".to_owned(), show),
+        ]);
+    }
+    table.right(&[2, 3, 4, 5, 6, 7, 8]).to_string()
 }
 
 fn errors(sizes: &[Size], decimals: usize) -> String {

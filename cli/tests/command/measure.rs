@@ -184,3 +184,35 @@ fn figures_of_the_paper_are_of_its_machine() {
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("Accuracy: errors in space") && !page.contains("of the paper"));
 }
+
+/// Each instrument in its own unit, in text, as JSON, on the page, and what is left of every reading in a file.
+#[test]
+fn instruments_are_measured_each_in_its_unit() {
+    let folder = tempdir().unwrap();
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"q{i}\", unit = \"deg\" }}\n")).collect();
+    let instruments = "[[target]]\nname = \"ball\"\nposition = [\"60 mm\", \"20 mm\", \"50 mm\"]\n\n\
+        [[instrument]]\nname = \"wire\"\nkind = \"distance\"\ncolumn = \"length\"\nunit = \"um\"\nat = [\"400 mm\", \"200 mm\", \"300 mm\"]\nzero = \"unknown\"\nuncertainty = \"10 um\"\n\n\
+        [[instrument]]\nname = \"tracker\"\nkind = \"point\"\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\nuncertainty = \"0.02 mm\"\n";
+    let map = write(folder.path(), "map.toml", &format!("[data]\n\n[joints]\n{joints}\n{instruments}"));
+    let [data, out] = ["data.csv", "out"].map(|name| folder.path().join(name));
+    prints(&["simulate", "ur5", "--map", path(&map), "--samples", "40", "--out", path(&data)]);
+    let measure = ["measure", "ur5", path(&data), "--map", path(&map)];
+    let report = json(&[&measure[..], &["--json"]].concat());
+    let wire = &report["instruments"][0];
+    assert_eq!((&wire["name"], &wire["unit"], &wire["count"]), (&"wire".into(), &"um".into(), &40.into()));
+    // 10 µm of noise, less what goes into the zero and the place: 12 % at one standard deviation.
+    let rms = wire["left"]["rms"].as_f64().unwrap();
+    assert!((6.0..14.0).contains(&rms), "{wire}");
+    let tracker = report["instruments"][1]["left"]["rms"].as_f64().unwrap();
+    assert!((tracker / (0.02 * 3f64.sqrt()) - 1.0).abs() < 0.3, "{report}");
+    let text = prints(&[&measure[..], &["--out", path(&out)]].concat());
+    for said in ["wire", "um", "tracker", "std. error", "Where the instruments stand was found"] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    narrow(&text);
+    let csv = fs::read_to_string(out.join("errors.csv")).unwrap();
+    assert!(csv.starts_with("line,wire,tracker_x,tracker_y,tracker_z\n"), "{csv}");
+    assert_eq!(csv.lines().count(), 41);
+    assert!(fs::read_to_string(out.join("report.html")).unwrap().contains("tracker_z (mm)"));
+}

@@ -3,7 +3,7 @@
 use abbe_codegen::spec::Spec;
 use abbe_study::data::Map;
 use abbe_study::measure::{Report, RowError};
-use abbe_study::number::{fixed, trimmed};
+use abbe_study::number::{digits, fixed, trimmed};
 use plotly::common::{HoverInfo, Marker, Mode};
 use plotly::layout::AspectMode;
 use plotly::{Layout, Plot, Scatter3D};
@@ -35,6 +35,17 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provena
     let words: String = sentences.iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect();
     let lines: String = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect();
     let of_paper = |figure| if spec.reference.contains(PAPER) { paper_figure(figure) } else { String::new() };
+    if !report.instruments.is_empty() {
+        let body = [
+            heading,
+            section("Rows", &format!("<p>{lines}</p>\n")),
+            section("Reading − prediction", &(instruments(report) + &words)),
+            section("Figures", &of_readings(report).html()),
+            section("Instrument", &instrument(spec, map)),
+            section("Input files", &provenance.table()),
+        ];
+        return document(&format!("{}: measured", spec.title), &body.concat());
+    }
     let mut drawn = Figures::new();
     drawn.add(
         &format!("Accuracy: errors in space{}", of_paper(13)),
@@ -87,6 +98,48 @@ fn table(report: &Report) -> String {
     format!(
         "<table class=\"ledger\">\n<thead><tr><th></th><th>mean</th><th>rms</th><th>largest</th><th>3 σ about the mean</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n"
     )
+}
+
+/// What is left of every instrument's readings, each in its own unit.
+fn instruments(report: &Report) -> String {
+    let rows = report.instruments.iter().map(|one| {
+        let cell = |text: String| format!("<td class=\"number\">{text}</td>");
+        let show = |value: f64| cell(digits(value, 4));
+        let unknown = || cell(String::new());
+        let cells = [
+            cell(one.count.to_string()),
+            show(one.ideal.rms),
+            show(one.left.mean),
+            one.left.standard_error.map_or_else(unknown, show),
+            show(one.left.rms),
+            show(one.left.max),
+            one.uncertainty.map_or_else(unknown, show),
+        ];
+        let (name, unit) = (escaped(&one.name), escaped(&one.unit));
+        format!("<tr><td class=\"words\">{name} ({unit})</td>{}</tr>\n", cells.concat())
+    });
+    let heads = ["", "read", "ideal: rms", "mean", "std. error", "rms", "largest", "stated σ"];
+    let heads: String = heads.iter().map(|head| format!("<th>{head}</th>")).collect();
+    format!(
+        "<table class=\"ledger\">\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
+        rows.collect::<String>()
+    )
+}
+
+/// How often which error of a reading occurs, number by number.
+fn of_readings(report: &Report) -> Figures {
+    let mut drawn = Figures::new();
+    for (i, name) in report.numbers.iter().enumerate() {
+        let left: Vec<f64> = report.row_readings.iter().filter_map(|row| row.left[i]).collect();
+        let of = report.instruments.iter().find(|one| *name == one.name || name.starts_with(&format!("{}_", one.name)));
+        let unit = of.map_or("", |one| &one.unit);
+        if !left.is_empty() {
+            let plot = histogram(&format!("{name} ({unit})"), &[(left, css(INK, 0.75))]);
+            let title = format!("{}: how often which error occurs", escaped(name));
+            drawn.add(&title, &[plot], 260, "Reading minus prediction with the repeatable sources of the spec.");
+        }
+    }
+    drawn
 }
 
 /// Where the paper shows the same of the same machine.

@@ -115,7 +115,7 @@ impl Place {
     }
 
     /// The same, moved by its unknowns.
-    pub(super) fn moved(&self, by: &[f64; 3]) -> Self {
+    pub fn moved(&self, by: &[f64; 3]) -> Self {
         match self {
             Self::Point(c) => Self::Point(core::array::from_fn(|i| c[i] + by[i])),
             Self::Direction(n) => {

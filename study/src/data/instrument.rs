@@ -36,6 +36,8 @@ pub struct Instrument {
     pub columns: Vec<Column>,
     /// What makes them coherent.
     pub factor: f64,
+    /// The unit of its numbers, as the map has it; that of lengths if it is touched.
+    pub unit: String,
     /// In which rows it is read: those with this number in the map's column `setup`; all if there is none.
     pub setup: Option<f64>,
     /// Between which readings it can be used: the length unit or rad.
@@ -59,6 +61,8 @@ pub struct Instruments {
     pub fixtures: Vec<Fixture>,
     /// All their readings.
     pub readings: Vec<Reading>,
+    /// Those whose place and zero were found, by index: what they look at is where it is said to be.
+    pub found: Vec<usize>,
     /// The column that says in which setup a row was measured.
     pub setup: Option<Column>,
 }
@@ -132,6 +136,20 @@ impl Instruments {
             instrument: self.list.len(),
         }));
         first..self.readings.len()
+    }
+
+    /// What all readings are called, in order: by their instrument, and by the axis if it has three.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let of = |instrument: &Instrument| match instrument.readings.len() {
+            3 => ["x", "y", "z"].map(|axis| format!("{}_{axis}", instrument.name)).to_vec(),
+            _ => vec![instrument.name.clone()],
+        };
+        self.list.iter().flat_map(of).collect()
+    }
+
+    /// The fixture that an instrument looks at, if it looks at one.
+    pub fn fixture_of(&self, instrument: usize) -> Option<usize> {
+        self.readings[self.list[instrument].readings.start].gauge.fixture()
     }
 
     /// Whether any of them sees where `F_0` is: the fixtures of all others stand in `F_0`.

@@ -3,7 +3,7 @@
 abbe_codegen::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
     FORMS: ["the file"], ["point", "difference", "target", "pose", "instrument"];
-    STANDS: ["the file"], ["station", "placement", "accept"];
+    STANDS: ["the file"], ["station", "placement", "place", "accept"];
     DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement", "setup"];
     CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
     FROM_ROWS: ["[inputs.NAME]"], ["approach", "gravity_moment", "frame"];
@@ -18,6 +18,7 @@ abbe_codegen::tables! {
     EULER: ["[pose.euler]"], ["columns", "order", "unit"];
 
     STATION: ["[[station]]"], ["name", "position", "quaternion", "covariance"];
+    PLACE: ["[[place]]"], ["name", "position", "direction", "zero", "covariance"];
     ACCEPT: ["[accept]"], ["mean", "rms", "p95", "max"];
     PLACEMENT: ["[placement]"], ["targets", "position", "quaternion", "covariance"];
 }

@@ -150,10 +150,15 @@ impl Map {
         if names.is_empty() { vec![String::new()] } else { names }
     }
 
-    /// The same for an instrument that stands elsewhere: where, the data are to tell.
+    /// The same for instruments that stand elsewhere, and look at something else: where, the data are to tell.
     pub fn newly_stationed(self) -> Self {
         let stations = Stations { stated: Vec::new(), ..self.stations };
-        Self { base: Base::Unknown, stations, ..self }
+        let layout = match self.layout {
+            Layout::Instruments(all) => Layout::Instruments(Box::new(Instruments { found: Vec::new(), ..*all })),
+            other => other,
+        };
+        let base = if sees_the_base(&layout) { Base::Unknown } else { self.base };
+        Self { base, stations, layout, ..self }
     }
 
     /// The text of its file.
@@ -228,5 +233,13 @@ impl Map {
             Layout::Pose(position, _, turn) => position.iter().chain(turn.columns()).collect(),
             Layout::Instruments(all) => all.columns(),
         }
+    }
+}
+
+/// Whether where `F_0` stands can be seen.
+fn sees_the_base(layout: &Layout) -> bool {
+    match layout {
+        Layout::Instruments(all) => all.see_the_base(),
+        _ => true,
     }
 }

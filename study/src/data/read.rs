@@ -15,7 +15,7 @@ use super::keys;
 use super::map::{Base, Layout, Map, Target};
 use super::read_channels::{inputs, joints};
 use super::read_instruments::instruments;
-use super::read_places::{placement, stations};
+use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
 use super::turn::{Order, Turn};
 use crate::acceptance::{Acceptance, FIGURES};
@@ -101,6 +101,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         }
     };
     let layout = layout(root, stated.flatten(), setup.flatten(), document, spec);
+    let layout = found_places(root, layout, document, spec);
     let length = match (&layout, stated) {
         (Some(Layout::Instruments(all)), Some(None)) => Some(all.uncertainty()),
         (_, stated) => stated.flatten(),

@@ -52,6 +52,12 @@ pub(super) fn instruments(
         section.span = item.span();
         section.name = "this [[instrument]]".to_owned();
         match instrument(&section, &targets, stated, &mut all, document, spec) {
+            Some(one) if all.list.iter().any(|other| other.name == one.name) => {
+                let message = format!("there are two instruments `{}`", one.name.escape_debug());
+                let help = "give each a `name` of its own";
+                document.mistake(Diagnostic::new(item.span(), message).help(help));
+                return None;
+            }
             Some(instrument) => all.list.push(instrument),
             None => complete = false,
         }
@@ -120,6 +126,7 @@ fn instrument(
         uncertainty: uncertainty?.unwrap_or(some),
     };
     let setup = setup(section, all, document, spec)?;
+    let unit = section.get("unit").and_then(|item| document.string(&item));
     let range = match section.get("range") {
         Some(item) => {
             let ends: [Item<'_>; 2] = document.entries(&item, "the least and the largest reading")?;
@@ -141,6 +148,7 @@ fn instrument(
         kind,
         columns: columns?,
         factor: factor?,
+        unit: unit.unwrap_or_else(|| spec.length.symbol().to_owned()),
         setup,
         range,
         uncertainty: uncertainty?,

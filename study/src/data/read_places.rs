@@ -1,11 +1,13 @@
 //! Reads where the machine stands and what is mounted on its tool.
 
 use abbe::Pose;
+use abbe::identify::Place;
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::Dimension;
+use abbe_codegen::expr::{Dimension, find_name};
 use abbe_codegen::spec::Spec;
 
+use super::instrument::norm;
 use super::keys;
 use super::map::Layout;
 use super::read_values::{column, constant};
@@ -93,6 +95,61 @@ pub(super) fn placement(
     covariance(&section, document, 3 * count)?;
     placement.targets = Some(targets);
     Some(placement)
+}
+
+/// `[[place]]`: where what instruments look at was found.
+pub(super) fn found_places(
+    root: &Section<'_>,
+    layout: Option<Layout>,
+    document: &mut Document,
+    spec: &Spec,
+) -> Option<Layout> {
+    let Some(list) = root.get("place") else { return layout };
+    let Layout::Instruments(mut all) = layout? else {
+        let message = "`[[place]]` says where what an instrument looks at stands: this map has no instruments";
+        document.mistake(Diagnostic::new(list.key_span.clone(), message).help("leave it out"));
+        return None;
+    };
+    for item in document.array(&list, "tables, each a [[place]]")? {
+        let mut section = document.section(&item)?;
+        section.span = item.span();
+        section.name = "this [[place]]".to_owned();
+        section.check_keys(&[&keys::PLACE], document);
+        let names: Vec<&str> = all.list.iter().map(|instrument| instrument.name.as_str()).collect();
+        let name = section.required("name", document)?;
+        let text = document.string(&name)?;
+        let instrument = find_name(document, name.span(), &text, &names, "instrument")?;
+        let (fixture, first) = (all.fixture_of(instrument), all.list[instrument].readings.start);
+        let (gauge, zero_known) = (all.readings[first].gauge, all.readings[first].zero_known);
+        if let Some(fixture) = fixture {
+            let (key, dimension) = match all.fixtures[fixture].place {
+                Place::Point(_) => ("position", Dimension::LENGTH),
+                Place::Direction(_) => ("direction", Dimension::NONE),
+            };
+            let three = section.required(key, document)?;
+            let three: [Item<'_>; 3] = document.entries(&three, "three numbers: x, y, z")?;
+            let [x, y, z] = three.map(|item| constant(&item, document, spec, dimension));
+            let found = [x?, y?, z?];
+            all.fixtures[fixture].place = match all.fixtures[fixture].place {
+                Place::Point(_) => Place::Point(found),
+                Place::Direction(_) if norm(found) > 0.0 => Place::Direction(found),
+                Place::Direction(_) => {
+                    let mistake = Diagnostic::new(item.span(), "`direction` has no direction");
+                    document.mistake(mistake.help("write where it points: [0, 0, 1] is z"));
+                    return None;
+                }
+            };
+        }
+        if !zero_known {
+            let zero = section.required("zero", document)?;
+            let dimension = if gauge.is_angle() { Dimension::NONE } else { Dimension::LENGTH };
+            all.readings[first].zero = constant(&zero, document, spec, dimension)?;
+        }
+        let place = fixture.map_or(0, |fixture| all.fixtures[fixture].place.unknowns());
+        covariance(&section, document, place + usize::from(!zero_known))?;
+        all.found.push(instrument);
+    }
+    Some(Layout::Instruments(all))
 }
 
 /// A position and a quaternion: w x y z.

@@ -51,7 +51,7 @@ pub use job::Identify;
 pub use not_known::NotKnown;
 pub use order::Order;
 pub use outside::Outside;
-pub use placed::{Placed, PlacedStation};
+pub use placed::{Placed, PlacedInstrument, PlacedStation};
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{

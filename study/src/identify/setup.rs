@@ -2,7 +2,7 @@
 
 use abbe::analysis::sampling;
 use abbe::identify::{
-    Failure, Gauge, Measurement, Model, Observation, Options, Role, Station, Unknown, fit, register,
+    Failure, Fixture, Gauge, Measurement, Model, Observation, Options, Place, Role, Station, Unknown, fit, register,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -121,13 +121,14 @@ impl<'a> Setup<'a> {
         Ok(())
     }
 
-    /// Finds the stations that the map does not state, for the machine as its spec has it.
-    pub(crate) fn find_stations(&mut self, map: &Map, data: &Data) -> Result<bool, Diagnostics> {
+    /// Finds the stations that the map does not state, and the places of what its instruments look at that were not found before,
+    /// for the machine as its spec has it.
+    pub(crate) fn find_places(&mut self, map: &Map, data: &Data) -> Result<bool, Diagnostics> {
         let open =
             |station: &Station| map.base == Base::Unknown && map.stations.pose(&station.name).is_none();
         let names = self.real.stations.iter().enumerate().filter(|(_, station)| open(station));
-        let unknowns: Vec<Unknown> =
-            names.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component))).collect();
+        let stations = names.flat_map(|(i, _)| Component::ALL.map(|component| Unknown::Base(i, component)));
+        let unknowns: Vec<Unknown> = stations.chain(self.fixtures_to_find(map)).collect();
         if unknowns.is_empty() {
             return Ok(false);
         }
@@ -135,7 +136,30 @@ impl<'a> Setup<'a> {
         let fit = fit(&model, &data.observations, &Options::default());
         let fit = fit.map_err(|failure| mistake::whole(&data.file, failure))?;
         self.stand_at(&found_stations(&model, &fit.x));
+        let fixtures = (0..model.fixtures.len())
+            .map(|i| Fixture { place: found_place(&model, &fit.x, i), ..model.fixtures[i].clone() });
+        let fixtures: Vec<Fixture> = fixtures.collect();
+        let zeros: Vec<f64> = (0..model.readings.len()).map(|i| found_zero(&model, &fit.x, i)).collect();
+        for model in [&mut self.ideal, &mut self.real, &mut self.delivered] {
+            model.fixtures.clone_from(&fixtures);
+            model.readings.iter_mut().zip(&zeros).for_each(|(reading, zero)| reading.zero = *zero);
+        }
         Ok(true)
+    }
+
+    /// The unknowns of what instruments look at that were not found before.
+    fn fixtures_to_find(&self, map: &Map) -> Vec<Unknown> {
+        let Some(all) = map.instruments() else { return Vec::new() };
+        let open = (0..all.list.len()).filter(|i| !all.found.contains(i));
+        let unknowns = open.flat_map(|i| {
+            let place = all.fixture_of(i).into_iter().flat_map(|fixture| {
+                let count = self.real.fixtures[fixture].place.unknowns();
+                (0..count).map(move |coordinate| Unknown::Fixture(fixture, coordinate))
+            });
+            let zeros = all.list[i].readings.clone().filter(|reading| !self.real.readings[*reading].zero_known);
+            place.chain(zeros.map(Unknown::Zero)).collect::<Vec<_>>()
+        });
+        unknowns.collect()
     }
 
     /// What is unknown of base and tool.
@@ -243,10 +267,26 @@ pub(super) fn found_stations(model: &Model, x: &[f64]) -> Vec<Station> {
     stations
 }
 
+/// Where a fixture of a model was found.
+pub(super) fn found_place(model: &Model, x: &[f64], fixture: usize) -> Place {
+    let by = |coordinate| value(model, x, Unknown::Fixture(fixture, coordinate));
+    model.fixtures[fixture].place.moved(&[by(0), by(1), by(2)])
+}
+
+/// The zero of a reading as it was found.
+pub(super) fn found_zero(model: &Model, x: &[f64], reading: usize) -> f64 {
+    model.readings[reading].zero + value(model, x, Unknown::Zero(reading))
+}
+
+/// What was found of an unknown; 0 if it is none of the model's.
+fn value(model: &Model, x: &[f64], unknown: Unknown) -> f64 {
+    model.unknowns.iter().position(|one| *one == unknown).map_or(0.0, |k| x[k])
+}
+
 /// The motion that six unknowns are.
 pub(super) fn displaced(model: &Model, x: &[f64], of: impl Fn(Component) -> Unknown) -> Pose {
-    let value = |component| model.unknowns.iter().position(|u| *u == of(component)).map_or(0.0, |k| x[k]);
-    real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[Component::ALL.map(value)])
+    let errors = Component::ALL.map(|component| value(model, x, of(component)));
+    real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[errors])
 }
 
 /// Where `F_0` is as the instrument sees it from a station, from all points that were measured there: the rigid motion from

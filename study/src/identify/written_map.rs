@@ -79,6 +79,21 @@ impl Placed {
             };
             text += &format!("[placement]\n{places}{covariance}");
         }
+        for place in &self.instruments {
+            text += &format!("\n[[place]]\nname = {}\n", quoted(&place.name));
+            if let Some(position) = place.position {
+                text += &format!("position = {}\n", lengths(position, unit));
+            }
+            if let Some(direction) = place.direction {
+                let [x, y, z] = direction.map(number);
+                text += &format!("direction = [{x}, {y}, {z}]\n");
+            }
+            if let Some(zero) = place.zero {
+                let unit = if place.is_angle { "rad" } else { unit };
+                text += &format!("zero = \"{} {unit}\"\n", number(zero));
+            }
+            text += &matrix(place.covariance.iter().map(|row| &row[..]));
+        }
         text
     }
 }
@@ -86,12 +101,12 @@ impl Placed {
 const HEAD: &str =
     "# Where the machine stands and what is mounted on its tool, as found: no errors of the machine.\n";
 
-/// A map without the tables that `[[station]]` and `[placement]` are, and without what is said above them.
+/// A map without the tables that `[[station]]`, `[placement]` and `[[place]]` are, and without what is said above them.
 fn without_places(text: &str) -> String {
     let mut inside = false;
     let kept = text.split_inclusive('\n').filter(|line| {
         if line.starts_with('[') {
-            inside = ["[[station]]", "[placement]"].iter().any(|table| line.starts_with(table));
+            inside = ["[[station]]", "[placement]", "[[place]]"].iter().any(|table| line.starts_with(table));
         }
         inside |= *line == HEAD;
         !inside

@@ -22,9 +22,11 @@ pub struct Explained {
     pub share: f64,
     /// Which share of the rows is within the region in which 95 % of the rows of a machine as the spec says are: its random
     /// sources drawn anew in every row, and the noise of the instrument.
-    pub inside: f64,
+    ///
+    /// None of readings.
+    pub inside: Option<f64>,
     /// Between which shares 99 % of such machines are with as many rows.
-    pub likely: [f64; 2],
+    pub likely: Option<[f64; 2]>,
     /// How many repeatable sources there are.
     pub repeatable: usize,
     /// How many random ones.
@@ -65,11 +67,30 @@ pub(super) fn explained(setup: &Setup, rows: &[RowError]) -> Result<Explained, F
         left_p95: figures.p95,
         left_max: figures.max,
         share,
-        inside: inside as f64 / rows.len().max(1) as f64,
-        likely: likely(rows.len()),
+        inside: Some(inside as f64 / rows.len().max(1) as f64),
+        likely: Some(likely(rows.len())),
         repeatable: setup.real.repeatable().len(),
         random: random.len(),
     })
+}
+
+impl Explained {
+    /// Of readings, of which lengths have figures; `share` is that of the numbers by their uncertainty.
+    pub(super) fn of_readings(setup: &Setup, rows: &[Observation], share: f64) -> Result<Self, Failure> {
+        let figures = setup.real.figures(rows, &[])?;
+        let random = setup.description.sources.iter().filter(|source| source.class != Class::Repeatable);
+        Ok(Self {
+            left_mean: figures.mean,
+            left_rms: figures.rms,
+            left_p95: figures.p95,
+            left_max: figures.max,
+            share,
+            inside: None,
+            likely: None,
+            repeatable: setup.real.repeatable().len(),
+            random: random.count(),
+        })
+    }
 }
 
 /// What is left of a row, and how far that is in units of what chance explains.

@@ -1,11 +1,12 @@
 //! How good a machine is: accuracy, repeatability, and what the sources of its spec explain.
 //!
 //! `errors` are ΔX of every row; `iso9283` what the standard says of configurations that were visited again; `explained`
-//! compares with the prediction; `sentences` says the last two in words.
+//! compares with the prediction; `readings` are the same of instruments that are read one by one; `sentences` says the last two in words.
 
 mod errors;
 mod explained;
 mod iso9283;
+mod readings;
 mod sentences;
 
 use abbe::identify::{self, Figures, Observation, drift};
@@ -14,12 +15,15 @@ use abbe_codegen::expr::LengthUnit;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
-use crate::data::{Data, Map, Summary, Table, warn_of_extrapolation};
+use crate::data::{Data, Instruments, Map, Summary, Table, warn_of_extrapolation};
 use crate::identify::{Order, Setup, Sizes, check_readings};
 use crate::{Acceptance, Accepted, Machine, Notes, mistake, number};
 
 pub use errors::RowError;
+use readings::{Readings, readings};
+
 pub use explained::Explained;
+pub use readings::{InstrumentErrors, ReadingErrors, RowReadings};
 pub use iso9283::{Directions, Distances, Drift, MeanAndMax, Repeated};
 
 /// How good is this machine?
@@ -47,6 +51,8 @@ pub struct Report {
     pub rows: usize,
     /// ΔX = measured − ideal: along x, y, z and as norm; of poses the turns about x, y, z as well.
     pub errors: Vec<Size>,
+    /// Instruments that are read one by one, each with reading minus prediction in its own unit.
+    pub instruments: Vec<InstrumentErrors>,
     /// What the sources of the spec explain of it.
     pub explained: Explained,
     /// Configurations that were visited again.
@@ -73,6 +79,12 @@ pub struct Report {
     /// ΔX of every row.
     #[serde(skip)]
     pub row_errors: Vec<RowError>,
+    /// What is left of every number of every row, where instruments are read.
+    #[serde(skip)]
+    pub row_readings: Vec<RowReadings>,
+    /// What these numbers are called: by their instrument, and by the axis if it reads three.
+    #[serde(skip)]
+    pub numbers: Vec<String>,
     /// The points of visits of the same configuration about their barycentre.
     #[serde(skip)]
     pub about_barycentres: Vec<[f64; 3]>,
@@ -137,69 +149,100 @@ impl Measure {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, data, accept } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
-        if map.instruments().is_some() {
-            let help = "`abbe identify` says what is left of every instrument's readings";
-            let message = "how far off the tool is, points and poses tell: this map has instruments that are read one by one";
-            return Err(mistake::with_help(map.path(), message, help));
-        }
-        let data = &data.completed(map, &interpreter, &machine.spec);
-        let mut setup = Setup::new(&interpreter, map, data, 0)?;
-        let fitted = check_readings(&setup, map, data)?;
-        let base_fitted = setup.find_stations(map, data)?;
-        let mut data = data.clone();
-        let rows = errors::row_errors(&setup, &mut data)?;
-        let places = rows.iter().map(|row| (&row.observation.q[..], &row.observation.u[..]));
+        let data = data.completed(map, &interpreter, &machine.spec);
+        let mut setup = Setup::new(&interpreter, map, &data, 0)?;
+        let fitted = check_readings(&setup, map, &data)?;
+        let base_fitted = setup.find_places(map, &data)?;
+        let mut seen = match map.instruments() {
+            Some(all) => Seen::of_readings(&setup, all, data)?,
+            None => Seen::of_points(&setup, data)?,
+        };
+        let rows = &seen.data.observations;
+        let places = rows.iter().map(|row| (&row.q[..], &row.u[..]));
         warn_of_extrapolation(&machine.spec, "rows", places, notes);
-        let unit = machine.spec.length.symbol();
+        let Figures { rms, configurations, standard_error, .. } = seen.norms.figures();
+        if rms > LARGE * setup.arm {
+            notes.warn(&far(rms, fitted, &setup));
+        }
+        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = seen.explained;
+        let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
+        let observations: Vec<&Observation> = rows.iter().collect();
+        let order = drift(&setup.real, &observations, &[]);
+        let order = order.map_err(|failure| mistake::whole(&seen.data.file, failure))?;
+        Ok(Report {
+            name: machine.spec.name.clone(),
+            length: machine.spec.length.symbol(),
+            unit: machine.spec.length,
+            title: map.title.clone(),
+            rows: rows.len(),
+            errors: std::mem::take(&mut seen.errors),
+            instruments: std::mem::take(&mut seen.instruments),
+            explained: seen.explained,
+            accepted,
+            repeated: iso9283::repeated(&seen.rows, setup.pose || setup.ideal.targets.len() > 1),
+            configurations,
+            standard_error: Some(standard_error).filter(|error| error.is_finite()),
+            order: order.map(|drift| Order::new(drift, setup.description.length)),
+            unusable: seen.data.unusable.len(),
+            file: seen.data.summary(),
+            base_fitted,
+            about_barycentres: iso9283::about_barycentres(&seen.rows),
+            row_errors: seen.rows,
+            row_readings: seen.row_readings,
+            numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
+        })
+    }
+}
+
+/// What rows say of a machine, whatever they have.
+struct Seen {
+    errors: Vec<Size>,
+    instruments: Vec<InstrumentErrors>,
+    explained: Explained,
+    /// The norms of the errors, each with its configuration.
+    norms: identify::Distances,
+    rows: Vec<RowError>,
+    row_readings: Vec<RowReadings>,
+    /// The rows that were used.
+    data: Data,
+}
+
+impl Seen {
+    fn of_points(setup: &Setup, mut data: Data) -> Result<Self, Diagnostics> {
+        let rows = errors::row_errors(setup, &mut data)?;
+        let unit = setup.description.length.symbol();
         let along = |axis: usize| rows.iter().map(|row| row.error[axis]).collect::<Vec<_>>();
         let mut errors: Vec<Size> = ["x", "y", "z"]
             .into_iter()
             .enumerate()
             .map(|(i, name)| Size::new(name, unit, &along(i)))
             .collect();
-        let norm = Size::new("norm", unit, &rows.iter().map(RowError::distance).collect::<Vec<_>>());
-        if norm.rms > LARGE * setup.arm {
-            notes.warn(&far(norm.rms, fitted, &setup));
-        }
-        errors.push(norm);
+        errors.push(Size::new("norm", unit, &rows.iter().map(RowError::distance).collect::<Vec<_>>()));
         if setup.pose || setup.ideal.targets.len() > 1 {
             let names = ["about x", "about y", "about z"].into_iter().enumerate();
             errors.extend(names.map(|(i, name)| Size::new(name, "rad", &along(3 + i))));
         }
-        let explained = explained::explained(&setup, &rows);
+        let explained = explained::explained(setup, &rows);
         let explained = explained.map_err(|failure| mistake::whole(&data.file, failure))?;
-        let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = explained;
-        let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
-        let observations: Vec<&Observation> = rows.iter().map(|row| &row.observation).collect();
-        let order = drift(&setup.real, &observations, &[]);
-        let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
         let norms = rows.iter().map(|row| (row.observation.configuration, row.distance()));
-        let Figures { configurations, standard_error, .. } = identify::Distances(norms.collect()).figures();
-        Ok(Report {
-            name: machine.spec.name.clone(),
-            length: unit,
-            unit: machine.spec.length,
-            title: map.title.clone(),
-            rows: rows.len(),
-            errors,
-            explained,
-            accepted,
-            repeated: iso9283::repeated(&rows, setup.pose || setup.ideal.targets.len() > 1),
-            configurations,
-            standard_error: Some(standard_error).filter(|error| error.is_finite()),
-            order: order.map(|drift| Order::new(drift, setup.description.length)),
-            unusable: data.unusable.len(),
-            file: Summary { rows: rows.len(), ..data.summary() },
-            base_fitted,
-            about_barycentres: iso9283::about_barycentres(&rows),
-            row_errors: rows,
-        })
+        let norms = identify::Distances(norms.collect());
+        data.observations = rows.iter().map(|row| row.observation.clone()).collect();
+        Ok(Self { errors, instruments: Vec::new(), explained, norms, rows, row_readings: Vec::new(), data })
+    }
+
+    fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self, Diagnostics> {
+        let Readings { instruments, explained, rows: row_readings, norms } =
+            readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, failure))?;
+        Ok(Self { errors: Vec::new(), instruments, explained, norms, rows: Vec::new(), row_readings, data })
     }
 }
 
 impl Report {
-    /// ΔX row by row.
+    /// ΔX row by row, or what is left of every reading.
     pub fn table(&self) -> Table {
+        if !self.instruments.is_empty() {
+            return self.readings_table();
+        }
         let names = ["line", "x", "y", "z", "about_x", "about_y", "about_z"];
         // One more for the line, and none for the norm.
         let names = &names[..self.errors.len()];
@@ -209,5 +252,15 @@ impl Report {
         });
         let heading = names.iter().map(|name| (*name).to_owned()).collect();
         Table { heading, rows: rows.collect(), ..Table::default() }
+    }
+
+    fn readings_table(&self) -> Table {
+        let line = std::iter::once("line".to_owned());
+        let rows = self.row_readings.iter();
+        Table {
+            heading: line.chain(self.numbers.iter().cloned()).collect(),
+            rows: rows.map(|row| std::iter::once(Some(row.line as f64)).chain(row.left.iter().copied()).collect()).collect(),
+            ..Table::default()
+        }
     }
 }

@@ -1,14 +1,16 @@
 //! Repeatability and prediction in words.
 
-use super::{MeanAndMax, Report};
+use super::{InstrumentErrors, MeanAndMax, Report};
 use crate::number::{fixed, percent};
 
 impl Report {
     /// Repeatability and prediction in words.
     pub fn sentences(&self) -> Vec<String> {
         let mut all = vec![self.behind()];
-        all.extend(self.repeatability());
-        all.extend(self.variation());
+        if self.instruments.is_empty() {
+            all.extend(self.repeatability());
+            all.extend(self.variation());
+        }
         all.extend(self.order.iter().map(|order| order.sentence.clone()));
         all.extend(self.prediction());
         all.extend(self.accepted.iter().map(|accepted| accepted.sentence(self.unit)));
@@ -123,21 +125,28 @@ impl Report {
         let left = match explained.repeatable {
             0 => "The spec has no repeatable source that could explain them: `abbe identify` finds some."
                 .to_owned(),
-            repeatable => format!(
-                "The {repeatable} repeatable sources of the spec explain {} of the sum of squares; {} remain on average, {} at most.",
-                percent(explained.share, 1.0),
-                self.show(explained.left_mean),
-                self.show(explained.left_max)
-            ),
+            repeatable => {
+                let lengths = match self.instruments.iter().all(InstrumentErrors::is_angle) {
+                    true if !self.instruments.is_empty() => String::new(),
+                    _ => format!(
+                        "; {} remain on average, {} at most",
+                        self.show(explained.left_mean),
+                        self.show(explained.left_max)
+                    ),
+                };
+                let of = if self.instruments.is_empty() { "" } else { " in units of the uncertainty" };
+                let share = percent(explained.share, 1.0);
+                format!("The {repeatable} repeatable sources of the spec explain {share} of the sum of squares{of}{lengths}.")
+            }
         };
+        let (Some(seen), Some([low, high])) = (explained.inside, explained.likely) else { return vec![left] };
         let chance = match explained.random {
             0 => "the noise of the instrument fills".to_owned(),
             random => format!(
                 "its {random} random sources, drawn anew in every row, and the noise of the instrument fill"
             ),
         };
-        let [low, high] = explained.likely;
-        let verdict = match explained.inside {
+        let verdict = match seen {
             inside if inside < low => {
                 "so there are errors that the spec does not have, or the instrument is worse than stated"
             }
@@ -148,7 +157,7 @@ impl Report {
         let inside = format!(
             "About that, {chance} a region that holds 95 % of the rows of a machine as the spec says; {} of these rows are within \
              it: {verdict} (of so many rows {low} to {high}, in 99 of 100 such machines).",
-            percent(explained.inside, 1.0)
+            percent(seen, 1.0)
         );
         vec![left, inside]
     }
