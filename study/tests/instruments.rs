@@ -255,9 +255,15 @@ fn what_is_found_is_measured_again() {
         let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
         let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
         let text = report.found.written_map(&map, &nominal.spec, "found.map.toml").unwrap();
-        let found = Map::parse("found.map.toml", &text, &machine.spec).unwrap_or_else(|m| panic!("{name}: {m}"));
+        let found =
+            Map::parse("found.map.toml", &text, &machine.spec).unwrap_or_else(|m| panic!("{name}: {m}"));
         let measure = |map: Map| {
-            let job = Measure { machine: machine.clone(), map, data: unseen.clone(), accept: Acceptance::default() };
+            let job = Measure {
+                machine: machine.clone(),
+                map,
+                data: unseen.clone(),
+                accept: Acceptance::default(),
+            };
             job.run(&mut ()).unwrap_or_else(|mistake| panic!("{name}: {mistake}"))
         };
         let measured = measure(found.clone());

@@ -14,8 +14,12 @@ pub(super) fn text(spec: &Spec, report: &Report) -> String {
     if report.base_fitted {
         parts[0] += &(wrapped(
             match report.instruments.is_empty() {
-                true => "Where the instrument stands was found from these rows, for the machine as its spec has it: what all rows have in common is not in the errors.",
-                false => "Where the instruments stand was found from these rows, for the machine as its spec has it: what that explains is not in the errors. Places that `identify --out` found are in its map.",
+                true => {
+                    "Where the instrument stands was found from these rows, for the machine as its spec has it: what all rows have in common is not in the errors."
+                }
+                false => {
+                    "Where the instruments stand was found from these rows, for the machine as its spec has it: what that explains is not in the errors. Places that `identify --out` found are in its map."
+                }
             },
             0,
         ) + "\n");

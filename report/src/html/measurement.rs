@@ -131,12 +131,20 @@ fn of_readings(report: &Report) -> Figures {
     let mut drawn = Figures::new();
     for (i, name) in report.numbers.iter().enumerate() {
         let left: Vec<f64> = report.row_readings.iter().filter_map(|row| row.left[i]).collect();
-        let of = report.instruments.iter().find(|one| *name == one.name || name.starts_with(&format!("{}_", one.name)));
+        let of = report
+            .instruments
+            .iter()
+            .find(|one| *name == one.name || name.starts_with(&format!("{}_", one.name)));
         let unit = of.map_or("", |one| &one.unit);
         if !left.is_empty() {
             let plot = histogram(&format!("{name} ({unit})"), &[(left, css(INK, 0.75))]);
             let title = format!("{}: how often which error occurs", escaped(name));
-            drawn.add(&title, &[plot], 260, "Reading minus prediction with the repeatable sources of the spec.");
+            drawn.add(
+                &title,
+                &[plot],
+                260,
+                "Reading minus prediction with the repeatable sources of the spec.",
+            );
         }
     }
     drawn

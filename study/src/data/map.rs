@@ -154,7 +154,9 @@ impl Map {
     pub fn newly_stationed(self) -> Self {
         let stations = Stations { stated: Vec::new(), ..self.stations };
         let layout = match self.layout {
-            Layout::Instruments(all) => Layout::Instruments(Box::new(Instruments { found: Vec::new(), ..*all })),
+            Layout::Instruments(all) => {
+                Layout::Instruments(Box::new(Instruments { found: Vec::new(), ..*all }))
+            }
             other => other,
         };
         let base = if sees_the_base(&layout) { Base::Unknown } else { self.base };

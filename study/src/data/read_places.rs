@@ -106,7 +106,8 @@ pub(super) fn found_places(
 ) -> Option<Layout> {
     let Some(list) = root.get("place") else { return layout };
     let Layout::Instruments(mut all) = layout? else {
-        let message = "`[[place]]` says where what an instrument looks at stands: this map has no instruments";
+        let message =
+            "`[[place]]` says where what an instrument looks at stands: this map has no instruments";
         document.mistake(Diagnostic::new(list.key_span.clone(), message).help("leave it out"));
         return None;
     };

@@ -2,7 +2,8 @@
 
 use abbe::analysis::sampling;
 use abbe::identify::{
-    Failure, Fixture, Gauge, Measurement, Model, Observation, Options, Place, Role, Station, Unknown, fit, register,
+    Failure, Fixture, Gauge, Measurement, Model, Observation, Options, Place, Role, Station, Unknown, fit,
+    register,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -156,7 +157,8 @@ impl<'a> Setup<'a> {
                 let count = self.real.fixtures[fixture].place.unknowns();
                 (0..count).map(move |coordinate| Unknown::Fixture(fixture, coordinate))
             });
-            let zeros = all.list[i].readings.clone().filter(|reading| !self.real.readings[*reading].zero_known);
+            let zeros =
+                all.list[i].readings.clone().filter(|reading| !self.real.readings[*reading].zero_known);
             place.chain(zeros.map(Unknown::Zero)).collect::<Vec<_>>()
         });
         unknowns.collect()

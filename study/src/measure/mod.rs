@@ -23,8 +23,8 @@ pub use errors::RowError;
 use readings::{Readings, readings};
 
 pub use explained::Explained;
-pub use readings::{InstrumentErrors, ReadingErrors, RowReadings};
 pub use iso9283::{Directions, Distances, Drift, MeanAndMax, Repeated};
+pub use readings::{InstrumentErrors, ReadingErrors, RowReadings};
 
 /// How good is this machine?
 pub struct Measure {
@@ -259,7 +259,9 @@ impl Report {
         let rows = self.row_readings.iter();
         Table {
             heading: line.chain(self.numbers.iter().cloned()).collect(),
-            rows: rows.map(|row| std::iter::once(Some(row.line as f64)).chain(row.left.iter().copied()).collect()).collect(),
+            rows: rows
+                .map(|row| std::iter::once(Some(row.line as f64)).chain(row.left.iter().copied()).collect())
+                .collect(),
             ..Table::default()
         }
     }

@@ -136,7 +136,9 @@ impl Report {
                 };
                 let of = if self.instruments.is_empty() { "" } else { " in units of the uncertainty" };
                 let share = percent(explained.share, 1.0);
-                format!("The {repeatable} repeatable sources of the spec explain {share} of the sum of squares{of}{lengths}.")
+                format!(
+                    "The {repeatable} repeatable sources of the spec explain {share} of the sum of squares{of}{lengths}."
+                )
             }
         };
         let (Some(seen), Some([low, high])) = (explained.inside, explained.likely) else { return vec![left] };
