@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use abbe_study::jacobian::{self, Report};
 use abbe_study::number::unbroken;
-use abbe_study::{Machine, number};
+use abbe_study::number;
 
 use crate::arguments::Jacobian;
 use crate::console::Console;
@@ -13,8 +13,7 @@ use crate::output::{Outcome, json};
 use crate::table::{Table, wrapped};
 
 pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome, Failure> {
-    let mut machine = Machine::find(&arguments.spec)?;
-    machine.change(&arguments.changes.read(&machine.spec)?);
+    let machine = arguments.subject.machine()?;
     let q = match &arguments.q {
         Some(text) => Some(jacobian::read_joint_variables(text, &machine.spec)?),
         None => None,

@@ -2,12 +2,13 @@
 //!
 //! `arguments` is what it is told. Then one module per command: arguments into a job of `abbe_study`, its report into
 //! text, JSON and files. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
-//! failed, 2 for bad usage or input, 130 if it was interrupted.
+//! failed, 2 for wrong usage or input, 128 + n if signal n ended it.
 
 mod analyze;
 mod arguments;
 mod check;
 mod compensate;
+mod completions;
 mod console;
 mod failure;
 mod generate;
@@ -15,6 +16,7 @@ mod identify;
 mod interrupt;
 mod jacobian;
 mod list;
+mod man;
 mod measure;
 mod monitor;
 mod number;
@@ -43,17 +45,19 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     match &arguments.command {
-        None => Ok(Outcome::passed(Arguments::command().render_help().to_string() + "\n")),
+        None => Ok(Outcome::passed(Arguments::command().render_long_help().to_string() + "\n")),
         Some(Command::List(arguments)) => list::run(arguments),
         Some(Command::Check(arguments)) => check::run(arguments),
-        Some(Command::Generate(arguments)) => generate::run(arguments),
         Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
-        Some(Command::Measure(arguments)) => measure::run(arguments),
-        Some(Command::Monitor(arguments)) => monitor::run(arguments),
-        Some(Command::Identify(arguments)) => identify::run(arguments),
-        Some(Command::Compensate(arguments)) => compensate::run(arguments),
+        Some(Command::Generate(arguments)) => generate::run(arguments),
         Some(Command::Plan(arguments)) => plan::run(arguments),
         Some(Command::Simulate(arguments)) => simulate::run(arguments),
+        Some(Command::Measure(arguments)) => measure::run(arguments),
+        Some(Command::Identify(arguments)) => identify::run(arguments),
+        Some(Command::Compensate(arguments)) => compensate::run(arguments),
+        Some(Command::Monitor(arguments)) => monitor::run(arguments),
+        Some(Command::Completions(arguments)) => completions::run(arguments),
+        Some(Command::Man(arguments)) => man::run(arguments),
     }
 }

@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::print;
 use crate::spec::Spec;
 
-/// Generates a module for every `*.toml` in a folder, for `abbe::include_manipulators!()` to include.
+/// Generates a module for every `*.toml` in a folder but studies, maps and plans (`*.study.toml`, …), for `abbe::include_manipulators!()` to include.
 ///
 /// To be called by a build script, which fails with all mistakes shown if there are any.
 pub fn compile(specs: impl AsRef<Path>) {
@@ -75,7 +75,7 @@ fn spec_files(specs: &Path) -> Result<Vec<PathBuf>, CompileError> {
     let mut files = Vec::new();
     for entry in fs::read_dir(specs).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
+        if path.extension().is_some_and(|extension| extension == "toml") && !is_companion(&path) {
             files.push(path);
         }
     }
@@ -84,6 +84,13 @@ fn spec_files(specs: &Path) -> Result<Vec<PathBuf>, CompileError> {
     }
     files.sort();
     Ok(files)
+}
+
+/// Whether its name says that a file is no spec but belongs to one: `arm.study.toml`, `arm.map.toml`, `arm.plan.toml`.
+fn is_companion(path: &Path) -> bool {
+    let stem = path.file_stem().map(Path::new);
+    let kind = stem.and_then(Path::extension);
+    kind.is_some_and(|kind| ["study", "map", "plan"].iter().any(|companion| kind == *companion))
 }
 
 /// Leaves a file alone that is right already, and never leaves one half written.

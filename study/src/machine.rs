@@ -1,7 +1,8 @@
 //! The manipulator that a job is about: a spec file, or a shipped one.
 
+use std::ffi::OsStr;
 use std::ops::Deref;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe::analysis::Sweepable;
@@ -22,6 +23,8 @@ pub struct Machine {
     pub spec: Arc<Spec>,
     /// What it is called in messages: the path of its file, or the shipped name.
     pub origin: String,
+    /// Its file, if it was read from one.
+    pub file: Option<PathBuf>,
     /// What is shipped with it, if it is a shipped one.
     pub shipped: Option<&'static Shipped>,
     /// Whether the spec is no longer that of the generated code.
@@ -34,15 +37,18 @@ impl Machine {
     /// Reads the spec that an argument names.
     ///
     /// A file that exists, and whatever looks like a path, is a file; all else must be a shipped name.
-    pub fn find(argument: &str) -> Result<Self, Diagnostics> {
-        let path = Path::new(argument);
-        let is_path =
-            argument.contains(std::path::is_separator) || argument.ends_with(".toml") || path.is_file();
-        let shipped = SHIPPED.iter().find(|shipped| shipped.name == argument);
+    pub fn find(argument: impl AsRef<OsStr>) -> Result<Self, Diagnostics> {
+        let path = Path::new(&argument);
+        let name = path.to_string_lossy();
+        let is_path = name.contains(std::path::is_separator) || name.ends_with(".toml") || path.is_file();
+        let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
         match shipped {
             Some(shipped) if !is_path => Self::shipped(shipped),
-            None if !is_path && !path.exists() => Err(unknown(argument)),
-            _ => Ok(Self::new(Spec::read(path)?, argument, None)),
+            None if !is_path && !path.exists() => Err(unknown(&name)),
+            _ => {
+                let file = Some(path.to_owned());
+                Ok(Self { file, ..Self::new(Spec::read(path)?, &name, None) })
+            }
         }
     }
 
@@ -61,6 +67,7 @@ impl Machine {
         Self {
             spec: Arc::new(spec),
             origin: origin.to_owned(),
+            file: None,
             shipped,
             changed: false,
             fixed_inputs: Vec::new(),
@@ -104,7 +111,10 @@ impl Machine {
     pub fn text(&self) -> Result<String, Diagnostics> {
         match self.shipped {
             Some(shipped) => Ok(shipped.spec.to_owned()),
-            None => Ok(Document::read(Path::new(&self.origin))?.text.to_string()),
+            None => {
+                let file = self.file.as_deref().unwrap_or(Path::new(&self.origin));
+                Ok(Document::read(file)?.text.to_string())
+            }
         }
     }
 }

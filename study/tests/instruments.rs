@@ -201,7 +201,7 @@ fn ranks_are_those_of_theory() {
             count: 100,
             candidates: 240,
         };
-        let report = Plan { machine, map, choice, study, model_error: 0.0 }
+        let report = Plan { machine, map, choice, study, model_error: 0.0, seed: None }
             .run(&mut ())
             .unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
         println!("{name}: {} (theory {expected}), condition {:.0}", report.rank, report.condition);

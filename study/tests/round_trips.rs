@@ -252,7 +252,7 @@ fn planned(map: &Map, samples: usize) -> usize {
     std::fs::write(&file, text).unwrap();
     let choice = Choice::Sets(Sets::find(&file, &machine.spec).unwrap());
     let study = Study::find(None, &machine).unwrap();
-    Plan { machine, map: map.clone(), choice, study, model_error: 0.0 }.run(&mut ()).unwrap().rank
+    Plan { machine, map: map.clone(), choice, study, model_error: 0.0, seed: None }.run(&mut ()).unwrap().rank
 }
 
 /// A reflector at the flange, on the last axis but for 0.3 mm: what it does not tell is held and named, not written.

@@ -10,7 +10,6 @@ mod text;
 
 use abbe::analysis::Row;
 use abbe_study::analyze::{Analyze, Report, Verdict};
-use abbe_study::{Machine, Study};
 
 use crate::arguments;
 use crate::console::Console;
@@ -20,12 +19,9 @@ use crate::output::{self, Outcome, Pending, note};
 use files::{Files, Moved};
 
 pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
+    arguments.running.start()?;
     let mut console = Console::default();
     let job = job(arguments, &mut console)?;
-    if let Some(threads) = arguments.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
-        pool.build_global().map_err(|error| Failure::of("--threads", error))?;
-    }
     let report = match &arguments.out {
         None => job.run(&mut console)?,
         Some(folder) => {
@@ -43,7 +39,7 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
             report
         }
     };
-    let text = if arguments.json { output::json(&report)? } else { text::text(&report) };
+    let text = if arguments.running.json { output::json(&report)? } else { text::text(&report) };
     match (arguments.check, report.verdict()) {
         (true, None) => Err(Failure::of("--check", "the study has no tolerance")
             .help("give one: tolerance = \"0.5 mm\" in its [study]")),
@@ -53,9 +49,9 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
 }
 
 fn job(arguments: &arguments::Analyze, console: &mut Console) -> Result<Analyze, Failure> {
-    let machine = Machine::find(&arguments.spec)?;
-    let study = Study::find(arguments.study.as_deref(), &machine)?;
-    let changes = arguments.changes.read(&machine.spec)?;
+    let machine = arguments.subject.as_written()?;
+    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let changes = arguments.subject.changes(&machine.spec)?;
     let mut job = Analyze::new(machine, study);
     job.change(&changes, console);
     job.monte_carlo = arguments.monte_carlo.map(|draws| draws as usize);

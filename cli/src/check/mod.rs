@@ -5,7 +5,7 @@ mod chain;
 use abbe_codegen::spec::{Spec, VariableKind};
 use abbe_study::check::{self, Identifiable, Law, Report};
 use abbe_study::number::{quantity, short};
-use abbe_study::{Machine, Notes};
+use abbe_study::Notes;
 
 use crate::arguments::Check;
 use crate::console::Console;
@@ -14,7 +14,7 @@ use crate::output::{Outcome, json};
 use crate::table::{Table, wrapped};
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
-    let job = check::Check { machine: Machine::find(&arguments.spec)? };
+    let job = check::Check { machine: arguments.subject.machine()? };
     let mut console = Console::default();
     let report = job.run(&mut console)?;
     for warning in &report.warnings {

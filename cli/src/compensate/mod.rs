@@ -3,7 +3,6 @@
 mod text;
 
 use abbe_codegen::spec::Spec;
-use abbe_study::Machine;
 use abbe_study::compensate::{Compensate, check_poses};
 use abbe_study::data::{Data, Map};
 
@@ -15,8 +14,8 @@ use crate::output::{Outcome, json, write};
 use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
-    let mut machine = Machine::find(&arguments.spec)?;
-    machine.change(&arguments.changes.read(&machine.spec)?);
+    arguments.running.start()?;
+    let machine = arguments.subject.machine()?;
     let map = map(arguments, &machine.spec)?;
     let tolerance = length("--tolerance", &arguments.tolerance, &machine.spec)?;
     let data = match arguments.poses {
@@ -28,13 +27,13 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     if let Some(file) = &arguments.out {
         write(file, &report.table(&job.map).csv())?;
     }
-    if let Some(file) = &arguments.report {
+    if let Some(file) = &arguments.page.report {
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);
-        let provenance = provenance(spec, map, [("commands", &arguments.data)], arguments.date.as_ref())?;
+        let provenance = provenance(spec, map, [("commands", &arguments.data)], arguments.page.date.as_ref())?;
         write(file, &abbe_report::compensation(spec, &job.map, &report, &provenance))?;
     }
-    let text = match arguments.json {
+    let text = match arguments.running.json {
         true => json(&report)?,
         false => {
             let manipulator = job.machine.evaluator(true);

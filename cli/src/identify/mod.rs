@@ -9,7 +9,7 @@ use abbe::identify::Loss;
 use abbe_codegen::spec::{Spec, VariableKind};
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};
-use abbe_study::{Acceptance, Machine};
+use abbe_study::Acceptance;
 
 use crate::arguments::{self, Robust, Terms};
 use crate::console::Console;
@@ -20,8 +20,9 @@ use crate::provenance::provenance;
 pub(crate) use alike::table as alike_table;
 
 pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
-    let mut machine = Machine::find(&arguments.spec)?;
-    let changes = arguments.changes.read(&machine.spec)?;
+    arguments.running.start()?;
+    let mut machine = arguments.subject.as_written()?;
+    let changes = arguments.subject.changes(&machine.spec)?;
     if arguments.out.is_some() && !changes.is_empty() {
         return Err(Failure::of(
             "--out",
@@ -30,8 +31,8 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         .help("make them in a copy of the spec, then identify that"));
     }
     machine.change(&changes);
-    let map = Map::find(&arguments.map, &machine.spec)?;
-    let data = Data::read(&arguments.data, &map)?;
+    let map = Map::find(&arguments.measured.map, &machine.spec)?;
+    let data = Data::read(&arguments.measured.data, &map)?;
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
     let settings = Settings {
         loss: loss(arguments.robust),
@@ -47,14 +48,14 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let written =
         arguments.out.as_ref().map(|file| write_found(file, arguments, &job, &report)).transpose()?;
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    if let Some(file) = &arguments.report {
+    if let Some(file) = &arguments.page.report {
         let test = arguments.test.iter().map(|file| ("test", file));
-        let files = [("measurements", &arguments.data)].into_iter().chain(test);
+        let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
         let spec = &job.machine.spec;
-        let provenance = provenance(spec, Some(&job.map), files, arguments.date.as_ref())?;
+        let provenance = provenance(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
         write(file, &abbe_report::identification(spec, &job.map, &report, &provenance))?;
     }
-    if arguments.json {
+    if arguments.running.json {
         report.notes.iter().for_each(|line| note(line));
         return Ok(Outcome::checked(json(&report)?, accepted));
     }
@@ -77,7 +78,7 @@ fn write_found(
     let machine = &job.machine;
     let map_file = file.with_extension("map.toml");
     let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if same(&map_file, &arguments.map) {
+    if same(&map_file, &arguments.measured.map) {
         let message = format!("the map of this run is {}, which would be overwritten", map_file.display());
         return Err(Failure::of("--out", message).help("name another file"));
     }

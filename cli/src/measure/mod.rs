@@ -2,7 +2,6 @@
 
 mod text;
 
-use abbe_study::Machine;
 use abbe_study::data::{Data, Map};
 use abbe_study::measure::Measure;
 
@@ -14,23 +13,23 @@ use crate::output::{Outcome, cannot_write, json, write};
 use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
-    let mut machine = Machine::find(&arguments.spec)?;
-    machine.change(&arguments.changes.read(&machine.spec)?);
-    let map = Map::find(&arguments.map, &machine.spec)?;
+    arguments.running.start()?;
+    let machine = arguments.subject.machine()?;
+    let map = Map::find(&arguments.measured.map, &machine.spec)?;
     let map = if arguments.station.is_some() { map.newly_stationed() } else { map };
-    let data = Data::read(&arguments.data, &map)?;
+    let data = Data::read(&arguments.measured.data, &map)?;
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let job = Measure { machine, map, data, accept };
     let report = job.run(&mut Console::default())?;
     let spec = &job.machine.spec;
     if let Some(folder) = &arguments.out {
         let provenance =
-            provenance(spec, Some(&job.map), [("measurements", &arguments.data)], arguments.date.as_ref())?;
+            provenance(spec, Some(&job.map), [("measurements", &arguments.measured.data)], arguments.date.as_ref())?;
         let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
         std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
         write(&folder.join("errors.csv"), &report.table().csv())?;
         write(&folder.join("report.html"), &page)?;
     }
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    Ok(Outcome::checked(if arguments.json { json(&report)? } else { text::text(spec, &report) }, accepted))
+    Ok(Outcome::checked(if arguments.running.json { json(&report)? } else { text::text(spec, &report) }, accepted))
 }

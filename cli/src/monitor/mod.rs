@@ -2,7 +2,6 @@
 
 mod text;
 
-use abbe_study::Machine;
 use abbe_study::data::Map;
 use abbe_study::monitor::{Checks, Monitor, Settings};
 
@@ -14,8 +13,8 @@ use crate::output::{Outcome, json, write};
 use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
-    let mut machine = Machine::find(&arguments.spec)?;
-    machine.change(&arguments.changes.read(&machine.spec)?);
+    arguments.running.start()?;
+    let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;
     let mut checks = Checks::read(&arguments.data, &map)?;
     if let Some(date) = &arguments.since {
@@ -30,12 +29,12 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     };
     let job = Monitor { machine, map, checks, settings };
     let report = job.run(&mut Console::default())?;
-    if let Some(file) = &arguments.report {
+    if let Some(file) = &arguments.page.report {
         let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
-        let provenance = provenance(spec, Some(&job.map), files, arguments.date.as_ref())?;
+        let provenance = provenance(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
         write(file, &abbe_report::monitoring(spec, &job.map, &report, &provenance))?;
     }
     let passed = !arguments.check || report.alarm.is_none();
-    let text = if arguments.json { json(&report)? } else { text::text(&job.machine.spec, &report) };
+    let text = if arguments.running.json { json(&report)? } else { text::text(&job.machine.spec, &report) };
     Ok(Outcome::checked(text, passed))
 }

@@ -7,7 +7,6 @@ use abbe_codegen::spec::Spec;
 use abbe_study::data::Map;
 use abbe_study::number::{digits, short};
 use abbe_study::plan::{Choice, Input, Plan, Report, Sets, Unseen};
-use abbe_study::{Machine, Study};
 
 use crate::arguments;
 use crate::console::Console;
@@ -18,8 +17,8 @@ use crate::output::{Outcome, json, write};
 use crate::table::wrapped;
 
 pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
-    let mut machine = Machine::find(&arguments.spec)?;
-    machine.change(&arguments.changes.read(&machine.spec)?);
+    arguments.running.start()?;
+    let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;
     let choice = match &arguments.sets {
         Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
@@ -33,13 +32,13 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
         },
     };
     let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
-    let study = Study::find(arguments.study.as_deref(), &machine)?;
-    let job = Plan { machine, map, choice, study, model_error };
+    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let job = Plan { machine, map, choice, study, model_error, seed: arguments.seed };
     let report = job.run(&mut Console::default())?;
     if let Some(file) = &arguments.out {
         write(file, &report.table(&job.map).csv())?;
     }
-    Ok(Outcome::passed(match arguments.json {
+    Ok(Outcome::passed(match arguments.running.json {
         true => json(&report)?,
         false => text(&job.machine.spec, &job.map, &report, arguments.out.as_deref()),
     }))

@@ -1,6 +1,5 @@
 //! `abbe simulate`: measurements of a machine whose errors are known.
 
-use abbe_study::Machine;
 use abbe_study::data::{Data, Map};
 use abbe_study::simulate::{Places, Simulate};
 
@@ -8,14 +7,14 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, write};
+use crate::output::{Outcome, json, write};
 
 pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
-    let mut machine = Machine::find(&arguments.spec)?;
-    machine.change(&arguments.changes.read(&machine.spec)?);
+    arguments.running.start()?;
+    let machine = arguments.subject.machine()?;
     let map = Map::find(&arguments.map, &machine.spec)?;
     let noise = arguments.noise.as_ref().map(|text| length("--noise", text, &machine.spec)).transpose()?;
-    let at = match &arguments.at {
+    let at = match &arguments.data {
         Some(file) => Places::Rows(Data::read_commanded(file, &map)?),
         None => Places::Samples(arguments.samples),
     };
@@ -28,12 +27,14 @@ pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
         random: arguments.random,
         seed: arguments.seed,
     };
-    let table = job.run(&mut Console::default())?.table;
-    match &arguments.out {
-        Some(file) => {
-            write(file, &table.csv())?;
-            Ok(Outcome::passed(format!("{}: {} rows\n", file.display(), table.rows.len())))
-        }
-        None => Ok(Outcome::passed(table.csv())),
+    let report = job.run(&mut Console::default())?;
+    let table = &report.table;
+    if let Some(file) = &arguments.out {
+        write(file, &table.csv())?;
     }
+    Ok(Outcome::passed(match &arguments.out {
+        _ if arguments.running.json => json(&report)?,
+        Some(file) => format!("{}: {} rows\n", file.display(), table.rows.len()),
+        None => table.csv(),
+    }))
 }

@@ -43,12 +43,12 @@ fn what_is_left_is_what_measuring_did_not_tell() {
     };
     run("plan arm.toml --map tracker.toml --optimal 60 --out plan.csv");
     let real = "simulate arm.toml --map tracker.toml --enable 'what nobody knows yet'";
-    run(&format!("{real} --at plan.csv --seed 1 --out measured.csv"));
+    run(&format!("{real} plan.csv --seed 1 --out measured.csv"));
     run("identify arm.toml measured.csv --map tracker.toml --terms joint --out found.toml");
     run("simulate arm.toml --map tracker.toml --samples 40 --seed 2 --noise 0 --out wanted.csv");
-    run("compensate found.toml --data wanted.csv --map tracker.toml --out commands.csv");
-    run(&format!("{real} --at wanted.csv --noise 0 --out before.csv"));
-    run(&format!("{real} --at commands.csv --noise 0 --out after.csv"));
+    run("compensate found.toml wanted.csv --map tracker.toml --out commands.csv");
+    run(&format!("{real} wanted.csv --noise 0 --out before.csv"));
+    run(&format!("{real} commands.csv --noise 0 --out after.csv"));
     let points = |name: &str| columns(&folder.path().join(name), ["x", "y", "z"]);
     let wanted = points("wanted.csv");
     let (before, after) =
@@ -65,10 +65,10 @@ fn commands_are_in_the_columns_and_units_of_the_data() {
     let data =
         write(folder.path(), "data.csv", "d1,d2,d3,q4,q5,q6\n1128,280,300,0.5,0,0\n600,280,300,-0.5,0,0\n");
     let out = folder.path().join("out.csv");
-    let text = prints(&["compensate", "pps", "--data", path(&data), "--out", path(&out)]);
+    let text = prints(&["compensate", "pps", path(&data), "--out", path(&out)]);
     narrow(&text);
     assert!(text.contains("2 of 2 rows are compensated"), "{text}");
-    let report = json(&["compensate", "pps", "--data", path(&data), "--json"]);
+    let report = json(&["compensate", "pps", path(&data), "--json"]);
     let number = |value: &Value| value.as_f64().unwrap();
     assert!(number(&report["before"]["max"]) > 0.5 && number(&report["after"]["max"]) < 1e-6);
     let written = columns(&out, ["d1", "q4", "q6"]);
@@ -91,7 +91,7 @@ fn what_cannot_be_had_within_limits_is_said() {
     );
     let map = "[data]\nuncertainty = \"0.1 mm\"\n\n[joints]\nd1 = { column = \"d1\", unit = \"mm\" }\nd2 = { column = \"d2\", unit = \"mm\" }\nd3 = { column = \"d3\", unit = \"mm\" }\nq4 = { column = \"q4\", unit = \"deg\" }\nq5 = { column = \"q5\", unit = \"deg\" }\nq6 = { column = \"q6\", unit = \"deg\" }\n\n[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n";
     let map = write(folder.path(), "map.toml", map);
-    let run = abbe(&["compensate", "pps", "--data", path(&data), "--map", path(&map)]);
+    let run = abbe(&["compensate", "pps", path(&data), "--map", path(&map)]);
     assert_eq!(run.status, 1, "{}", run.stderr);
     narrow(&run.stdout);
     for expected in [
@@ -118,19 +118,8 @@ fn poses_are_as_good_as_joints() {
     let plan =
         write(folder.path(), "plan.csv", "j1,j2,j3,j4,j5,j6\n10,-80,70,-60,50,20\n-40,-60,90,-100,80,0\n");
     let poses = folder.path().join("poses.csv");
-    prints(&[
-        "simulate",
-        "ur5",
-        "--map",
-        path(&map),
-        "--at",
-        path(&plan),
-        "--noise",
-        "0",
-        "--out",
-        path(&poses),
-    ]);
-    let compensate = ["compensate", path(&spec), "--data", path(&poses), "--map", path(&map), "--json"];
+    prints(&["simulate", "ur5", path(&plan), "--map", path(&map), "--noise", "0", "--out", path(&poses)]);
+    let compensate = ["compensate", path(&spec), path(&poses), "--map", path(&map), "--json"];
     let (from_joints, from_poses) = (json(&compensate), json(&[&compensate[..], &["--poses"]].concat()));
     for row in 0..2 {
         for i in 1..=6 {
@@ -138,7 +127,7 @@ fn poses_are_as_good_as_joints() {
             assert!((q(&from_joints) - q(&from_poses)).abs() < 1e-6);
         }
     }
-    let point = [&compensate[..4], &["--map", "ur5", "--poses"]].concat();
+    let point = [&compensate[..3], &["--map", "ur5", "--poses"]].concat();
     let run = abbe(&point);
     assert_eq!(run.status, 2);
     assert!(run.stderr.contains("needs a map with `[pose]`"), "{}", run.stderr);
@@ -150,7 +139,7 @@ fn bad_input_writes_nothing() {
     let out = folder.path().join("out.csv");
     let refused = |data: &str, more: &[&str], expected: &[&str]| {
         let data = write(folder.path(), "data.csv", data);
-        let run = abbe(&[&["compensate", "pps", "--data", path(&data), "--out", path(&out)], more].concat());
+        let run = abbe(&[&["compensate", "pps", path(&data), "--out", path(&out)], more].concat());
         assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{}", run.stderr);
         expected
             .iter()
@@ -164,7 +153,7 @@ fn bad_input_writes_nothing() {
     refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "-1mm"], &["not negative"]);
     refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "1deg"], &["length"]);
     let hot = write(folder.path(), "hot.csv", "x,y,z,temperature_rise\n1,2,3,50\n");
-    let run = abbe(&["compensate", "machine3", "--data", path(&hot), "--out", path(&out)]);
+    let run = abbe(&["compensate", "machine3", path(&hot), "--out", path(&out)]);
     assert_eq!(run.status, 2);
     let expected =
         "no row can be compensated: line 2: `temperature_rise` is 50 K, outside its range -15 … 15";

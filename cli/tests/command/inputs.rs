@@ -291,7 +291,7 @@ fn an_identified_spec_remembers_where_it_was_fitted() {
         let data = path("other.csv");
         let arguments: &[&str] = match command {
             "measure" => &["measure", &found, &data, "--map", &map],
-            _ => &["compensate", &found, "--data", &data, "--map", &map],
+            _ => &["compensate", &found, &data, "--map", &map],
         };
         let run = abbe(arguments);
         let expected = format!("{count} of 60 rows are outside the ranges");

@@ -84,7 +84,6 @@ fn accuracy_and_repeatability_are_those_put_in() {
         "pps",
         "--map",
         "pps",
-        "--at",
         path(&plan),
         "--out",
         path(&data),
@@ -123,7 +122,7 @@ fn accuracy_and_repeatability_are_those_put_in() {
     }
     // Without noise and chance the sources explain everything.
     let exact =
-        ["simulate", "pps", "--map", "pps", "--at", path(&plan), "--out", path(&data), "--noise", "0"];
+        ["simulate", "pps", "--map", "pps", path(&plan), "--out", path(&data), "--noise", "0"];
     prints(&exact);
     let report = json(&["measure", "pps", path(&data), "--map", "pps", "--json"]);
     assert!(report["explained"]["left_max"].as_f64().unwrap() < 1e-5);

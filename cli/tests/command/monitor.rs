@@ -28,7 +28,6 @@ fn chapter() -> TempDir {
         &spec,
         "--map",
         &map,
-        "--at",
         &at("mornings.csv"),
         "--seed",
         "4",

@@ -26,7 +26,7 @@ fn pages_say_what_they_rest_on_and_are_the_same_every_time() {
         let page = folder.path().join("page.html");
         let identify =
             ["identify", "pps", &data, "--map", "pps", "--report", path(&page), "--date", "21 November"];
-        let compensate = ["compensate", "pps", "--data", &data, "--map", "pps", "--report", path(&page)];
+        let compensate = ["compensate", "pps", &data, "--map", "pps", "--report", path(&page)];
         for (arguments, expected) in [
             (
                 &identify[..],

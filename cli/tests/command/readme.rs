@@ -22,6 +22,11 @@ fn example(file: &str) -> String {
     fs::read_to_string(root().join("tests/examples/own-robot").join(file)).unwrap()
 }
 
+/// The spec that it shows.
+pub(crate) fn spec() -> String {
+    blocks("toml").swap_remove(0)
+}
+
 #[test]
 fn its_code_is_that_of_the_example() {
     assert_eq!(blocks("toml")[0], example("specs/arm.toml"));

@@ -277,3 +277,22 @@ fn a_report_says_what_it_covers() {
     let sources = std::fs::read_to_string(out.join("sources.csv")).unwrap();
     assert!(sources.contains("random standard deviation") && sources.contains("worst case"));
 }
+
+/// Found, said in one line, and left for a study that is given.
+#[test]
+fn a_study_beside_the_spec() {
+    let folder = tempdir().unwrap();
+    let spec = write(folder.path(), "arm.toml", &crate::readme::spec());
+    let study = |title: &str| format!("[study]\ntitle = \"{title}\"\n[workspace.joints]\nsamples = 5\n");
+    let other = write(folder.path(), "other.toml", &study("Another"));
+    let spec = spec.to_str().unwrap();
+    let without = abbe(&["analyze", spec]);
+    assert!(without.stdout.contains("No study") && without.stderr.is_empty(), "{}", without.stderr);
+    write(folder.path(), "arm.study.toml", &study("Beside"));
+    let beside = abbe(&["analyze", spec]);
+    assert!(beside.stdout.contains("\nBeside\n"), "{}", beside.stdout);
+    let note = format!("note: the study is {}, beside the spec\n", folder.path().join("arm.study.toml").display());
+    assert_eq!(beside.stderr, note);
+    let given = abbe(&["analyze", spec, "--study", other.to_str().unwrap()]);
+    assert!(given.stdout.contains("\nAnother\n") && given.stderr.is_empty(), "{}", given.stderr);
+}

@@ -111,7 +111,7 @@ impl FoundModel {
             found.numbers.push(FoundTerm { term, magnitude, standard_deviation });
         }
         found.fitted = fitted(spec, data);
-        let (unit, file) = (spec.length.symbol(), std::path::Path::new(&data.file));
+        let unit = spec.length.symbol();
         found.reference = format!(
             "Identified from {} rows{} of {} by abbe {}: rms {} {unit} left, {} {unit} on rows left out in turn",
             data.observations.len(),
@@ -119,13 +119,20 @@ impl FoundModel {
                 count if count == data.observations.len() => String::new(),
                 count => format!(" ({count} configurations)"),
             },
-            file.file_name().unwrap_or_default().to_string_lossy(),
+            printable_name(&data.file),
             env!("CARGO_PKG_VERSION"),
             digits(left, 4),
             digits(solved.crossed.figures().rms, 4),
         );
         found
     }
+}
+
+/// The name of a file, as it can stand in a comment and in a string of TOML.
+fn printable_name(file: &str) -> String {
+    let name = std::path::Path::new(file).file_name().unwrap_or_default().to_string_lossy();
+    let plain = |c: &char| matches!(c, '"' | '\\' | '\'') || c.escape_debug().count() == 1;
+    name.chars().map(|c| if plain(&c) { c } else { char::REPLACEMENT_CHARACTER }).collect()
 }
 
 /// The ranges that the rows cover.

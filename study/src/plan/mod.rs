@@ -4,7 +4,7 @@ mod keys;
 mod report;
 mod sets;
 
-use abbe::analysis::{Configuration, Workspace, joint_samples};
+use abbe::analysis::{Configuration, Workspace, joint_samples, random_joint_samples};
 use abbe::identify::{
     Criterion, Design, Failure, Figures, Identifiable, Measurement, Model, Objective, Observation, knowable,
     optimal, whole,
@@ -42,6 +42,8 @@ pub struct Plan {
     /// What the identified model will leave of the tool point by itself, as the root mean square of its distance in the length
     /// unit: what an earlier fit has left beside the instrument's noise. Independent from configuration to configuration.
     pub model_error: f64,
+    /// The seed of the samples that are chosen from, which are spread evenly without one, and of the study's random samples.
+    pub seed: Option<u64>,
 }
 
 /// How configurations are chosen.
@@ -166,8 +168,11 @@ impl Plan {
             Choice::Optimal { criterion, count, candidates } => {
                 let moved: Vec<usize> = self.map.moved().collect();
                 let inputs = self.map.moved_inputs(&self.machine);
-                let samples = joint_samples(manipulator, &moved, *candidates)
-                    .and_then(|samples| samples.inputs(manipulator, &inputs));
+                let samples = match self.seed {
+                    Some(seed) => random_joint_samples(manipulator, &moved, *candidates, seed),
+                    None => joint_samples(manipulator, &moved, *candidates),
+                };
+                let samples = samples.and_then(|samples| samples.inputs(manipulator, &inputs));
                 let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
                 let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
                 let list = self.aimed(setup, list.collect())?;
@@ -217,7 +222,7 @@ impl Plan {
         let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, error);
         let mut region = self.study.region.clone();
         region.fix(self.machine.fixed_inputs());
-        let workspace = region.workspace(manipulator, None).map_err(fail)?;
+        let workspace = region.workspace(manipulator, self.seed).map_err(fail)?;
         let step = workspace.len().div_ceil(USED).max(1);
         let places = (0..workspace.len()).step_by(step).filter_map(|i| workspace.configuration(i).ok());
         let mut places: Vec<_> = places.collect();

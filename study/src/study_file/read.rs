@@ -1,6 +1,6 @@
 //! Reads a study file from top to bottom.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
@@ -20,15 +20,23 @@ use crate::machine::Machine;
 use crate::workspace::{Region, constant, read_region};
 
 impl Study {
-    /// The study of that file, or else the one shipped with the manipulator, or else joint samples.
+    /// The study of that file, or else the one [beside the spec](Self::beside) or shipped with the manipulator, or else joint
+    /// samples.
     pub fn find(file: Option<&Path>, machine: &Machine) -> Result<Self, Diagnostics> {
-        match (file, machine.shipped.and_then(|shipped| shipped.study)) {
+        let beside = Self::beside(machine);
+        match (file.or(beside.as_deref()), machine.shipped.and_then(|shipped| shipped.study)) {
             (Some(path), _) => Self::read(Document::read(path)?, &machine.spec),
             (None, Some(text)) => {
                 Self::read(Document::new(format!("studies/{}.toml", machine.origin), text), &machine.spec)
             }
             (None, None) => Ok(Self::joint_samples(&machine.spec)),
         }
+    }
+
+    /// The file beside a spec of one's own that is its study by its name: `arm.study.toml` beside `arm.toml`.
+    pub fn beside(machine: &Machine) -> Option<PathBuf> {
+        let file = machine.file.as_ref()?.with_extension("study.toml");
+        file.exists().then_some(file)
     }
 
     /// Reads and checks a study of the manipulator of that spec.

@@ -266,6 +266,7 @@ fn every_example_runs() {
             choice: Choice::Sets(sets),
             study,
             model_error: 0.0,
+            seed: None,
         };
         assert!(plan.run(&mut ()).unwrap().rows > 0, "{name}");
     }

@@ -1,0 +1,39 @@
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::shared::{Running, Subject};
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe analyze pps
+  abbe analyze arm.toml --set payload=2kg --monte-carlo 10000
+  abbe analyze arm.toml --study cell.toml --check
+  abbe analyze arm.toml --out arm       pictures, too: arm/report.html opens offline
+", "with --check: a tolerance of the study is not met"))]
+pub(crate) struct Analyze {
+    #[command(flatten)]
+    pub(crate) subject: Subject,
+    /// Study file: workspace, tolerance, published figures. If not given: beside arm.toml the study arm.study.toml, or the one
+    /// shipped with the manipulator, or else 1000 joint samples
+    #[arg(long, value_name = "FILE")]
+    pub(crate) study: Option<PathBuf>,
+    /// Draw all errors this often at the worst configuration and at home, on the exact chain with true rotations
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    pub(crate) monte_carlo: Option<u64>,
+    /// Seed of everything random: the draws, and a study's random samples
+    #[arg(long, value_name = "S")]
+    pub(crate) seed: Option<u64>,
+    /// Run the spec of a shipped manipulator, not its generated code: the same, slower
+    #[arg(long)]
+    pub(crate) interpret: bool,
+    /// End with status 1 if a tolerance of the study is not met
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Write into this folder: report.html, its figures as SVG, and configurations.csv, sources.csv,
+    /// unreachable.csv, with draws monte_carlo.csv
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) running: Running,
+}

@@ -1,0 +1,30 @@
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use abbe_codegen::print::Language;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueHint};
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe generate arm.toml --out arm.rs
+  abbe generate arm.toml --lang js --out arm.js
+"))]
+pub(crate) struct Generate {
+    /// Spec file, or shipped name
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) spec: OsString,
+    /// Language of the code
+    #[arg(long, value_parser = language(), default_value = Language::Rust.name())]
+    pub(crate) lang: Language,
+    /// Write to this file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// The languages by their names.
+fn language() -> impl TypedValueParser<Value = Language> {
+    PossibleValuesParser::new(Language::ALL.map(Language::name)).try_map(|name| {
+        Language::ALL.into_iter().find(|language| language.name() == name).ok_or("no such language")
+    })
+}

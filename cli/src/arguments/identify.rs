@@ -1,0 +1,80 @@
+use std::path::PathBuf;
+use std::time::Duration;
+
+use abbe_study::identify::Prior;
+use clap::{Args, ValueEnum};
+
+use super::shared::{Measured, Page, Running, Subject};
+use super::values::{duration, folds, prior};
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe identify ur5 data.csv --map ur5 --test test.csv
+  abbe identify ur5 data.csv --map ur5 --terms joint,load --time 60s --out found.toml
+", "--accept, or the map's `accept`, is not met"))]
+pub(crate) struct Identify {
+    #[command(flatten)]
+    pub(crate) subject: Subject,
+    #[command(flatten)]
+    pub(crate) measured: Measured,
+    /// Measurements to judge by; nothing is chosen after them
+    #[arg(long, value_name = "FILE")]
+    pub(crate) test: Option<PathBuf>,
+    /// Richer terms to try beside constant errors; those stay that help on rows left out in turn
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "FAMILY,…")]
+    pub(crate) terms: Vec<Terms>,
+    /// Gear ratios: errors of a joint so many times per turn of it are tried as well: `--harmonics q2=1,2,101`
+    #[arg(long, value_name = "JOINT=N,…")]
+    pub(crate) harmonics: Vec<String>,
+    /// How long richer terms are tried: `60s`, `5min`; then what comes out depends on the computer. As long as it takes if not
+    /// given
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub(crate) time: Option<Duration>,
+    /// A loss that gross errors cannot pull at
+    #[arg(long, value_enum, default_value_t = Robust::None)]
+    pub(crate) robust: Robust,
+    /// How large errors are expected to be, as a share of the arm's length and in rad, 0 for no expectation; `spec`: as its
+    /// random sources have them; `auto`: as rows left out in turn fit best
+    #[arg(long, value_name = "SHARE", default_value = "0.01", value_parser = prior)]
+    pub(crate) prior: Prior,
+    /// Limits for rows that nothing is fitted to, `mean 0.15 mm, max 0.3 mm`: of mean, rms, p95 and max. End with status 1 if
+    /// they are not met
+    #[arg(long, value_name = "LIMITS")]
+    pub(crate) accept: Option<String>,
+    /// Into how many parts the rows are dealt, each left out in turn
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
+    pub(crate) folds: usize,
+    /// Write the spec with the errors found, as repeatable sources; beside it, as FILE.map.toml, the map with where the
+    /// machine stands and what is mounted on its tool
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: Page,
+    #[command(flatten)]
+    pub(crate) running: Running,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Terms {
+    /// All that follow
+    Auto,
+    /// Errors that change with a frame's own joint: one to four times per turn, or with its travel
+    Joint,
+    /// Errors in proportion to an input: a load, a temperature, a motor's current
+    Load,
+    /// Turns in proportion to the moment of weights
+    Elastic,
+    /// Errors of joints by the direction they came from, row by row, or in which a weight pulls
+    Backlash,
+    /// Errors of joints with another joint, or with two
+    Product,
+    /// Errors that grow or settle from row to row: they are of the file, not of the machine
+    Drift,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Robust {
+    None,
+    Huber,
+    Tukey,
+}

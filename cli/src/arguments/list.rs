@@ -1,0 +1,10 @@
+use clap::Args;
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!("  abbe list
+"))]
+pub(crate) struct List {
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,13 @@
+use std::path::PathBuf;
+
+use clap::Args;
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe man --out man1
+"))]
+pub(crate) struct Man {
+    /// Write into this folder: abbe.1, and a page for each command
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+}

@@ -1,0 +1,87 @@
+//! What the command is told: one file per command, and in `shared` what several are told.
+
+#[macro_use]
+mod help;
+mod analyze;
+mod check;
+mod compensate;
+mod completions;
+mod generate;
+mod identify;
+mod jacobian;
+mod list;
+mod man;
+mod measure;
+mod monitor;
+mod plan;
+mod shared;
+mod simulate;
+mod values;
+
+pub(crate) use analyze::Analyze;
+pub(crate) use check::Check;
+pub(crate) use compensate::Compensate;
+pub(crate) use completions::Completions;
+pub(crate) use generate::Generate;
+pub(crate) use identify::{Identify, Robust, Terms};
+pub(crate) use jacobian::Jacobian;
+pub(crate) use list::List;
+pub(crate) use man::Man;
+pub(crate) use measure::Measure;
+pub(crate) use monitor::Monitor;
+pub(crate) use plan::{Criterion, Plan};
+pub(crate) use shared::study;
+pub(crate) use simulate::Simulate;
+
+use clap::{Parser, Subcommand};
+
+/// Predict, rank and check the position errors of a manipulator from its spec
+///
+/// A SPEC is the path of a spec file (TOML), or the name of a shipped manipulator: `abbe list`. Data are the argument
+/// after it. `abbe COMMAND --help` has examples of every command.
+#[derive(Debug, Parser)]
+#[command(name = "abbe", version, after_help = after_help!(
+    "  abbe analyze pps                which error matters, and how much
+  abbe check arm.toml             is the spec right, and what follows from it
+  abbe jacobian puma560 --q 0,-45deg,0,0,30deg,0
+  abbe generate arm.toml --out arm.rs
+",
+    "a check failed, or a tolerance is not met"
+), max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+// In the order in which they are used: a spec, what follows from it, measurements.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// List the shipped manipulators
+    List(List),
+    /// Check a spec; show its frames, variables, sources, operation counts and what can be identified
+    Check(Check),
+    /// Pose, error Jacobian and generalized errors at one configuration
+    Jacobian(Jacobian),
+    /// What every error source does over a workspace, alone and together
+    Analyze(Analyze),
+    /// Generate code: pose, error Jacobian and sources in closed form
+    Generate(Generate),
+    /// Where to measure: sets of configurations, or the best of many
+    Plan(Plan),
+    /// Measurements of a machine whose errors are known: the repeatable sources of its spec
+    Simulate(Simulate),
+    /// How good a machine is, from measurements: accuracy, repeatability, and what its sources explain
+    Measure(Measure),
+    /// The errors of the real machine, from measurements
+    Identify(Identify),
+    /// Joint commands that put the real tool where the ideal one should be
+    ///
+    /// The repeatable sources of the spec are the errors of the machine.
+    Compensate(Compensate),
+    /// Whether a machine that is checked again and again is still what it was
+    Monitor(Monitor),
+    /// What a shell needs to complete commands and options
+    Completions(Completions),
+    /// Write the manual pages: for packages
+    Man(Man),
+}

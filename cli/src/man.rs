@@ -1,0 +1,38 @@
+//! `abbe man`: manual pages, one for the command and one for each of its commands.
+
+use std::fs;
+use std::io;
+
+use clap::CommandFactory;
+use clap_mangen::Man;
+
+use crate::arguments::{self, Arguments};
+use crate::failure::Failure;
+use crate::output::{Outcome, cannot_write, note, write};
+
+pub(crate) fn run(arguments: &arguments::Man) -> Result<Outcome, Failure> {
+    let folder = &arguments.out;
+    fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
+    let pages = pages().map_err(|error| cannot_write(folder, &error))?;
+    for (name, text) in &pages {
+        write(&folder.join(name), text)?;
+    }
+    note(&format!("wrote {}: {} pages", folder.display(), pages.len()));
+    Ok(Outcome::passed(String::new()))
+}
+
+/// Names of files and their texts.
+fn pages() -> io::Result<Vec<(String, String)>> {
+    let mut command = Arguments::command().disable_help_subcommand(true);
+    command.build();
+    let commands = command.get_subcommands().cloned();
+    let page = |command| {
+        let (page, mut text) = (Man::new(command), Vec::new());
+        page.render(&mut text)?;
+        let text = String::from_utf8_lossy(&text);
+        // What stands below the options has its own headings.
+        let text = text.replace(".SH EXTRA\nExamples:\n", ".SH EXAMPLES\n");
+        Ok((page.get_filename(), text.replace("\nExit status:\n", "\n.SH \"EXIT STATUS\"\n")))
+    };
+    [command.clone()].into_iter().chain(commands).map(page).collect()
+}

@@ -1,0 +1,132 @@
+//! Help: its examples run, its exit status is what happens, and `docs/reference/command.md` has all of it.
+
+use std::fs;
+use std::path::Path;
+
+use expect_test::expect_file;
+
+use crate::readme;
+use crate::running::{abbe, command, prints};
+
+/// The commands in the order in which they are listed.
+fn commands() -> Vec<String> {
+    let text = prints(&["--help"]);
+    let listed = text.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let listed = listed.take_while(|line| !line.is_empty());
+    // What goes on in a second line stands further right.
+    let names = listed.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    names.filter(|name| !name.is_empty() && *name != "help").map(str::to_owned).collect()
+}
+
+fn help(name: &str) -> String {
+    prints(&[name, "--help"])
+}
+
+/// The lines below `Examples:`, without what is said of them.
+fn examples(help: &str) -> Vec<&str> {
+    let lines = help.lines().skip_while(|line| *line != "Examples:").skip(1);
+    let lines = lines.take_while(|line| !line.is_empty()).map(str::trim_start);
+    lines.map(|line| line.split_once("  ").map_or(line, |(line, _)| line)).collect()
+}
+
+const STUDY: &str = "[study]\ntitle = \"Cell\"\ntolerance = \"1 mm\"\n[workspace.joints]\nsamples = 100\n";
+
+/// In their order: later ones read what earlier ones write.
+#[test]
+fn examples_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("arm.toml"), readme::spec()).unwrap();
+    fs::write(at.join("cell.toml"), STUDY).unwrap();
+    let run = |line: &str| {
+        let words = shell_words::split(line).unwrap();
+        let output = command(&words[1..]).current_dir(at).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    };
+    for name in commands() {
+        if name == "monitor" {
+            for (seed, day) in (1..).zip(["monday", "tuesday", "wednesday"]) {
+                run(&format!("abbe simulate ur5 plan.csv --map ur5 --seed {seed} --out {day}.csv"));
+            }
+        }
+        let text = help(&name);
+        let examples = examples(&text);
+        assert!(!examples.is_empty(), "{name}");
+        for line in examples {
+            assert!(line.starts_with(&format!("abbe {name}")), "{line}");
+            run(line);
+        }
+    }
+    examples(&prints(&["--help"])).into_iter().for_each(run);
+}
+
+#[test]
+fn every_help_has_the_exit_status() {
+    for name in commands() {
+        let text = help(&name);
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        let status = text.split("Exit status:\n").nth(1).unwrap();
+        let codes: Vec<&str> = status.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
+        assert!(codes == ["0", "2", "128"] || codes == ["0", "1", "2", "128"], "{name}: {codes:?}");
+    }
+}
+
+#[test]
+fn the_reference_has_every_help() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/reference/command.md");
+    let text = fs::read_to_string(&path).unwrap();
+    let heading = "## Every command\n";
+    let (before, _) = text.split_once(heading).expect("the reference has its heading");
+    let mut expected = format!("{before}{heading}");
+    for name in commands() {
+        let help: String = help(&name).lines().map(|line| line.trim_end().to_owned() + "\n").collect();
+        expected += &format!("\n### abbe {name}\n\n```text\n{help}```\n");
+    }
+    expect_file![path].assert_eq(&expected);
+}
+
+/// Options of the same name mean the same, and stand wherever they make sense.
+#[test]
+fn options_stand_wherever_they_make_sense() {
+    let with = |option: &str| -> Vec<String> {
+        let has = |name: &String| help(name).lines().any(|line| line.split_whitespace().any(|word| word == option));
+        commands().into_iter().filter(has).collect()
+    };
+    let silent = ["generate", "completions", "man"];
+    let json: Vec<String> = commands().into_iter().filter(|name| !silent.contains(&name.as_str())).collect();
+    assert_eq!(with("--json"), json);
+    let measured = ["plan", "simulate", "measure", "identify", "compensate", "monitor"];
+    assert_eq!(with("--threads"), [&["analyze"][..], &measured].concat());
+    assert_eq!(with("--set"), [&["check", "jacobian", "analyze"][..], &measured].concat());
+    assert_eq!(with("--seed"), ["analyze", "plan", "simulate"]);
+    for name in ["measure", "identify", "compensate", "monitor", "simulate"] {
+        let usage = help(name).lines().find(|line| line.starts_with("Usage:")).unwrap().to_owned();
+        let data = usage.find("DATA").unwrap();
+        assert!(usage.find("<SPEC>").unwrap() < data, "{usage}");
+    }
+}
+
+#[test]
+fn every_shell_is_completed() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = prints(&["completions", shell]);
+        assert!(script.contains("identify") && script.contains("monte-carlo"), "{shell}");
+    }
+    assert_eq!(abbe(&["completions", "tcsh"]).status, 2);
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("man1");
+    prints(&["man", "--out", out.to_str().unwrap()]);
+    let page = |name: &str| fs::read_to_string(out.join(format!("{name}.1"))).unwrap();
+    for name in commands() {
+        let text = page(&format!("abbe-{name}"));
+        for expected in [".TH", ".SH EXAMPLES\n", ".SH \"EXIT STATUS\"\n", &format!("abbe {name}")] {
+            assert!(text.contains(expected), "{name}: {expected}");
+        }
+    }
+    assert!(page("abbe").contains("abbe\\-identify(1)"));
+    assert_eq!(fs::read_dir(&out).unwrap().count(), commands().len() + 1);
+}
