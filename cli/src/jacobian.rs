@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use abbe_study::jacobian::{self, Report};
-use abbe_study::number::unbroken;
 use abbe_study::number;
+use abbe_study::number::unbroken;
 
 use crate::arguments::Jacobian;
 use crate::console::Console;

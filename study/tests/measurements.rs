@@ -360,7 +360,8 @@ fn a_plan_predicts_what_it_tells() {
     let machine = ur5();
     let study = Study::find(None, &machine).unwrap();
     let choice = Choice::Optimal { criterion: Criterion::Variance, count: 30, candidates: 80 };
-    let report = Plan { machine, map: map(POINT), choice, study, model_error: 0.0, seed: None }.run(&mut ()).unwrap();
+    let report =
+        Plan { machine, map: map(POINT), choice, study, model_error: 0.0, seed: None }.run(&mut ()).unwrap();
     // The tool point stands on the last axis: two of the 27 combinations cannot be seen there.
     assert_eq!((report.rows, report.rank, report.observations.len()), (30, 25, 30));
     assert!(report.predicted.mean > 0.0 && report.predicted.mean < 0.05, "{:?}", report.predicted);

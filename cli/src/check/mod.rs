@@ -3,9 +3,9 @@
 mod chain;
 
 use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_study::Notes;
 use abbe_study::check::{self, Identifiable, Law, Report};
 use abbe_study::number::{quantity, short};
-use abbe_study::Notes;
 
 use crate::arguments::Check;
 use crate::console::Console;

@@ -30,7 +30,8 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     if let Some(file) = &arguments.page.report {
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);
-        let provenance = provenance(spec, map, [("commands", &arguments.data)], arguments.page.date.as_ref())?;
+        let provenance =
+            provenance(spec, map, [("commands", &arguments.data)], arguments.page.date.as_ref())?;
         write(file, &abbe_report::compensation(spec, &job.map, &report, &provenance))?;
     }
     let text = match arguments.running.json {

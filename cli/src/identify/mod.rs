@@ -7,9 +7,9 @@ use std::path::Path;
 
 use abbe::identify::Loss;
 use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_study::Acceptance;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};
-use abbe_study::Acceptance;
 
 use crate::arguments::{self, Robust, Terms};
 use crate::console::Console;

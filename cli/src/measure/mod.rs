@@ -23,13 +23,20 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let spec = &job.machine.spec;
     if let Some(folder) = &arguments.out {
-        let provenance =
-            provenance(spec, Some(&job.map), [("measurements", &arguments.measured.data)], arguments.date.as_ref())?;
+        let provenance = provenance(
+            spec,
+            Some(&job.map),
+            [("measurements", &arguments.measured.data)],
+            arguments.date.as_ref(),
+        )?;
         let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
         std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
         write(&folder.join("errors.csv"), &report.table().csv())?;
         write(&folder.join("report.html"), &page)?;
     }
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    Ok(Outcome::checked(if arguments.running.json { json(&report)? } else { text::text(spec, &report) }, accepted))
+    Ok(Outcome::checked(
+        if arguments.running.json { json(&report)? } else { text::text(spec, &report) },
+        accepted,
+    ))
 }

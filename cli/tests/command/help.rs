@@ -89,7 +89,8 @@ fn the_reference_has_every_help() {
 #[test]
 fn options_stand_wherever_they_make_sense() {
     let with = |option: &str| -> Vec<String> {
-        let has = |name: &String| help(name).lines().any(|line| line.split_whitespace().any(|word| word == option));
+        let has =
+            |name: &String| help(name).lines().any(|line| line.split_whitespace().any(|word| word == option));
         commands().into_iter().filter(has).collect()
     };
     let silent = ["generate", "completions", "man"];

@@ -79,18 +79,8 @@ fn accuracy_and_repeatability_are_those_put_in() {
     let heading = lines.next().unwrap();
     fs::write(&plan, heading + &lines.collect::<String>().repeat(30)).unwrap();
     let data = folder.path().join("data.csv");
-    let simulate = [
-        "simulate",
-        "pps",
-        "--map",
-        "pps",
-        path(&plan),
-        "--out",
-        path(&data),
-        "--random",
-        "--seed",
-        "2",
-    ];
+    let simulate =
+        ["simulate", "pps", "--map", "pps", path(&plan), "--out", path(&data), "--random", "--seed", "2"];
     prints(&simulate);
     let report = json(&["measure", "pps", path(&data), "--map", "pps", "--json"]);
     let repeated = &report["repeated"];
@@ -121,8 +111,7 @@ fn accuracy_and_repeatability_are_those_put_in() {
         assert!(page.contains(expected), "{expected}");
     }
     // Without noise and chance the sources explain everything.
-    let exact =
-        ["simulate", "pps", "--map", "pps", path(&plan), "--out", path(&data), "--noise", "0"];
+    let exact = ["simulate", "pps", "--map", "pps", path(&plan), "--out", path(&data), "--noise", "0"];
     prints(&exact);
     let report = json(&["measure", "pps", path(&data), "--map", "pps", "--json"]);
     assert!(report["explained"]["left_max"].as_f64().unwrap() < 1e-5);

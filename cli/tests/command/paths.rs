@@ -13,7 +13,8 @@ fn paths_of_any_bytes() {
     let name = |bytes: &[u8]| folder.path().join(OsStr::from_bytes(bytes));
     let (spec, map, data) = (name(b"arm\xff.toml"), name(b"\xfe.toml"), name(b"data \xff\n.csv"));
     let (found, page) = (name(b"found\xff.toml"), name(b"page\xff.html"));
-    fs::write(&spec, abbe_manipulators::SHIPPED.iter().find(|shipped| shipped.name == "ur5").unwrap().spec).unwrap();
+    fs::write(&spec, abbe_manipulators::SHIPPED.iter().find(|shipped| shipped.name == "ur5").unwrap().spec)
+        .unwrap();
     fs::write(&map, abbe_manipulators::MAPS.iter().find(|(name, _)| *name == "ur5").unwrap().1).unwrap();
     let run = |words: &[&OsStr]| {
         let run = abbe(words);
@@ -28,6 +29,7 @@ fn paths_of_any_bytes() {
     run(&[word("check"), found.as_os_str()]);
     assert!(page.exists());
     // A study beside it is found, too.
-    fs::write(name(b"arm\xff.study.toml"), "[study]\ntitle = \"Any\"\n[workspace.joints]\nsamples = 5\n").unwrap();
+    fs::write(name(b"arm\xff.study.toml"), "[study]\ntitle = \"Any\"\n[workspace.joints]\nsamples = 5\n")
+        .unwrap();
     assert!(abbe(&[word("analyze"), spec]).stdout.contains("\nAny\n"));
 }

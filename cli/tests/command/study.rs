@@ -291,7 +291,8 @@ fn a_study_beside_the_spec() {
     write(folder.path(), "arm.study.toml", &study("Beside"));
     let beside = abbe(&["analyze", spec]);
     assert!(beside.stdout.contains("\nBeside\n"), "{}", beside.stdout);
-    let note = format!("note: the study is {}, beside the spec\n", folder.path().join("arm.study.toml").display());
+    let note =
+        format!("note: the study is {}, beside the spec\n", folder.path().join("arm.study.toml").display());
     assert_eq!(beside.stderr, note);
     let given = abbe(&["analyze", spec, "--study", other.to_str().unwrap()]);
     assert!(given.stdout.contains("\nAnother\n") && given.stderr.is_empty(), "{}", given.stderr);
