@@ -62,12 +62,14 @@ pub mod workspace;
 
 mod acceptance;
 mod changes;
+mod extrapolated;
 mod listing;
 mod machine;
 mod notes;
 
 pub use acceptance::{Acceptance, Accepted, Limit};
 pub use changes::{Changes, find_symbol};
+pub use extrapolated::{Extrapolated, Known};
 pub use listing::Listing;
 pub use machine::{Evaluator, Machine};
 pub use notes::Notes;

@@ -94,7 +94,7 @@ fn write_found(
          `simulate`, `compensate` and `plan` both."
     );
     Ok(format!(
-        "Written to {}: the nominal spec and these lines\n{lines}{}\n",
+        "Written to {}: the nominal spec, these lines, and the covariance of what they say\n{lines}{}\n",
         file.display(),
         crate::table::wrapped(&beside, 0)
     ))

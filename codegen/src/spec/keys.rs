@@ -2,7 +2,9 @@
 
 crate::tables! {
     FILE: ["the file"],
-        ["manipulator", "parameters", "inputs", "tables", "frame", "tool", "source", "load", "gravity", "fitted"];
+        ["manipulator", "parameters", "inputs", "tables", "frame", "tool", "source", "load", "gravity", "fitted",
+            "covariance",
+        ];
     MANIPULATOR: ["[manipulator]"],
         ["name", "title", "description", "reference", "length", "orientation", "gravity"];
     PARAMETER: ["[parameters.NAME]"], ["value", "description", "reference"];
@@ -32,6 +34,8 @@ crate::tables! {
     BEAM: ["[source.beam]", "[source.effect.beam]"],
         ["length", "axis", "EI_y", "EI_z", "GJ", "EA", "mass_per_length"];
     COMPLIANCE: ["[source.compliance]", "[source.effect.compliance]"], ["diagonal", "matrix"];
+    COVARIANCE: ["[covariance]"], ["of", "rows"];
+    COVARIANCE_OF: ["[covariance.of]"], ["source", "error"];
     LOAD: ["[[load]]"],
         ["name", "mass", "force", "moment", "axes", "frame", "point", "description", "reference"];
 }

@@ -9,6 +9,7 @@ mod describe;
 mod deviations;
 mod effects;
 mod elastic;
+mod covariance;
 mod fitted;
 mod frames;
 mod keys;
@@ -23,6 +24,7 @@ mod tables;
 mod types;
 
 pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
+pub use covariance::{Covariance, Identified};
 pub use fitted::Fitted;
 pub use keys::TABLES;
 pub use types::{

@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 
 use super::declarations::Declarations;
 use super::deviations::Chain;
+use super::covariance::read_covariance;
 use super::fitted::read_fitted;
 use super::frames::{OwnVariable, convention, read_factors};
 use super::keys;
@@ -107,6 +108,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     check_loaded(root, &sources, &loads, gravity.is_some(), document);
     check_signs(&sources, &loads, &declarations, document);
     let fitted = read_fitted(root, &declarations, document);
+    let covariance = read_covariance(root, &sources, &declarations.scope, document);
     raw_frames?;
     complete.then_some(())?;
     let Declarations { scope, parameters, inputs, variables } = declarations;
@@ -133,6 +135,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
         loads,
         gravity,
         fitted,
+        covariance: covariance?,
         tables: scope.tables,
         file,
         beside,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abbe::{Class, Component, LengthUnit, Orientation, VariableKind};
 
-use super::Fitted;
+use super::{Covariance, Fitted};
 use crate::diagnostic::Span;
 use crate::expr::{Dimension, Elementary, Expression, Motion, Table};
 
@@ -42,6 +42,8 @@ pub struct Spec {
     pub gravity: Option<[Expression; 3]>,
     /// Where the errors of an identified machine were fitted; nothing if they were not.
     pub fitted: Vec<Fitted>,
+    /// How well these errors are known; of nothing if they were not identified.
+    pub covariance: Covariance,
     /// Functions that are given by points.
     pub tables: Vec<Arc<Table>>,
     /// The file's name, without its folder.

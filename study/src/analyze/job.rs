@@ -14,10 +14,11 @@ use super::report::{Drawn, Places, Report};
 use super::stated::Stated;
 use super::unreachable;
 use crate::changes::Changes;
+use crate::extrapolated::extrapolated;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::study_file::Study;
-use crate::{data, mistake, number};
+use crate::{mistake, number};
 
 /// At how many configurations it is looked whether errors are extrapolated.
 const EXTRAPOLATED: usize = 2000;
@@ -175,7 +176,8 @@ impl Analyze {
         }
         let seen = Subset { workspace, count: EXTRAPOLATED }.reached();
         let places = seen.iter().map(|place| (&place.q[..], &place.u[..]));
-        data::warn_of_extrapolation(&self.machine.spec, "configurations", places, notes);
+        let manipulator = self.machine.evaluator(true);
+        extrapolated(&self.machine.spec, &*manipulator, "configurations", places, notes);
     }
 
     fn require_reached(&self, budget: &Budget) -> Result<(), Diagnostics> {

@@ -8,7 +8,8 @@ use abbe::identify::{Figures, Measurement};
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use crate::data::{Base, Data, Map, Summary, Table, Unusable, warn_of_extrapolation};
+use crate::data::{Base, Data, Map, Summary, Table, Unusable};
+use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::{Machine, Notes, mistake};
 
 use rows::Task;
@@ -45,6 +46,8 @@ pub struct Report {
     pub after: Size,
     /// In how many ways, of six, the machine can move its tool at once.
     pub mobility: usize,
+    /// Rows outside the ranges that were fitted, and how well the machine is known there; nothing if there are none.
+    pub extrapolated: Option<Extrapolated>,
     /// Row by row.
     pub rows: Vec<Row>,
     /// Rows that cannot be used.
@@ -89,7 +92,7 @@ impl Compensate {
         let mut data = self.data.completed(map, &*manipulator, &machine.spec);
         in_f0(map, &mut data);
         let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
-        warn_of_extrapolation(&machine.spec, "rows", places, notes);
+        let extrapolated = extrapolated(&machine.spec, &*manipulator, "rows", places, notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let rows = rows::rows(&task, &mut data, notes)?;
         Ok(Report {
@@ -98,6 +101,7 @@ impl Compensate {
             compensated: rows.iter().filter(|row| row.reason.is_none()).count(),
             tolerance: *tolerance,
             mobility: task.mobility,
+            extrapolated,
             before: Size::new(rows.iter().map(|row| row.before)),
             after: Size::new(rows.iter().map(|row| row.after)),
             file: Summary { rows: rows.len(), ..data.summary() },

@@ -30,6 +30,8 @@ pub struct FoundModel {
     pub terms: Vec<FoundTerm>,
     /// The inputs that are not the spec's own, behind those that are.
     pub derived: Vec<Derived>,
+    /// The covariance of all this, by the places of its errors, terms and magnitudes.
+    pub covariance: Vec<Vec<f64>>,
     /// The ranges of joints and inputs on which all this was fitted.
     pub fitted: Vec<Fitted>,
 }
@@ -39,6 +41,8 @@ pub struct FoundModel {
 pub struct FoundError {
     /// Which of the six.
     pub component: Component,
+    /// Which row of the covariance is its own.
+    pub place: usize,
     /// Its value: the length unit, or rad.
     pub value: f64,
     /// Its standard deviation.
@@ -48,6 +52,8 @@ pub struct FoundError {
 /// A term.
 #[derive(Clone, Copy, Debug)]
 pub struct FoundTerm {
+    /// Which row of the covariance is its own.
+    pub place: usize,
     /// The term of magnitude 1.
     pub term: Term,
     /// How large it is.
@@ -59,6 +65,8 @@ pub struct FoundTerm {
 /// The magnitude of a source of the spec.
 #[derive(Clone, Copy, Debug)]
 pub struct FoundMagnitude {
+    /// Which row of the covariance is its own.
+    pub place: usize,
     /// Which one, among all sources of the spec.
     pub source: usize,
     /// What it is multiplied with.
@@ -87,19 +95,20 @@ impl FoundModel {
         let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
         let first = model.unknowns.len() - solved.terms.len();
         for (place, value, standard_deviation) in values {
-            let error = |component| FoundError { component, value, standard_deviation };
+            let error = |component| FoundError { place, component, value, standard_deviation };
             let k = kept[place];
             match model.unknowns[k] {
                 Unknown::Error(frame, component) => found.frames[frame].push(error(component)),
                 Unknown::Magnitude(_) => match solved.own_magnitude(k) {
                     Some(own) => found.magnitudes.push(FoundMagnitude {
+                        place,
                         source: own.source,
                         magnitude: own.declared.value + value,
                         standard_deviation,
                     }),
                     None => {
                         let term = solved.terms[k - first];
-                        found.terms.push(FoundTerm { term, magnitude: value, standard_deviation });
+                        found.terms.push(FoundTerm { place, term, magnitude: value, standard_deviation });
                     }
                 },
                 _ => {}
@@ -108,9 +117,12 @@ impl FoundModel {
         for one in in_numbers.iter().flat_map(|one| &one.numbers) {
             let term = Term { place: Place::of_number(one.number), basis: Basis::One };
             let (magnitude, standard_deviation) = (one.value, one.standard_deviation);
-            found.numbers.push(FoundTerm { term, magnitude, standard_deviation });
+            found.numbers.push(FoundTerm { place: one.place, term, magnitude, standard_deviation });
         }
         found.fitted = fitted(spec, data);
+        let count = kept.len();
+        let of_fit = || (0..count).map(|i| (0..count).map(|j| fit.covariance[(i, j)]).collect()).collect();
+        found.covariance = in_numbers.map_or_else(of_fit, |one| one.covariance.clone());
         let unit = spec.length.symbol();
         found.reference = format!(
             "Identified from {} rows{} of {} by abbe {}: rms {} {unit} left, {} {unit} on rows left out in turn",

@@ -33,6 +33,8 @@ pub(super) struct InNumbers {
     pub(super) numbers: Vec<FoundNumber>,
     /// What the other unknowns are beside them, by place among the kept ones: value and standard deviation.
     pub(super) others: Vec<(usize, f64, f64)>,
+    /// The covariance of all of them, by place among the kept unknowns.
+    pub(super) covariance: Vec<Vec<f64>>,
 }
 
 /// A number of the chain.
@@ -70,7 +72,8 @@ impl InNumbers {
             let correlation = basis.correlation(place);
             FoundNumber { name, number, place, value, standard_deviation, correlation }
         };
-        Self { numbers: places.into_iter().map(number).collect(), others }
+        let numbers = places.into_iter().map(number).collect();
+        Self { numbers, others, covariance: basis.covariance() }
     }
 
     /// Whatever is found, as sentences.
@@ -236,6 +239,17 @@ impl<'a> Basis<'a> {
             (with / (deviation * covariance[(other, other)].max(0.0).sqrt())).abs()
         };
         magnitudes.map(correlation).fold(0.0, f64::max)
+    }
+
+    /// `F C Fᵀ` with the forms as the rows of F.
+    fn covariance(&self) -> Vec<Vec<f64>> {
+        let count = self.forms.len();
+        let half: Vec<Vec<f64>> = self
+            .forms
+            .iter()
+            .map(|form| (0..count).map(|j| (0..count).map(|i| form[i] * self.fit.covariance[(i, j)]).sum()).collect())
+            .collect();
+        half.iter().map(|row| self.forms.iter().map(|form| product(row, form)).collect()).collect()
     }
 
     /// Value and standard deviation.

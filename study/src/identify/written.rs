@@ -38,7 +38,8 @@ impl FoundModel {
             if kept.starts_with("[[frame]]") { Some(0) } else { kept.find("\n[[frame]]").map(|at| at + 1) };
         let (before, behind) = kept.split_at(at.unwrap_or_default());
         let fitted = self.fitted_table(spec);
-        let mut new = format!("{before}{ground}{}\n{sources}\n{fitted}", behind.trim_end());
+        let covariance = self.covariance_table(spec);
+        let mut new = format!("{before}{ground}{}\n{sources}\n{fitted}{covariance}", behind.trim_end());
         let mut added = format!("{changed}{ground}{}\n{fitted}", sources.trim_start());
         if self.terms.iter().any(|found| found.term.basis.is_elastic()) {
             let [load, gravity] = weight(spec);
@@ -104,7 +105,7 @@ impl FoundModel {
             format!("{} = [{lower:?}, {upper:?}]\n", fitted.name(spec))
         };
         let lines = self.fitted.iter().map(line).collect::<String>();
-        format!("# The ranges of joints and inputs on which the errors were fitted.\n[fitted]\n{lines}")
+        format!("{}[fitted]\n{lines}", ABOVE[0])
     }
 
     fn constant(&self, spec: &Spec, frame: &str, errors: &[FoundError]) -> String {
@@ -117,14 +118,21 @@ impl FoundModel {
         }
         format!(
             "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\nframe = {frame:?}\n{lines}reference = {:?}\n",
-            source_name(spec, &format!("identified: {frame}")),
+            constant_name(spec, frame),
             format!("Standard deviations: {}", deviations.join(", ")),
             self.reference,
         )
     }
 
+    /// The source of a term.
+    pub(super) fn term_name(&self, spec: &Spec, found: &FoundTerm) -> String {
+        let spec = &with_inputs(spec, &self.derived);
+        source_name(spec, &format!("identified: {}", found.term.name(spec)))
+    }
+
     fn term(&self, spec: &Spec, found: &FoundTerm, base: &str) -> String {
-        let FoundTerm { term, magnitude, standard_deviation } = found;
+        let FoundTerm { term, magnitude, standard_deviation, .. } = found;
+        let name = self.term_name(spec, found);
         let spec = &with_inputs(spec, &self.derived);
         // No body has a negative compliance: as a number of its own it would be refused.
         let is_reversed = term.basis == Basis::Moment && *magnitude < 0.0;
@@ -142,12 +150,23 @@ impl FoundModel {
         };
         format!(
             "\n[[source]]\nname = {:?}\ndescription = {:?}\nclass = \"repeatable\"\n{reversed}reference = {:?}\n\n[[source.effect]]\n{}\n",
-            source_name(spec, &format!("identified: {}", term.name(spec))),
+            name,
             format!("Standard deviation: {deviation}{remark}"),
             self.reference,
             effect(spec, term, size, base),
         )
     }
+}
+
+/// What stands above the tables of an identification.
+pub(super) const ABOVE: [&str; 2] = [
+    "# The ranges of joints and inputs on which the errors were fitted.\n",
+    "# The covariance of the errors that were fitted.\n",
+];
+
+/// The source of the constant errors of a frame.
+pub(super) fn constant_name(spec: &Spec, frame: &str) -> String {
+    source_name(spec, &format!("identified: {frame}"))
 }
 
 impl Place {
@@ -205,7 +224,7 @@ fn with_magnitudes(text: &str, spec: &Spec, magnitudes: &[FoundMagnitude]) -> (S
     let sources = tables.as_ref().and_then(|tables| Section::root(tables).get("source"));
     let sources = sources.and_then(|item| document.array(&item, "sources")).unwrap_or_default();
     let (mut edits, mut changed) = (Vec::new(), String::new());
-    for FoundMagnitude { source, magnitude, standard_deviation } in magnitudes {
+    for FoundMagnitude { source, magnitude, standard_deviation, .. } in magnitudes {
         let section = sources.get(*source).and_then(|item| document.section(item));
         let Some(item) = section.and_then(|section| section.get("magnitude")) else { continue };
         let table = magnitude_table(*magnitude, *standard_deviation);
@@ -262,14 +281,14 @@ fn weight(spec: &Spec) -> [String; 2] {
     ]
 }
 
-/// A spec without what an earlier identification says of its ranges.
+/// A spec without what an earlier identification says of its ranges and its covariance.
 fn without_fitted(text: &str) -> String {
     let mut inside = false;
     let kept = text.split_inclusive('\n').filter(|line| {
         if line.starts_with('[') {
-            inside = line.trim_end() == "[fitted]";
+            inside = ["[fitted]", "[covariance]"].contains(&line.trim_end());
         }
-        !inside && !line.starts_with("# The ranges of joints and inputs on which the errors were fitted.")
+        !inside && !ABOVE.iter().any(|above| line.trim_end() == above.trim_end())
     });
     kept.collect()
 }

@@ -15,7 +15,8 @@ use abbe_codegen::expr::LengthUnit;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
-use crate::data::{Data, Instruments, Map, Summary, Table, warn_of_extrapolation};
+use crate::data::{Data, Instruments, Map, Summary, Table};
+use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::identify::{Order, Setup, Sizes, check_readings};
 use crate::{Acceptance, Accepted, Machine, Notes, mistake, number};
 
@@ -59,6 +60,8 @@ pub struct Report {
     pub repeated: Repeated,
     /// Whether what the spec leaves is within the limits that were declared, if any were.
     pub accepted: Option<Accepted>,
+    /// Rows outside the ranges that were fitted, and how well the machine is known there; nothing if there are none.
+    pub extrapolated: Option<Extrapolated>,
     /// How many independent configurations the rows are of.
     pub configurations: usize,
     /// The standard error of the mean norm of ΔX, configurations counted; none if there is only one.
@@ -159,7 +162,7 @@ impl Measure {
         };
         let rows = &seen.data.observations;
         let places = rows.iter().map(|row| (&row.q[..], &row.u[..]));
-        warn_of_extrapolation(&machine.spec, "rows", places, notes);
+        let extrapolated = extrapolated(&machine.spec, &interpreter, "rows", places, notes);
         let Figures { rms, configurations, standard_error, .. } = seen.norms.figures();
         if rms > LARGE * setup.arm {
             notes.warn(&far(rms, fitted, &setup));
@@ -179,6 +182,7 @@ impl Measure {
             instruments: std::mem::take(&mut seen.instruments),
             explained: seen.explained,
             accepted,
+            extrapolated,
             repeated: iso9283::repeated(&seen.rows, setup.pose || setup.ideal.targets.len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),

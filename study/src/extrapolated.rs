@@ -1,0 +1,166 @@
+//! Configurations where the errors of an identified machine are extrapolated, and how well they are known there.
+
+use abbe::Manipulator;
+use abbe::analysis::sampling;
+use abbe::identify::{Failure, Measurement, Model, Observation, Role, Room, Uncertainty, Unknown};
+use abbe_codegen::expr::Symbol;
+use abbe_codegen::spec::{Identified, Spec};
+use serde::Serialize;
+
+use crate::{Notes, number};
+
+/// At how many configurations uncertainties are looked at, within and beyond the ranges.
+const SEEN: usize = 500;
+
+/// Configurations outside the ranges on which the errors of a spec were fitted.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Extrapolated {
+    /// How many there are.
+    pub outside: usize,
+    /// Of how many.
+    pub all: usize,
+    /// How well the tool point is known there; nothing if the spec does not say how well its errors are.
+    pub known: Option<Known>,
+}
+
+/// The standard deviation of the tool point by what is not known of the identified errors, all directions together: the length
+/// unit.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Known {
+    /// Root mean square over configurations within the ranges.
+    pub within: f64,
+    /// The same over those outside.
+    pub outside: f64,
+    /// The largest outside.
+    pub outside_max: f64,
+}
+
+/// Says which configurations of some are outside the ranges that the errors of a spec were fitted on, and warns of them: with
+/// their number, and with what is known there. `what` they are, in the plural: `rows`.
+pub(crate) fn extrapolated<'r>(
+    spec: &Spec,
+    manipulator: &dyn Manipulator,
+    what: &str,
+    configurations: impl Iterator<Item = (&'r [f64], &'r [f64])>,
+    notes: &mut dyn Notes,
+) -> Option<Extrapolated> {
+    if spec.fitted.is_empty() {
+        return None;
+    }
+    let (mut all, mut outside, mut of_each) = (0, Vec::new(), vec![0; spec.fitted.len()]);
+    for (q, u) in configurations {
+        let mut any = false;
+        for (fitted, count) in spec.fitted.iter().zip(&mut of_each) {
+            let here = fitted.is_outside(q, u);
+            *count += usize::from(here);
+            any |= here;
+        }
+        all += 1;
+        if any {
+            outside.push((q, u));
+        }
+    }
+    if outside.is_empty() {
+        return None;
+    }
+    let known = Prediction::new(spec, manipulator).and_then(|mut prediction| {
+        let step = outside.len().div_ceil(SEEN);
+        let beyond = outside.iter().step_by(step).map(|(q, u)| (q.to_vec(), u.to_vec()));
+        let beyond = prediction.deviations(beyond);
+        let within = prediction.deviations(within(spec));
+        let outside_max = beyond.iter().fold(0.0, |most: f64, deviation| most.max(*deviation));
+        Some(Known { within: rms(&within)?, outside: rms(&beyond)?, outside_max })
+    });
+    let named = spec.fitted.iter().zip(&of_each).filter(|(_, count)| **count > 0);
+    let named = named.map(|(fitted, count)| {
+        let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
+        format!("{} beyond {lower} … {upper} in {count}", fitted.name(spec))
+    });
+    let named = named.collect::<Vec<_>>().join(", ");
+    let known_there = known.map_or(String::new(), |known| known.sentence(spec));
+    let count = outside.len();
+    notes.warn(&format!(
+        "{count} of {all} {what} are outside the ranges on which the errors of this spec were fitted ({named}): what is said of \
+         them is extrapolated{known_there}"
+    ));
+    Some(Extrapolated { outside: count, all, known })
+}
+
+impl Known {
+    fn sentence(&self, spec: &Spec) -> String {
+        let [within, outside, most] =
+            [self.within, self.outside, self.outside_max].map(|value| number::length(value, spec.length));
+        let times = number::digits(self.outside / self.within, 2);
+        format!(
+            ". By what is not known of these errors the tool point has a standard deviation of {outside} there, {most} at most: \
+             {times} times the {within} that it has within the ranges. Another shape of the errors there is not in these figures"
+        )
+    }
+}
+
+/// How well the tool point is known where the identified errors have this covariance.
+struct Prediction<'a> {
+    model: Model<'a>,
+    room: Room,
+    covariance: &'a [Vec<f64>],
+}
+
+impl<'a> Prediction<'a> {
+    /// None of a spec that does not say how well its errors are known.
+    fn new(spec: &'a Spec, manipulator: &'a dyn Manipulator) -> Option<Self> {
+        let unknown = |identified: &Identified| match identified {
+            Identified::Error(frame, component) => Some(Unknown::Error(*frame, *component)),
+            Identified::Magnitude(source) => spec.enabled_index(*source).map(Unknown::Magnitude),
+        };
+        let unknowns: Vec<Unknown> = spec.covariance.of.iter().map(unknown).collect::<Option<_>>()?;
+        if unknowns.is_empty() {
+            return None;
+        }
+        let model = Model::ideal(manipulator, vec![[0.0; 3]], Uncertainty { length: 1.0, angle: 1.0 });
+        let model = model.with(unknowns);
+        debug_assert!(model.roles.iter().all(|role| *role != Role::Known), "nothing but what is unknown");
+        Some(Self { room: model.room(), model, covariance: &spec.covariance.rows })
+    }
+
+    /// `√(tr M C Mᵀ)`, M how the tool point moves with every error, of configurations that can be evaluated.
+    fn deviations(&mut self, configurations: impl Iterator<Item = (Vec<f64>, Vec<f64>)>) -> Vec<f64> {
+        let known = |(q, u): (Vec<f64>, Vec<f64>)| self.deviation(q, u).ok();
+        configurations.filter_map(known).collect()
+    }
+
+    fn deviation(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<f64, Failure> {
+        let row = Observation::new(0, q, u, Measurement::Points(Vec::new()));
+        let nothing = vec![0.0; self.covariance.len()];
+        let (_, moves) = self.model.tool(&mut self.room, &row, &nothing)?;
+        let mut variance = 0.0;
+        for (one, row) in moves.iter().zip(self.covariance) {
+            for (other, covariance) in moves.iter().zip(row) {
+                variance += covariance * (0..3).map(|axis| one[axis] * other[axis]).sum::<f64>();
+            }
+        }
+        Ok(variance.max(0.0).sqrt())
+    }
+}
+
+/// Configurations within the ranges, the Halton sequence; what has no range is nominal.
+fn within(spec: &Spec) -> impl Iterator<Item = (Vec<f64>, Vec<f64>)> {
+    (1..=SEEN).map(|n| {
+        let mut q: Vec<f64> = spec.variables.iter().map(|variable| variable.home).collect();
+        let mut u: Vec<f64> = spec.inputs.iter().map(|input| input.value).collect();
+        for (dimension, fitted) in spec.fitted.iter().enumerate() {
+            let [lower, upper] = fitted.range;
+            let value = lower + (upper - lower) * sampling::halton(n, dimension);
+            match fitted.symbol {
+                Symbol::Variable(i) => q[i] = value,
+                Symbol::Input(i) => u[i] = value,
+                _ => {}
+            }
+        }
+        (q, u)
+    })
+}
+
+fn rms(values: &[f64]) -> Option<f64> {
+    let squares: f64 = values.iter().map(|value| value * value).sum();
+    (!values.is_empty()).then(|| (squares / values.len() as f64).sqrt())
+}

@@ -1,0 +1,130 @@
+//! How much less is known where an identified machine is extrapolated: what is said, and what many identifications show.
+
+use abbe::Manipulator;
+use abbe::identify::Loss;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_study::compensate::Compensate;
+use abbe_study::data::{Data, Map};
+use abbe_study::identify::{Identify, Prior, Settings};
+use abbe_study::measure::Measure;
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Acceptance, Machine, Notes};
+
+/// The share of their limits within which joints are measured.
+const SHARE: f64 = 0.15;
+
+const ERRORS: &str = "\n[[source]]\nname = \"truth\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ne_x = \"0.6 mm\"\ne_s = \"0.8 mrad\"\n";
+
+fn machine(name: &str, text: &str) -> Machine {
+    Machine::of_spec(Spec::parse(name, text).unwrap(), name)
+}
+
+fn ur5() -> Machine {
+    Machine::find("ur5").unwrap()
+}
+
+/// Of a machine that stands where it is said to, with its target where that is said to be.
+fn map() -> Map {
+    let joints: String =
+        (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
+    let text = format!(
+        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"exact\"\nplacement = \"exact\"\n\n[joints]\n{joints}\n[point]\n\
+         columns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n[placement]\ntargets = [[\"90 mm\", \"-35 mm\", \"60 mm\"]]\n"
+    );
+    Map::parse("map.toml", &text, &ur5().spec).unwrap()
+}
+
+fn simulated(at: Places, seed: u64) -> Data {
+    let real = machine("real.toml", &format!("{}{ERRORS}", ur5().text().unwrap()));
+    let job = Simulate { machine: real, map: map(), at, noise: None, outliers: 0.0, random: false, seed };
+    let observations = job.run(&mut ()).unwrap().observations;
+    Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() }
+}
+
+/// Everywhere, or near home; the noise is of the seed.
+fn measured(samples: usize, near: bool, seed: u64) -> Data {
+    let mut data = simulated(Places::Samples(samples), 7);
+    if near {
+        data.observations.iter_mut().for_each(|row| row.q.iter_mut().for_each(|q| *q *= SHARE));
+    }
+    simulated(Places::Rows(data), seed)
+}
+
+fn found(seed: u64) -> Machine {
+    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None };
+    let job = Identify {
+        machine: ur5(),
+        map: map(),
+        data: measured(80, true, seed),
+        test: None,
+        terms: Vec::new(),
+        harmonics: Vec::new(),
+        settings,
+        accept: Acceptance::default(),
+    };
+    let report = job.run(&mut ()).unwrap();
+    let nominal = ur5();
+    machine("found.toml", &report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap().text)
+}
+
+/// The warnings of a job.
+#[derive(Default)]
+struct Heard(Vec<String>);
+
+impl Notes for Heard {
+    fn warn(&mut self, line: &str) {
+        self.0.push(line.to_owned());
+    }
+}
+
+/// Root mean square over configurations of the scatter of the tool points of machines, all directions together.
+fn scatter(machines: &[Machine], data: &Data) -> f64 {
+    let s: Vec<f64> = machines[0].spec.parameters.iter().map(|parameter| parameter.value).collect();
+    let interpreters: Vec<Interpreter> =
+        machines.iter().map(|machine| Interpreter::new(machine.spec.clone())).collect();
+    let mut squares = 0.0;
+    for row in &data.observations {
+        let points: Vec<[f64; 3]> = interpreters
+            .iter()
+            .map(|one| {
+                let magnitudes = vec![1.0; one.description().sources.len()];
+                one.drawn_pose(&row.q, &s, &row.u, &magnitudes).unwrap().unwrap().position()
+            })
+            .collect();
+        for axis in 0..3 {
+            let mean = points.iter().map(|point| point[axis]).sum::<f64>() / points.len() as f64;
+            let sum = points.iter().map(|point| (point[axis] - mean).powi(2)).sum::<f64>();
+            squares += sum / (points.len() - 1) as f64;
+        }
+    }
+    (squares / data.observations.len() as f64).sqrt()
+}
+
+/// What is said of one identification is how much twenty of them scatter: within the ranges, and beyond them.
+#[test]
+fn uncertainty_grows_beyond_the_ranges_as_it_is_said() {
+    let machines: Vec<Machine> = (0..20).map(found).collect();
+    let (far, near) = (measured(40, false, 100), measured(40, true, 100));
+    let measure = |data: &Data, heard: &mut Heard| {
+        let (machine, map, data) = (machines[0].clone(), map(), data.clone());
+        Measure { machine, map, data, accept: Acceptance::default() }.run(heard).unwrap().extrapolated
+    };
+    let mut heard = Heard::default();
+    let said = measure(&far, &mut heard).unwrap();
+    assert_eq!((said.outside, said.all), (40, 40));
+    let known = said.known.unwrap();
+    let (within, outside) = (scatter(&machines, &near), scatter(&machines, &far));
+    println!("within {within:.4} (said {:.4}), outside {outside:.4} (said {:.4})", known.within, known.outside);
+    // Of 20 machines, and some directions in which they differ most: 10 % at one standard deviation.
+    assert!((0.75..1.33).contains(&(known.within / within)), "{known:?} {within}");
+    assert!((0.75..1.33).contains(&(known.outside / outside)), "{known:?} {outside}");
+    assert!(known.outside > 1.5 * known.within && known.outside_max > known.outside, "{known:?}");
+    assert!(heard.0[0].contains("times the") && heard.0[0].contains("extrapolated"), "{heard:?}", heard = heard.0);
+    let mut quiet = Heard::default();
+    assert!(measure(&near, &mut quiet).is_none() && quiet.0.is_empty(), "{:?}", quiet.0);
+    // Commands there are said to be as little known.
+    let job = Compensate { machine: machines[0].clone(), map: map(), data: far, poses: false, tolerance: 1e-3 };
+    let again = job.run(&mut ()).unwrap().extrapolated.unwrap().known.unwrap();
+    assert!((again.outside / known.outside - 1.0).abs() < 1e-9, "{again:?} {known:?}");
+}
