@@ -65,7 +65,10 @@ fn found(seed: u64) -> Machine {
     };
     let report = job.run(&mut ()).unwrap();
     let nominal = ur5();
-    machine("found.toml", &report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap().text)
+    machine(
+        "found.toml",
+        &report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap().text,
+    )
 }
 
 /// The warnings of a job.
@@ -115,16 +118,24 @@ fn uncertainty_grows_beyond_the_ranges_as_it_is_said() {
     assert_eq!((said.outside, said.all), (40, 40));
     let known = said.known.unwrap();
     let (within, outside) = (scatter(&machines, &near), scatter(&machines, &far));
-    println!("within {within:.4} (said {:.4}), outside {outside:.4} (said {:.4})", known.within, known.outside);
+    println!(
+        "within {within:.4} (said {:.4}), outside {outside:.4} (said {:.4})",
+        known.within, known.outside
+    );
     // Of 20 machines, and some directions in which they differ most: 10 % at one standard deviation.
     assert!((0.75..1.33).contains(&(known.within / within)), "{known:?} {within}");
     assert!((0.75..1.33).contains(&(known.outside / outside)), "{known:?} {outside}");
     assert!(known.outside > 1.5 * known.within && known.outside_max > known.outside, "{known:?}");
-    assert!(heard.0[0].contains("times the") && heard.0[0].contains("extrapolated"), "{heard:?}", heard = heard.0);
+    assert!(
+        heard.0[0].contains("times the") && heard.0[0].contains("extrapolated"),
+        "{heard:?}",
+        heard = heard.0
+    );
     let mut quiet = Heard::default();
     assert!(measure(&near, &mut quiet).is_none() && quiet.0.is_empty(), "{:?}", quiet.0);
     // Commands there are said to be as little known.
-    let job = Compensate { machine: machines[0].clone(), map: map(), data: far, poses: false, tolerance: 1e-3 };
+    let job =
+        Compensate { machine: machines[0].clone(), map: map(), data: far, poses: false, tolerance: 1e-3 };
     let again = job.run(&mut ()).unwrap().extrapolated.unwrap().known.unwrap();
     assert!((again.outside / known.outside - 1.0).abs() < 1e-9, "{again:?} {known:?}");
 }

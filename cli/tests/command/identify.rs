@@ -153,7 +153,10 @@ fn the_result_is_a_spec() {
     let found = std::fs::read_to_string(&out).unwrap();
     // Every line of the nominal spec is still there, in order; every other one is shown as added, but for the covariance.
     let (found, covariance) = found.split_once("# The covariance of the errors that were fitted.\n").unwrap();
-    assert!(covariance.starts_with("[covariance]\n") && text.contains("the covariance of what they say"), "{text}");
+    assert!(
+        covariance.starts_with("[covariance]\n") && text.contains("the covariance of what they say"),
+        "{text}"
+    );
     let mut rest = found.lines();
     for line in shipped("ur5").lines() {
         assert!(rest.any(|found| found == line), "{line}");

@@ -53,7 +53,8 @@ pub(super) fn read_covariance(
     for row in document.array(&rows_item, "rows of numbers")? {
         let mut numbers = Vec::new();
         for number in document.array(&row, "numbers")? {
-            let entry = Entry { dimension: Some(Dimension::NONE), what: "a covariance", names: Allowed::Nothing };
+            let entry =
+                Entry { dimension: Some(Dimension::NONE), what: "a covariance", names: Allowed::Nothing };
             numbers.push(document.constant(&number, scope, entry)?.0);
         }
         rows.push(numbers);
@@ -84,7 +85,8 @@ fn identified(item: &Item<'_>, sources: &[Source], document: &mut Document) -> O
     let text = document.string(&name)?;
     let source = find_name(document, name.span(), &text, &names, "source")?;
     let Some(error) = section.get("error") else { return Some(Identified::Magnitude(source)) };
-    let component = document.choice(&error, &Component::ALL.map(|component| (component.name(), component)))?;
+    let component =
+        document.choice(&error, &Component::ALL.map(|component| (component.name(), component)))?;
     let has = |cause: &Cause| match cause {
         Cause::Errors(errors) => errors.iter().any(|(own, _)| *own == component),
         _ => false,

@@ -4,12 +4,12 @@
 //! transforms, `sources`, `effects`, `elastic`, `deviations` and `loads` the physical errors; `positive` checks the signs of masses and
 //! stiffnesses, `rigid` that every matrix is a rigid motion.
 
+mod covariance;
 mod declarations;
 mod describe;
 mod deviations;
 mod effects;
 mod elastic;
-mod covariance;
 mod fitted;
 mod frames;
 mod keys;

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
+use super::covariance::read_covariance;
 use super::declarations::Declarations;
 use super::deviations::Chain;
-use super::covariance::read_covariance;
 use super::fitted::read_fitted;
 use super::frames::{OwnVariable, convention, read_factors};
 use super::keys;

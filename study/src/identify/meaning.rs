@@ -247,7 +247,9 @@ impl<'a> Basis<'a> {
         let half: Vec<Vec<f64>> = self
             .forms
             .iter()
-            .map(|form| (0..count).map(|j| (0..count).map(|i| form[i] * self.fit.covariance[(i, j)]).sum()).collect())
+            .map(|form| {
+                (0..count).map(|j| (0..count).map(|i| form[i] * self.fit.covariance[(i, j)]).sum()).collect()
+            })
             .collect();
         half.iter().map(|row| self.forms.iter().map(|form| product(row, form)).collect()).collect()
     }

@@ -49,10 +49,12 @@ impl FoundModel {
         };
         let written = self.terms.iter().filter(|found| self.is_written(spec, found));
         let terms = self.numbers.iter().chain(written);
-        let terms = terms.filter_map(|found| whole(&self.term_name(spec, found), found.place, found.magnitude));
-        let magnitudes = self.magnitudes.iter().filter_map(|found| {
-            whole(&spec.sources[found.source].name, found.place, found.magnitude)
-        });
+        let terms =
+            terms.filter_map(|found| whole(&self.term_name(spec, found), found.place, found.magnitude));
+        let magnitudes = self
+            .magnitudes
+            .iter()
+            .filter_map(|found| whole(&spec.sources[found.source].name, found.place, found.magnitude));
         constants.chain(terms).chain(magnitudes).collect()
     }
 }
