@@ -68,15 +68,20 @@ impl Interpreter {
         Ok(tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect())
     }
 
-    /// The results of a function at one configuration, one after the other, finite and not singular.
-    fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
+    /// The results of a function at one configuration, one after the other, finite and not singular; the margin, where there
+    /// is one, last. One slice for each of its arguments.
+    ///
+    /// # Errors
+    ///
+    /// As for the functions of [`Manipulator`].
+    pub fn run(&self, function: Function, arguments: &[&[f64]]) -> Result<Vec<f64>, Error> {
         let signature = function.signature();
         for (array, values) in signature.arguments.iter().zip(arguments) {
             count(array.quantity, array.len(&self.routines.description), values.len())?;
             checks::finite(array.quantity, values)?;
-        }
-        if let [_, _, u, ..] = arguments {
-            checks::inputs(&self.routines.description.inputs, u)?;
+            if array.quantity == Quantity::Inputs {
+                checks::inputs(&self.routines.description.inputs, values)?;
+            }
         }
         let values = self.evaluate(function, &arguments.concat())?;
         let mut rest = values.as_slice();

@@ -87,8 +87,6 @@ impl Report {
     ) -> Self {
         // Adding 0 makes −0 a plain 0.
         let row = |i: usize| columns.iter().map(|column| column[i] + 0.0).collect();
-        let names = (1..=description.frames.len())
-            .flat_map(|frame| Component::ALL.map(|component| format!("{}{frame}", component.name())));
         Self {
             name: description.name.to_string(),
             length: description.length.symbol(),
@@ -96,12 +94,18 @@ impl Report {
             q,
             pose: pose.rows().map(|row| row.map(|entry| entry + 0.0)),
             rows: description.orientation.rows(),
-            columns: names.collect(),
+            columns: self::columns(description.frames.len()),
             error_jacobian: std::array::from_fn(row),
             generalized_errors: errors.as_flattened().iter().map(|error| error + 0.0).collect(),
             spec,
         }
     }
+}
+
+/// The names of the columns of `J_e` for so many frames: `e_x1 … e_p1`, then those of frame 2, …
+pub fn columns(frames: usize) -> Vec<String> {
+    let names = (1..=frames).flat_map(|i| Component::ALL.map(|component| format!("{}{i}", component.name())));
+    names.collect()
 }
 
 /// The effect that makes a generalized error not finite, if it is the first such effect.

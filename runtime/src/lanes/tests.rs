@@ -114,3 +114,18 @@ fn a_number_is_where_it_was_put() {
 fn there_is_no_row_behind_the_last() {
     Tiles::new(InstructionSet::BASELINE, 3, 1).fill_row(3, 1.0);
 }
+
+#[test]
+fn what_is_set_is_copied() {
+    for set in InstructionSet::all() {
+        let (rows, mut tiles) = ([2, 0], Tiles::new(set, 3, 11));
+        let values: Vec<f64> = (0..2 * 9).map(f64::from).collect();
+        let mut next = values.iter();
+        tiles.set_each(&rows, 2, 9, |_| *next.next().unwrap());
+        let mut copied = [0.0; 2 * 9];
+        tiles.copy_each(&rows, 2, &mut copied);
+        assert_eq!((&copied[..], tiles.get(2, 3), tiles.get(1, 3)), (&values[..], 2.0, 0.0));
+        tiles.copy_each(&[1], 0, &mut copied[..11]);
+        assert!(copied[..11].iter().all(|value| *value == 0.0));
+    }
+}

@@ -167,6 +167,29 @@ impl Tiles {
         }
     }
 
+    /// Copies some rows of configurations from `first` on, as many as there is room for: configuration after
+    /// configuration, in the order of `rows`. The opposite of [`set_each`](Self::set_each).
+    ///
+    /// # Panics
+    ///
+    /// If there is no such row or configuration, as for a slice.
+    pub fn copy_each(&self, rows: &[usize], first: usize, values: &mut [f64]) {
+        let count = if rows.is_empty() { 0 } else { values.len() / rows.len() };
+        assert!(
+            rows.iter().all(|row| *row < self.rows) && first + count <= self.count,
+            "no such row or configuration"
+        );
+        let (width, height) = (self.set.width(), self.rows);
+        let shift = width.trailing_zeros();
+        let numbers = self.numbers();
+        for (values, configuration) in values.chunks_exact_mut(rows.len().max(1)).zip(first..first + count) {
+            let start = (((configuration >> shift) * height) << shift) + (configuration & (width - 1));
+            for (value, row) in values.iter_mut().zip(rows) {
+                *value = numbers[start + (row << shift)];
+            }
+        }
+    }
+
     /// The rows of a tile.
     ///
     /// # Panics

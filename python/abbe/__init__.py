@@ -1,0 +1,13 @@
+"""abbe: predicts, ranks, measures, identifies and compensates the errors of a manipulator from its spec.
+
+>>> import abbe
+>>> ur5 = abbe.load("ur5")              # a shipped name, or the path of a spec file
+>>> ur5.error_jacobian(ur5.home).shape  # six rows, six columns for each of its frames
+(6, 36)
+
+Lengths are in the unit of the spec, angles in rad, everything in the base frame F_0; matrices are row-major, as NumPy has them.
+"""
+
+from ._abbe import Machine, SpecError, __version__, load, shipped
+
+__all__ = ["Machine", "SpecError", "__version__", "load", "shipped"]

@@ -1,0 +1,47 @@
+//! Mistakes as Python exceptions.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use abbe_codegen::diagnostic::Diagnostics;
+use pyo3::create_exception;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+create_exception!(
+    abbe,
+    SpecError,
+    PyValueError,
+    "A mistake in a spec, a study, a map, data or an option, as rustc would show it.\n\n\
+     ``str(error)`` is the whole text. ``file`` names the file or option; ``line`` and ``column`` count from 1 and are None if \
+     the mistake is about the file as a whole; ``help`` is the way out, if there is one. They are those of the first mistake."
+);
+
+/// All mistakes of a file.
+pub(crate) fn spec_error(py: Python<'_>, diagnostics: &Diagnostics) -> PyErr {
+    let error = SpecError::new_err(diagnostics.render(false));
+    let first = diagnostics.list.first();
+    let place = first.and_then(|first| first.span.as_ref()).map(|span| {
+        let before = &diagnostics.text[..diagnostics.text.floor_char_boundary(span.start)];
+        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
+    });
+    let value = error.value(py);
+    let set = || {
+        value.setattr("file", &diagnostics.path)?;
+        value.setattr("line", place.map(|(line, _)| line))?;
+        value.setattr("column", place.map(|(_, column)| column))?;
+        value.setattr("help", first.and_then(|first| first.help.as_deref()))
+    };
+    set().err().unwrap_or(error)
+}
+
+/// A mistake of ours is an exception too.
+pub(crate) fn guarded<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(panicked(&*panic)))
+}
+
+pub(crate) fn panicked(panic: &(dyn std::any::Any + Send)) -> PyErr {
+    let said = panic.downcast_ref::<String>().map(String::as_str);
+    let said = said.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
+    PyRuntimeError::new_err(format!("a mistake in abbe itself, please report it: {said}"))
+}

@@ -1,0 +1,218 @@
+//! One function of a machine, evaluated for what a user gives.
+
+use abbe::function::Array;
+use abbe::{Description, Function, Manipulator, Quantity};
+use abbe_codegen::document::Document;
+use abbe_codegen::expr::parse_value;
+use abbe_study::mistake;
+use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+
+use crate::arrays::{empty, numbers, room, tuple};
+use crate::batch::{Argument, Batch, Refused};
+use crate::failure::{guarded, spec_error};
+use crate::machine::Machine;
+
+/// From how many configurations on other threads of Python may run meanwhile.
+const MANY: usize = 32;
+
+/// What a function takes beside the joints.
+pub(crate) enum Third<'a, 'py> {
+    /// Nothing.
+    None,
+    /// Numbers by this name, six a frame.
+    Numbers(&'static str, &'a Bound<'py, PyAny>),
+    /// Their squares.
+    Squares(&'static str, &'a Bound<'py, PyAny>),
+    /// Inputs by their names.
+    Inputs(Option<&'a Bound<'py, PyDict>>),
+}
+
+/// Values as the batch takes them.
+enum Values<'py> {
+    Array(PyReadonlyArrayDyn<'py, f64>),
+    Own(Vec<f64>),
+}
+
+/// An argument, and for which configurations it is.
+struct Given<'py> {
+    values: Values<'py>,
+    /// The dimensions before its own; none if it is for every configuration.
+    lead: Vec<usize>,
+}
+
+impl Machine {
+    /// A function at the configurations `q`.
+    pub(crate) fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        function: Function,
+        q: &Bound<'py, PyAny>,
+        third: &Third<'_, 'py>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let description = self.interpreter.description();
+        let signature = function.signature();
+        let names = self.variable_names.bind(py);
+        let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
+        let mut lead = given.lead.clone();
+        let third = match *third {
+            Third::None => None,
+            Third::Numbers(name, value) => {
+                Some(vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?)
+            }
+            Third::Squares(name, value) => {
+                let mut given =
+                    vec_of(numbers(value, name, None)?, name, &signature.arguments[2], description)?;
+                given.values = Values::Own(given.values.slice()?.iter().map(|value| value * value).collect());
+                Some(given)
+            }
+            Third::Inputs(inputs) => Some(self.given_inputs(inputs, &lead)?),
+        };
+        if let Some(third) = &third
+            && third.lead != lead
+            && !third.lead.is_empty()
+        {
+            if !lead.is_empty() {
+                let message = format!(
+                    "`q` is for configurations of shape {}, and the other argument for {}",
+                    tuple(&lead),
+                    tuple(&third.lead)
+                );
+                return Err(PyValueError::new_err(message));
+            }
+            lead.clone_from(&third.lead);
+        }
+
+        let layout = self.layout(function);
+        let shape = [&lead[..], &layout.shape].concat();
+        let array = match out {
+            Some(out) => out.clone(),
+            None => empty(py, &shape)?,
+        };
+        let mut written = room(&array, &shape)?;
+        let written = written.as_slice_mut()?;
+        let s = Argument { values: &self.parameters, each: false };
+        let mut arguments = vec![given.argument()?, s];
+        arguments.extend(third.as_ref().map(Given::argument).transpose()?);
+        let batch = Batch { interpreter: &self.interpreter, function, layout, arguments };
+        let count = lead.iter().try_fold(1_usize, |count, length| count.checked_mul(*length));
+        let count = count.ok_or_else(|| PyValueError::new_err("too many configurations"))?;
+        let done = guarded(|| {
+            Ok(match lead.is_empty() {
+                true => batch.one(written),
+                false if count < MANY => batch.many(count, written),
+                false => py.detach(|| batch.many(count, written)),
+            })
+        })?;
+        done.map_err(|Refused { index, error }| {
+            let at = index.map_or("this configuration".to_owned(), |index| format!("configuration {index}"));
+            let refused = mistake::not_evaluated(&self.machine.origin, &at, &error, description);
+            PyValueError::new_err(refused.list.into_iter().map(|one| one.message).collect::<String>())
+        })?;
+        Ok(array)
+    }
+
+    /// The inputs: nominal, but for those that are given by name. All for every configuration, or all for each.
+    fn given_inputs<'py>(&self, inputs: Option<&Bound<'py, PyDict>>, lead: &[usize]) -> PyResult<Given<'py>> {
+        let description = self.interpreter.description();
+        let mut nominal: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
+        let mut columns = Vec::new();
+        for (name, value) in inputs.into_iter().flatten() {
+            let name: String = name.extract()?;
+            let input = self.input(&name)?;
+            if value.is_exact_instance_of::<PyFloat>() || value.is_exact_instance_of::<PyInt>() {
+                nominal[input] = value.extract()?;
+            } else if let Ok(text) = value.cast::<PyString>() {
+                nominal[input] = self.quantity(value.py(), input, text.to_str()?)?;
+            } else {
+                let array = numbers(&value, &name, None)?;
+                match array.shape() {
+                    [] => nominal[input] = array.as_slice()?[0],
+                    shape if shape == lead => columns.push((input, array)),
+                    shape => {
+                        let (shape, lead) = (tuple(shape), tuple(lead));
+                        let message = format!(
+                            "`{name}` has shape {shape}: give one number, or shape {lead} as the configurations"
+                        );
+                        return Err(PyValueError::new_err(message));
+                    }
+                }
+            }
+        }
+        if columns.is_empty() {
+            return Ok(Given { values: Values::Own(nominal), lead: Vec::new() });
+        }
+        let mut values = nominal.repeat(lead.iter().product());
+        for (input, array) in &columns {
+            for (u, value) in values.chunks_exact_mut(nominal.len()).zip(array.as_slice()?) {
+                u[*input] = *value;
+            }
+        }
+        Ok(Given { values: Values::Own(values), lead: lead.to_vec() })
+    }
+
+    fn input(&self, name: &str) -> PyResult<usize> {
+        let inputs = &self.interpreter.description().inputs;
+        inputs.iter().position(|input| *input.name == *name).ok_or_else(|| {
+            let known: Vec<&str> = inputs.iter().map(|input| &*input.name).collect();
+            let known = if known.is_empty() {
+                "it has none".to_owned()
+            } else {
+                format!("inputs: {}", known.join(", "))
+            };
+            PyTypeError::new_err(format!("{} has no input `{name}`; {known}", self.machine.spec.name))
+        })
+    }
+
+    /// Reads `3 kg`.
+    fn quantity(&self, py: Python<'_>, input: usize, text: &str) -> PyResult<f64> {
+        let spec = &self.machine.spec;
+        let declared = &spec.inputs[input];
+        let mut document = Document::new(&declared.name, text);
+        let what = format!("the value of `{}`", declared.name);
+        let value = parse_value(&mut document, 0..text.len(), spec.length, declared.dimension, &what);
+        document.finish(value).map_err(|mistakes| spec_error(py, &mistakes))
+    }
+}
+
+/// An array whose last dimension is that of an argument.
+fn vec_of<'py>(
+    array: PyReadonlyArrayDyn<'py, f64>,
+    name: &str,
+    argument: &Array,
+    description: &Description,
+) -> PyResult<Given<'py>> {
+    let needed = argument.len(description);
+    match array.shape() {
+        [lead @ .., last] if *last == needed => {
+            Ok(Given { lead: lead.to_vec(), values: Values::Array(array) })
+        }
+        shape => {
+            let per = match argument.quantity {
+                Quantity::Variables => "one for each joint variable",
+                _ => "six for each frame",
+            };
+            let message =
+                format!("`{name}` has shape {}, and shape (…, {needed}) is needed: {per}", tuple(shape));
+            Err(PyValueError::new_err(message))
+        }
+    }
+}
+
+impl Values<'_> {
+    fn slice(&self) -> PyResult<&[f64]> {
+        match self {
+            Self::Array(array) => Ok(array.as_slice()?),
+            Self::Own(values) => Ok(values),
+        }
+    }
+}
+
+impl Given<'_> {
+    fn argument(&self) -> PyResult<Argument<'_>> {
+        Ok(Argument { values: self.values.slice()?, each: !self.lead.is_empty() })
+    }
+}

@@ -1,0 +1,458 @@
+//! The class that users hold: a manipulator, and its functions.
+
+use std::sync::OnceLock;
+
+use abbe::{Function, Manipulator};
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
+use abbe_codegen::document::Document;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use abbe_study::{Changes, find_symbol};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
+
+use crate::failure::{guarded, spec_error};
+use crate::functions::Third;
+use crate::layout::Layout;
+
+/// A manipulator: its spec, ready to be evaluated. Nothing changes it; what differs is another one.
+///
+/// Lengths are in the unit of its spec (`length`), angles in rad, everything in the base frame F_0. `q` has one number for
+/// each joint variable in the order of `variables`, or is a table with columns of these names; all dimensions before the
+/// last, written as …, are those of the result.
+#[pyclass(frozen, module = "abbe")]
+pub(crate) struct Machine {
+    pub(crate) machine: abbe_study::Machine,
+    pub(crate) interpreter: Interpreter,
+    /// The nominal parameters.
+    pub(crate) parameters: Vec<f64>,
+    pub(crate) variable_names: Py<PyTuple>,
+    /// The text of a spec that is not a shipped one.
+    pub(crate) text: Option<String>,
+    /// What was changed, in this order.
+    changes: Vec<Change>,
+    layouts: [OnceLock<Layout>; Function::ALL.len()],
+}
+
+/// One change: a word that says which, and what it changes.
+type Change = (String, String);
+
+/// What [`restore`] takes.
+type Restored<'a> = (&'a str, Option<&'a str>, Vec<Change>);
+
+impl Machine {
+    fn new(
+        py: Python<'_>,
+        mut machine: abbe_study::Machine,
+        text: Option<String>,
+        changes: Vec<Change>,
+    ) -> PyResult<Self> {
+        for (kind, change) in &changes {
+            let changes = changes_of(kind, change, &machine.spec);
+            machine.change(&changes.map_err(|mistakes| spec_error(py, &mistakes))?);
+        }
+        let interpreter = Interpreter::new(machine.spec.clone());
+        let description = interpreter.description();
+        Ok(Self {
+            parameters: description.parameters.iter().map(|parameter| parameter.nominal).collect(),
+            variable_names: PyTuple::new(py, description.variables.iter().map(|one| &*one.name))?.unbind(),
+            machine,
+            interpreter,
+            text,
+            changes,
+            layouts: [const { OnceLock::new() }; Function::ALL.len()],
+        })
+    }
+
+    /// The same with further changes.
+    fn changed(&self, py: Python<'_>, more: impl IntoIterator<Item = Change>) -> PyResult<Self> {
+        let changes = self.changes.iter().cloned().chain(more).collect();
+        guarded(|| Self::new(py, self.unchanged(py)?, self.text.clone(), changes))
+    }
+
+    fn unchanged(&self, py: Python<'_>) -> PyResult<abbe_study::Machine> {
+        found(&self.machine.origin, self.text.as_deref()).map_err(|mistakes| spec_error(py, &mistakes))
+    }
+
+    pub(crate) fn layout(&self, function: Function) -> &Layout {
+        self.layouts[function as usize].get_or_init(|| Layout::new(function, self.interpreter.description()))
+    }
+}
+
+/// One change to a spec; `number` is a value in coherent units, `set` one as it would be written.
+fn changes_of(kind: &str, change: &str, spec: &Spec) -> Result<Changes, Diagnostics> {
+    let ("number", Some((name, value))) = (kind, change.split_once('=')) else {
+        let [set, enable, disable] = ["set", "enable", "disable"]
+            .map(|one| if one == kind { vec![change.to_owned()] } else { Vec::new() });
+        return Changes::read(&set, &enable, &disable, spec);
+    };
+    let (mut changes, mut document) = (Changes::default(), Document::new("with_parameters", change));
+    let span = name.len() + 1..change.len();
+    let symbol = find_symbol(&mut document, 0..name.len(), name, spec);
+    match (symbol, value.parse::<f64>()) {
+        (Some((symbol, _)), Ok(value)) if value.is_finite() => {
+            changes.set(&mut document, span, spec, symbol, value);
+        }
+        (Some(_), _) => document.mistake(Diagnostic::new(span, "expected a finite number")),
+        (None, _) => {}
+    }
+    document.finish(Some(changes))
+}
+
+/// A shipped manipulator, or the spec with this text.
+fn found(origin: &str, text: Option<&str>) -> Result<abbe_study::Machine, Diagnostics> {
+    match text {
+        None => abbe_study::Machine::find(origin),
+        Some(text) => Ok(abbe_study::Machine::of_spec(Spec::parse(origin, text)?, origin)),
+    }
+}
+
+/// Loads a manipulator: a spec file, a shipped name (`abbe.shipped()` lists them), or the `text` of a spec.
+///
+/// A mistake in it raises SpecError, with its place and a way out.
+///
+/// >>> import abbe
+/// >>> abbe.load("pps")
+/// Machine('pps': 6 frames, 6 joint variables, mm)
+#[pyfunction]
+#[pyo3(signature = (spec=None, *, text=None))]
+pub(crate) fn load(
+    py: Python<'_>,
+    spec: Option<&Bound<'_, PyAny>>,
+    text: Option<String>,
+) -> PyResult<Machine> {
+    guarded(|| match (spec, text) {
+        (Some(spec), None) => {
+            let path: String = py.import("os")?.call_method1("fspath", (spec,))?.extract()?;
+            let read = || {
+                let machine = abbe_study::Machine::find(&path)?;
+                let text = if machine.shipped.is_some() { None } else { Some(machine.text()?) };
+                Ok((machine, text))
+            };
+            let (machine, text) = py.detach(read).map_err(|mistakes| spec_error(py, &mistakes))?;
+            Machine::new(py, machine, text, Vec::new())
+        }
+        (None, Some(text)) => restore(py, "text", Some(text), Vec::new()),
+        _ => Err(PyTypeError::new_err("give a spec file or a shipped name, or else text=…")),
+    })
+}
+
+/// What pickle calls: what `Machine.__reduce__` says.
+#[pyfunction]
+#[pyo3(name = "_restore")]
+pub(crate) fn restore(
+    py: Python<'_>,
+    origin: &str,
+    text: Option<String>,
+    changes: Vec<Change>,
+) -> PyResult<Machine> {
+    guarded(|| {
+        let machine = py.detach(|| found(origin, text.as_deref()));
+        Machine::new(py, machine.map_err(|mistakes| spec_error(py, &mistakes))?, text, changes)
+    })
+}
+
+/// The names of the shipped manipulators.
+#[pyfunction]
+pub(crate) fn shipped() -> Vec<&'static str> {
+    SHIPPED.iter().map(|shipped| shipped.name).collect()
+}
+
+#[pymethods]
+impl Machine {
+    /// The name of the manipulator.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.machine.spec.name
+    }
+
+    /// Its name for people.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.machine.spec.title
+    }
+
+    /// The unit of every length: mm or m.
+    #[getter]
+    fn length(&self) -> &'static str {
+        self.machine.spec.length.symbol()
+    }
+
+    /// What rows 4 to 6 of displacements and Jacobians are: rotation-vector or euler-yzx.
+    #[getter]
+    fn orientation(&self) -> &'static str {
+        self.interpreter.description().orientation.name()
+    }
+
+    /// The names of the six rows of displacements and Jacobians.
+    #[getter]
+    fn rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.interpreter.description().orientation.rows())
+    }
+
+    /// The names of the 6n columns of the error Jacobian: e_x1 e_y1 e_z1 e_s1 e_r1 e_p1, then those of frame 2 …
+    #[getter]
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, abbe_study::jacobian::columns(self.interpreter.description().frames.len()))
+    }
+
+    /// The names of the joint variables, in the order of q.
+    #[getter]
+    fn variables(&self, py: Python<'_>) -> Py<PyTuple> {
+        self.variable_names.clone_ref(py)
+    }
+
+    /// The lower and upper limit of each joint variable, infinite where the spec has none.
+    #[getter]
+    fn limits(&self) -> Vec<(f64, f64)> {
+        self.interpreter.description().variables.iter().map(|one| (one.limits[0], one.limits[1])).collect()
+    }
+
+    /// The home configuration.
+    #[getter]
+    fn home(&self) -> Vec<f64> {
+        self.interpreter.description().variables.iter().map(|variable| variable.home).collect()
+    }
+
+    /// The names of the frames F_1 … F_n.
+    #[getter]
+    fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.interpreter.description().frames.iter().map(|frame| &*frame.name))
+    }
+
+    /// The structural parameters by their names, in coherent units: the length unit, kg, s, rad, K.
+    #[getter]
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let values = PyDict::new(py);
+        let mut parameters = self.interpreter.description().parameters.iter();
+        parameters.try_for_each(|one| values.set_item(&*one.name, one.nominal))?;
+        Ok(values)
+    }
+
+    /// The nominal inputs by their names, in coherent units.
+    #[getter]
+    fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let values = PyDict::new(py);
+        let mut inputs = self.interpreter.description().inputs.iter();
+        inputs.try_for_each(|one| values.set_item(&*one.name, one.nominal))?;
+        Ok(values)
+    }
+
+    /// The names of the error sources that are switched on, in the order of `source_displacements`.
+    #[getter]
+    fn sources<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.interpreter.description().sources.iter().map(|source| &*source.name))
+    }
+
+    /// The same machine with other nominal values of parameters and inputs: numbers in coherent units, or text with a unit.
+    ///
+    /// >>> import abbe
+    /// >>> abbe.load("pps").with_parameters(x=250, y="25 cm").parameters["y"]
+    /// 250.0
+    #[pyo3(signature = (**values))]
+    fn with_parameters(&self, py: Python<'_>, values: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut changes = Vec::new();
+        for (name, value) in values.into_iter().flatten() {
+            let (kind, value) = match value.cast::<PyString>() {
+                Ok(text) => ("set", text.to_str()?.to_owned()),
+                Err(_) if value.is_instance_of::<PyBool>() => {
+                    return Err(PyTypeError::new_err(format!(
+                        "`{name}` must be a number, or text with a unit"
+                    )));
+                }
+                Err(_) => ("number", format!("{:?}", value.extract::<f64>()?)),
+            };
+            changes.push((kind.to_owned(), format!("{name}={value}")));
+        }
+        self.changed(py, changes)
+    }
+
+    /// The same machine with these error sources switched on.
+    #[pyo3(signature = (*sources))]
+    fn enable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
+        self.changed(py, sources.into_iter().map(|source| ("enable".to_owned(), source)))
+    }
+
+    /// The same machine with these error sources switched off.
+    #[pyo3(signature = (*sources))]
+    fn disable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
+        self.changed(py, sources.into_iter().map(|source| ("disable".to_owned(), source)))
+    }
+
+    /// (…, 4, 4): the nominal pose of the tool in F_0. Rows and columns of a homogeneous matrix; column 3 is the tool point.
+    ///
+    /// >>> import abbe
+    /// >>> pps = abbe.load("pps")
+    /// >>> pps.pose(pps.home)[:3, 3]
+    /// array([1128., 1626., 1568.])
+    #[pyo3(signature = (q, *, out=None))]
+    fn pose<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::Pose, q, &Third::None, out)
+    }
+
+    /// (…, n + 1, 4, 4): A_1 … A_n and the tool T, each by itself. A_i takes coordinates in F_i to F_{i-1}, T those of the tool to F_n.
+    #[pyo3(signature = (q, *, out=None))]
+    fn transforms<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::Transforms, q, &Third::None, out)
+    }
+
+    /// (…, 6, 6n): the error Jacobian J_e = ∂X_T/∂ε in F_0.
+    ///
+    /// Rows: x, y, z of the tool point in the length unit, then three of its orientation in rad (`rows`). Columns: e_x e_y e_z
+    /// (length unit) e_s e_r e_p (rad; about Y, Z, X) of frame 1, then of frame 2 … (`columns`). Rows that are Euler angles raise
+    /// ValueError where these are singular.
+    ///
+    /// >>> import abbe
+    /// >>> pps = abbe.load("pps")
+    /// >>> jacobian = pps.error_jacobian(pps.home)
+    /// >>> jacobian.shape, float(jacobian[0, pps.columns.index("e_s1")])
+    /// ((6, 36), 1568.0)
+    #[pyo3(signature = (q, *, out=None))]
+    fn error_jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::ErrorJacobian, q, &Third::None, out)
+    }
+
+    /// (…, 6, nq): the joint Jacobian J_q = ∂X_T/∂q in F_0.
+    ///
+    /// Rows as those of the error Jacobian. Columns: one for each joint variable, per rad or per length unit.
+    #[pyo3(signature = (q, *, out=None))]
+    fn joint_jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::JointJacobian, q, &Third::None, out)
+    }
+
+    /// (…, 6, ns): ∂X_T/∂s in F_0.
+    ///
+    /// Rows as those of the error Jacobian. Columns: one for each structural parameter in the order of `parameters`, per its
+    /// coherent unit.
+    #[pyo3(signature = (q, *, out=None))]
+    fn parameter_jacobian<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::ParameterJacobian, q, &Third::None, out)
+    }
+
+    /// (…, 6): ΔX = J_e ε in F_0, for any errors ε.
+    ///
+    /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`. Rows as those of the error Jacobian: what
+    /// the tool is off, real minus ideal.
+    #[pyo3(signature = (q, errors, *, out=None))]
+    fn displacement<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        errors: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::Displacement, q, &Third::Numbers("errors", errors), out)
+    }
+
+    /// (…, 6, 6): the covariance J_e diag(σ²) J_eᵀ of ΔX in F_0, for independent errors.
+    ///
+    /// `sigma`: the standard deviation of every error, (6n,) or (…, 6n), in the order and units of `columns`. Rows and columns
+    /// as the rows of the error Jacobian, in products of their units.
+    #[pyo3(signature = (q, sigma, *, out=None))]
+    fn covariance<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        sigma: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::Covariance, q, &Third::Squares("sigma", sigma), out)
+    }
+
+    /// (…, n, 6): ε of the repeatable sources of the spec: for each frame e_x e_y e_z (length unit) e_s e_r e_p (rad).
+    ///
+    /// `inputs`: those of the spec by name, a number in coherent units, text with a unit, or an array with a value for each
+    /// configuration; nominal if not given. So it is for all functions that take them.
+    #[pyo3(signature = (q, *, out=None, **inputs))]
+    fn generalized_errors<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        inputs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::GeneralizedErrors, q, &Third::Inputs(inputs), out)
+    }
+
+    /// (…, 6): ΔX in F_0 that the repeatable sources of the spec cause, to first order: real minus ideal.
+    ///
+    /// Rows as those of the error Jacobian, in the length unit and rad. `inputs` as for `generalized_errors`.
+    #[pyo3(signature = (q, *, out=None, **inputs))]
+    fn predict<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        inputs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::PredictedDisplacement, q, &Third::Inputs(inputs), out)
+    }
+
+    /// (…, S, 6): ΔX in F_0 of each source alone (`sources`), of a random one for its magnitude.
+    ///
+    /// Columns as the rows of the error Jacobian, in the length unit and rad. `inputs` as for `generalized_errors`.
+    #[pyo3(signature = (q, *, out=None, **inputs))]
+    fn source_displacements<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        inputs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::SourceDisplacements, q, &Third::Inputs(inputs), out)
+    }
+
+    /// (…, 4, 4): the pose of the tool in F_0 with the errors of the repeatable sources, exactly: A_1 E_1 … A_n E_n T.
+    ///
+    /// Rows and columns as those of `pose`. `inputs` as for `generalized_errors`.
+    #[pyo3(signature = (q, *, out=None, **inputs))]
+    fn real_pose<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        inputs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.evaluate(py, Function::RealPose, q, &Third::Inputs(inputs), out)
+    }
+
+    fn __repr__(&self) -> String {
+        let description = self.interpreter.description();
+        let many = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        let frames = many(description.frames.len(), "frame");
+        let joints = many(description.variables.len(), "joint variable");
+        format!("Machine('{}': {frames}, {joints}, {})", description.name, description.length.symbol())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Restored<'_>)> {
+        let restore = py.import("abbe._abbe")?.getattr("_restore")?;
+        Ok((restore, (&self.machine.origin, self.text.as_deref(), self.changes.clone())))
+    }
+}

@@ -1,0 +1,168 @@
+"""The functions of a machine: shapes, values, and what they take."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import abbe
+
+ARM = """
+[manipulator]
+name = "arm"
+length = "mm"
+[parameters]
+reach = "450 mm"
+[inputs]
+payload = { value = "0 kg", range = ["0 kg", "5 kg"] }
+[[frame]]
+name = "column"
+variable = { name = "d1", kind = "prismatic", limits = ["0 mm", "800 mm"] }
+transform = "Tz(d1 + 200 mm)"
+[[frame]]
+name = "shoulder"
+variable = { name = "q2", kind = "revolute", limits = ["-150 deg", "150 deg"] }
+dh = { theta = "q2", d = 0, a = 400, alpha = 0 }
+[tool]
+transform = "Tx(reach)"
+[[source]]
+name = "sag"
+class = "repeatable"
+frame = "shoulder"
+e_s = "3e-5/kg * payload"
+"""
+
+
+def samples(machine, count, seed=0):
+    """Configurations within the limits."""
+    lower, upper = np.clip(np.array(machine.limits).T, -10, 1e4)
+    return np.random.default_rng(seed).uniform(lower, upper, (count, len(machine.variables)))
+
+
+@pytest.mark.parametrize("name", abbe.shipped())
+def test_shapes_and_batches(name):
+    machine = abbe.load(name)
+    n, nq, ns = len(machine.frames), len(machine.variables), len(machine.parameters)
+    shapes = {
+        "pose": (4, 4),
+        "transforms": (n + 1, 4, 4),
+        "error_jacobian": (6, 6 * n),
+        "joint_jacobian": (6, nq),
+        "parameter_jacobian": (6, ns),
+        "generalized_errors": (n, 6),
+        "predict": (6,),
+        "source_displacements": (len(machine.sources), 6),
+        "real_pose": (4, 4),
+    }
+    q = samples(machine, 70)
+    for function, shape in shapes.items():
+        function = getattr(machine, function)
+        many = function(q)
+        assert many.shape == (70, *shape) and many.flags.c_contiguous
+        # A batch is evaluated in lanes, one configuration alone by scalar code: they round differently.
+        one = np.stack([function(each) for each in q])
+        assert np.all(np.abs(many - one) <= 1e-13 * (1 + np.abs(one).max(initial=0)))
+        # In lanes, a configuration has the same bits wherever it stands, and in whatever shape.
+        assert np.array_equal(function(q[::-1]), many[::-1])
+        assert np.array_equal(function(q.reshape(7, 10, nq)), many.reshape(7, 10, *shape))
+        out = np.full_like(many, np.nan)
+        assert function(q, out=out) is out and np.array_equal(out, many)
+
+
+def test_the_jacobian_is_the_derivative_of_the_pose():
+    machine = abbe.load("puma560")
+    q, step = samples(machine, 20), 1e-6
+    for joint, name in enumerate(machine.variables):
+        moved = np.zeros(6)
+        moved[joint] = step
+        slope = (machine.pose(q + moved) - machine.pose(q - moved))[:, :3, 3] / (2 * step)
+        assert np.allclose(machine.joint_jacobian(q)[:, :3, joint], slope, atol=1e-8), name
+
+
+def test_products_of_the_jacobian():
+    machine = abbe.load("general6r")
+    q, errors = samples(machine, 50), np.random.default_rng(1).normal(size=(50, 36)) * 1e-3
+    jacobian = machine.error_jacobian(q)
+    assert np.allclose(machine.displacement(q, errors), np.einsum("nij,nj->ni", jacobian, errors), atol=1e-15)
+    assert np.array_equal(machine.displacement(q, errors[0])[7], machine.displacement(q[7:8], errors[:1])[0])
+    assert machine.displacement(q[0], errors).shape == (50, 6)
+    covariance = np.einsum("nij,j,nkj->nik", jacobian, errors[0] ** 2, jacobian)
+    assert np.allclose(machine.covariance(q, np.abs(errors[0])), covariance, atol=1e-17)
+    repeatable = machine.generalized_errors(q).reshape(50, 36)
+    assert np.allclose(machine.predict(q), np.einsum("nij,nj->ni", jacobian, repeatable), atol=1e-15)
+
+
+def test_inputs():
+    arm = abbe.load(text=ARM)
+    assert arm.inputs == {"payload": 0.0} and arm.parameters == {"reach": 450.0}
+    q = np.array([[300.0, 0.5], [300.0, 0.5], [300.0, 0.5]])
+    full = arm.predict(q[0], payload=5)
+    assert full[2] == pytest.approx(-450 * 3e-5 * 5)  # a spin about Y lowers what stands along X
+    assert np.array_equal(arm.predict(q[0], payload="5000 g"), full)
+    assert np.allclose(arm.predict(q, payload=[0.0, 2.5, 5.0]), np.outer([0, 0.5, 1], full))
+    assert np.array_equal(arm.with_parameters(payload=5).predict(q[0]), full)
+    with pytest.raises(ValueError, match="outside its range"):
+        arm.predict(q, payload=[0.0, 2.5, 5.1])
+    with pytest.raises(TypeError, match="no input `load`; inputs: payload"):
+        arm.predict(q, load=1)
+    with pytest.raises(ValueError, match=r"`payload` has shape \(2,\)"):
+        arm.predict(q, payload=[1, 2])
+    with pytest.raises(abbe.SpecError, match="must be a mass"):
+        arm.predict(q, payload="3 mm")
+
+
+def test_named_columns():
+    arm = abbe.load(text=ARM)
+    q = np.array([[100.0, 0.1], [200.0, 0.2]])
+    columns = {"measured": [1, 2], "q2": q[:, 1], "d1": q[:, 0]}
+    expected = arm.pose(q)
+    assert np.array_equal(arm.pose(columns), expected)
+    assert np.array_equal(arm.pose(columns | {"d1": 100.0})[0], expected[0])
+    records = np.array([(0.1, 100.0), (0.2, 200.0)], dtype=[("q2", float), ("d1", float)])
+    assert np.array_equal(arm.pose(records), expected)
+    with pytest.raises(ValueError, match="no column q2"):
+        arm.pose({"d1": [1.0]})
+    for module, table in [("pandas", "DataFrame"), ("polars", "DataFrame"), ("pyarrow", "table")]:
+        try:
+            module = __import__(module)
+        except ImportError:
+            continue
+        assert np.array_equal(arm.pose(getattr(module, table)(columns)), expected)
+
+
+def test_another_machine():
+    arm = abbe.load(text=ARM)
+    longer = arm.with_parameters(reach="0.5 m")
+    assert longer.parameters["reach"] == 500 and arm.parameters["reach"] == 450
+    assert arm.disable("sag").sources == () and arm.disable("sag").enable("sag").sources == ("sag",)
+    again = pickle.loads(pickle.dumps(longer))
+    q = samples(arm, 5)
+    assert np.array_equal(again.pose(q), longer.pose(q)) and repr(again) == repr(longer)
+
+
+def test_spec_errors(tmp_path):
+    file = tmp_path / "arm.toml"
+    file.write_text(ARM.replace("Tx(reach)", "Tx(raech)"))
+    with pytest.raises(abbe.SpecError) as caught:
+        abbe.load(file)
+    error = caught.value
+    assert (error.file, error.line, error.column) == (str(file), 18, 17)
+    assert error.help == "did you mean `reach`?" and "^^^^^" in str(error)
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.line, again.help) == (str(error), error.line, error.help)
+    with pytest.raises(abbe.SpecError, match="did you mean `ur5`") as caught:
+        abbe.load("ur55")
+    with pytest.raises(abbe.SpecError, match="there is no source"):
+        abbe.load("ur5").enable("wind")
+    with pytest.raises(abbe.SpecError) as caught:
+        abbe.load(tmp_path / "missing.toml")
+    assert caught.value.file == str(tmp_path / "missing.toml") and caught.value.line is None
+
+
+def test_singular_rows_have_a_place():
+    machine = abbe.load("pps")
+    q = np.tile(machine.home, (100, 1))
+    q[77, machine.variables.index("q5")] = np.pi / 2
+    machine.pose(q)
+    with pytest.raises(ValueError, match="configuration 77: Euler angles are singular"):
+        machine.error_jacobian(q)
