@@ -1,7 +1,9 @@
 //! Mistakes in an input file, with their places, shown as rustc would show them.
 
 use std::fmt;
+use std::fs;
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use annotate_snippets::renderer::DecorStyle;
@@ -12,6 +14,9 @@ pub type Span = Range<usize>;
 
 /// The most mistakes shown at once; what lies beyond is counted.
 const SHOWN: usize = 20;
+
+/// The most files of a folder among which the nearest is looked for.
+const LOOKED_AT: usize = 10_000;
 
 /// One mistake: what is wrong, where, and a way out.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -148,6 +153,17 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
         .filter(|(similarity, _)| *similarity > 0.75)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, candidate)| candidate)
+}
+
+/// The file in the same folder whose name is nearest to that of one that is not there.
+pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
+    let folder = missing.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?.take(LOOKED_AT).flatten();
+    let files = entries.filter(|entry| entry.file_type().is_ok_and(|kind| !kind.is_dir()));
+    let mut names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    names.sort();
+    let word = missing.file_name()?.to_string_lossy();
+    nearest(&word, names.iter().map(String::as_str)).map(|name| missing.with_file_name(name))
 }
 
 /// `did you mean …?`, or else the list of what is known.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use abbe::analysis::Sweepable;
 use abbe::{Class, Distribution};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, nearest_file};
 use abbe_codegen::document::Document;
 use abbe_codegen::expr::find_name;
 use abbe_codegen::spec::{Magnitude, Source, Spec};
@@ -163,6 +163,13 @@ fn unknown(argument: &str) -> Diagnostics {
     let names = SHIPPED.iter().map(|shipped| shipped.name).collect::<Vec<_>>();
     find_name(&mut document, 0..argument.len(), argument, &names, "shipped manipulator");
     let Document { path, text, found, .. } = document;
-    let list = found.into_iter().map(|mistake| mistake.label("and no such file")).collect();
+    // `arm` where there is `arm.toml`.
+    let near = [argument.to_owned() + ".toml", argument.to_owned()].into_iter();
+    let near = near.filter(|_| !argument.is_empty()).find_map(|name| nearest_file(Path::new(&name)));
+    let label = |mistake: Diagnostic| match &near {
+        Some(file) => mistake.label(format!("and no such file; there is `{}`", file.display())),
+        None => mistake.label("and no such file"),
+    };
+    let list = found.into_iter().map(label).collect();
     Diagnostics { path, text, list }
 }

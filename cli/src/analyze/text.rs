@@ -1,7 +1,7 @@
 //! The results for people.
 
 use abbe::analysis::Measurand;
-use abbe_study::analyze::{self, Report};
+use abbe_study::analyze::{self, Report, Stated};
 use abbe_study::number::{self, unbroken};
 
 use super::{drawn, tables};
@@ -9,20 +9,12 @@ use crate::table::{listed, wrapped};
 
 pub(super) fn text(report: &Report) -> String {
     let unit = report.spec.length.symbol();
-    let mut parts = Vec::new();
-    if let Some(verdict) = report.verdict_line() {
-        parts.push(format!("{verdict}\n{}", paragraphs(&report.verdict_sentences())));
-    }
-    parts.push(heading(report));
+    let mut parts = vec![answer(report), heading(report)];
     if report.budget.sources.is_empty() {
         parts.push("This spec has no error source that is switched on: there is nothing to add up.\n".into());
     } else {
-        parts.push(format!("Each source alone ({unit})\n{}", tables::sources(report)));
-        parts.push(format!("All together ({unit})\n{}", tables::combined(report)));
         parts.push(format!("Ledger: norms of the errors ({unit})\n{}", listed(&analyze::ledger(report))));
-        if let Some(turns) = analyze::turns(report) {
-            parts.push(format!("Ledger of the orientation: rows 4 to 6 (mrad)\n{}", listed(&turns)));
-        }
+        parts.push(format!("All together ({unit})\n{}", tables::combined(report)));
         for measurand in Measurand::ALL {
             let (_, unit) = analyze::unit::of(report, measurand);
             if let Some(allowed) = analyze::allowed(report, measurand) {
@@ -30,13 +22,11 @@ pub(super) fn text(report: &Report) -> String {
                 parts.push(format!("What the tolerance allows, and what to tighten first ({unit})\n{table}"));
             }
         }
-        for stated in &report.stated {
-            let (_, unit) = analyze::unit::of(report, stated.statement.measurand);
-            let sources = listed(&analyze::contributions(report, stated));
-            let totals = listed(&analyze::totals(report, stated));
-            let said = paragraphs(&analyze::sentences(report, stated));
-            parts.push(format!("Uncertainty budget ({unit})\n{sources}\n{totals}\n{said}"));
+        parts.push(format!("Each source alone ({unit})\n{}{}", tables::sources(report), wrapped(METRICS, 0) + "\n"));
+        if let Some(turns) = analyze::turns(report) {
+            parts.push(format!("Ledger of the orientation: rows 4 to 6 (mrad)\n{}", listed(&turns)));
         }
+        parts.extend(budgets(report));
         if let Some(drawn) = &report.monte_carlo {
             parts.push(format!("Monte Carlo on the exact chain ({unit})\n{}", drawn::table(report, drawn)));
         }
@@ -46,7 +36,32 @@ pub(super) fn text(report: &Report) -> String {
         let notes = report.study.not_reproducible.iter().map(|note| format!("- {}\n", wrapped(note, 2)));
         parts.push(format!("Not reproducible from {}\n{}", report.publisher(), notes.collect::<String>()));
     }
+    parts.retain(|part| !part.is_empty());
     parts.join("\n")
+}
+
+const METRICS: &str = "plain maximum: the largest; half peak-to-peak: half of what it varies by; relative to home: the largest \
+                       difference from the error at home";
+
+/// Is the tolerance met, which error matters most, and where.
+fn answer(report: &Report) -> String {
+    let verdict = report.verdict_line().map(|verdict| format!("{verdict}\n")).unwrap_or_default();
+    verdict + &paragraphs(&report.verdict_sentences()) + &paragraphs(&report.summary())
+}
+
+/// The budgets of the GUM; what holds for several is said once.
+fn budgets(report: &Report) -> Vec<String> {
+    let mut said: Vec<String> = Vec::new();
+    let budget = |stated: &Stated| {
+        let (_, unit) = analyze::unit::of(report, stated.statement.measurand);
+        let sources = listed(&analyze::contributions(report, stated));
+        let totals = listed(&analyze::totals(report, stated));
+        let mut sentences = analyze::sentences(report, stated);
+        sentences.retain(|sentence| !said.contains(sentence));
+        said.extend_from_slice(&sentences);
+        format!("Uncertainty budget ({unit})\n{sources}\n{totals}\n{}", paragraphs(&sentences))
+    };
+    report.stated.iter().map(budget).collect()
 }
 
 fn paragraphs(sentences: &[String]) -> String {
@@ -74,7 +89,5 @@ fn heading(report: &Report) -> String {
     }
     let errors =
         "ΔX = J_e ε of the tool point, along x, y, z of F_0; of a random source the bound, plus or minus";
-    text += &format!("Errors          {}\n", wrapped(errors, 16));
-    let metrics = "plain maximum; half of what it varies by; largest difference from the error at home";
-    text + &format!("Metrics         {}\n", wrapped(metrics, 16))
+    text + &format!("Errors          {}\n", wrapped(errors, 16))
 }

@@ -32,6 +32,7 @@ fn text(report: &Report) -> String {
     if !spec.description.is_empty() {
         parts[0] += &format!("{}\n", wrapped(&spec.description, 0));
     }
+    parts[0] += &format!("{}\n", verdict(report));
     parts[0] += &format!("\nLengths in {length}, orientation {}\n", report.facts.orientation);
     parts.push(format!("Frames\n{}", frames(spec)));
     if let Some(home) = &report.home {
@@ -63,11 +64,25 @@ fn text(report: &Report) -> String {
         let notes: String = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect();
         parts.push(format!("Notes\n{notes}"));
     }
-    let rows = report.facts.operations.iter().map(|f| [f.function.to_owned(), f.operations.to_string()]);
-    parts.push(format!("Operations of the generated code\n{}", table(&["function", "operations"], rows)));
     parts.push(format!("What measurements can tell\n{}", identifiable(&report.identifiable, report.moved)));
     parts.push(format!("Laws, at {} configurations\n{}", report.configurations, laws(&report.laws)));
+    let rows = report.facts.operations.iter().map(|f| [f.function.to_owned(), f.operations.to_string()]);
+    parts.push(format!("Operations of the generated code\n{}", table(&["function", "operations"], rows)));
     parts.join("\n")
+}
+
+/// Whether all is well, in one line.
+fn verdict(report: &Report) -> String {
+    let failed: Vec<&str> = report.laws.iter().filter(|law| !law.holds).map(|law| law.law).collect();
+    let warnings = match report.warnings.len() + report.notes.len() {
+        0 => String::new(),
+        1 => ", with one remark".to_owned(),
+        some => format!(", with {some} remarks"),
+    };
+    match failed.as_slice() {
+        [] => format!("Right: the spec is read and all {} laws hold{warnings}.", report.laws.len()),
+        failed => format!("NOT right: {} of {} laws fail{warnings}.", failed.len(), report.laws.len()),
+    }
 }
 
 fn table<const N: usize>(header: &[&str; N], rows: impl Iterator<Item = [String; N]>) -> String {

@@ -6,22 +6,23 @@ use abbe::{Class, Description, VariableKind};
 
 use crate::table::{Table, wrapped};
 use abbe_study::compensate::{Report, Row, Size};
-use abbe_study::number::{digits, error_decimals, fixed, length, short};
+use abbe_study::number::{error_decimals, fixed, length, short};
 
 /// Corrections of a joint by more degrees than this are pointed at.
 const FAR: f64 = 10.0;
 
 /// How many rows are shown one by one.
-const SHOWN: usize = 20;
+const SHOWN: usize = 10;
 
 pub(super) fn text(description: &Description, report: &Report, out: Option<&Path>) -> String {
     let mut parts = vec![format!("{}: compensated\n\n", description.title)];
     for line in report.file.lines() {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
     }
+    parts[0] += &format!("\n{}", done(description, report));
     let few = report.mobility < 6;
     parts.push(format!(
-        "Distance of the tool point from where it should be, {}, and largest turn, mrad\n{}",
+        "How far the tool point is from where it should be ({}), and its largest turn (mrad)\n{}",
         report.length,
         sizes(report, error_decimals(description.length))
     ));
@@ -41,7 +42,9 @@ pub(super) fn text(description: &Description, report: &Report, out: Option<&Path
                 instrument, and not where targets are mounted.";
     parts.push(wrapped(from, 0) + "\n");
     parts.push(commands(description, report));
-    parts.push(done(description, report, out));
+    if let Some(file) = out {
+        parts.push(format!("{}: {} rows\n", file.display(), report.rows.len()));
+    }
     parts.join("\n")
 }
 
@@ -59,15 +62,18 @@ fn sizes(report: &Report, decimals: usize) -> String {
 
 /// The first rows.
 fn commands(description: &Description, report: &Report) -> String {
-    let names: Vec<&str> = description.variables.iter().map(|variable| &*variable.name).collect();
+    let unit = |kind| if kind == VariableKind::Revolute { "°" } else { report.length };
+    let names = description.variables.iter().map(|variable| format!("{} ({})", variable.name, unit(variable.kind)));
+    let names: Vec<String> = names.collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let mut table = Table::new(&[&["line"][..], &names, &["before", "after"]].concat());
     for row in report.rows.iter().take(SHOWN) {
         let values = description.variables.iter().zip(&row.q.0);
         let values = values.map(|(variable, (_, value))| match variable.kind {
-            VariableKind::Revolute => format!("{:.4}°", value.to_degrees()),
+            VariableKind::Revolute => format!("{:.4}", value.to_degrees()),
             VariableKind::Prismatic => fixed(*value, error_decimals(description.length)),
         });
-        let left = [row.before.length, row.after.length].map(|value| digits(value, 3));
+        let left = [row.before.length, row.after.length].map(|value| fixed(value, error_decimals(description.length)));
         table.row([&[row.line.to_string()][..], &values.collect::<Vec<_>>(), &left].concat());
     }
     let right: Vec<usize> = (0..description.variables.len() + 3).collect();
@@ -77,7 +83,7 @@ fn commands(description: &Description, report: &Report) -> String {
 }
 
 /// What is done, and what is not and why.
-fn done(description: &Description, report: &Report, out: Option<&Path>) -> String {
+fn done(description: &Description, report: &Report) -> String {
     let turn = match report.mobility {
         0..6 => String::new(),
         _ => format!(" and {} rad", short(report.tolerance * description.length.in_metres())),
@@ -107,9 +113,6 @@ fn done(description: &Description, report: &Report, out: Option<&Path>) -> Strin
             most.largest_turn.to_degrees()
         );
         text += &(wrapped(&sentence, 0) + "\n");
-    }
-    if let Some(file) = out {
-        text += &format!("{}: {} rows\n", file.display(), report.rows.len());
     }
     text
 }

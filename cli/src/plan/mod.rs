@@ -47,9 +47,10 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
 fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
     let unit = report.length;
     let mut text = format!("{}: where to measure\n\n{}\n", spec.title, wrapped(&report.title, 0));
-    text += &format!("{} rows", report.rows);
     let sets: Vec<String> = report.sets.iter().map(|set| format!("{} {}", set.rows, set.name)).collect();
-    text += &if sets.is_empty() { ".\n".to_owned() } else { format!(": {}.\n", sets.join(", ")) };
+    if !sets.is_empty() {
+        text += &format!("{} rows: {}.\n", report.rows, sets.join(", "));
+    }
     let inputs: Vec<String> = report.inputs.iter().map(Input::sentence).collect();
     if !inputs.is_empty() {
         text += &format!("{}\n", wrapped(&format!("Inputs: {}.", inputs.join(", ")), 0));
@@ -62,16 +63,6 @@ fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
         digits(report.condition, 3)
     );
     text += &format!("{}\n", wrapped(&sentence, 0));
-    text += &format!("\n{}\n", alike_table(&report.groups));
-    if !report.not_known.is_empty() {
-        let names: Vec<&str> = report.not_known.iter().map(|not_known| &not_known.name[..]).collect();
-        let line = format!(
-            "Of {} these rows will tell too little beside what is expected before: an identification will hold them at zero. Other \
-             configurations, a target farther from the axes or a finer instrument tell more.",
-            names.join(", ")
-        );
-        text += &format!("{}\n", wrapped(&line, 0));
-    }
     let fine = |value: f64| format!("{} {unit}", digits(value, 3));
     let model = match report.model_error {
         0.0 => String::new(),
@@ -97,6 +88,16 @@ fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
     if !report.unseen.is_empty() {
         text += &format!("{}\n", wrapped(&unseen(&report.unseen, unit), 0));
     }
+    if !report.not_known.is_empty() {
+        let names: Vec<&str> = report.not_known.iter().map(|not_known| &not_known.name[..]).collect();
+        let line = format!(
+            "Of {} these rows will tell too little beside what is expected before: an identification will hold them at zero. Other \
+             configurations, a target farther from the axes or a finer instrument tell more.",
+            names.join(", ")
+        );
+        text += &format!("{}\n", wrapped(&line, 0));
+    }
+    text += &format!("\n{}\n", alike_table(&report.groups));
     if let Some(file) = out {
         text += &format!("Written to {}.\n", file.display());
     }

@@ -143,3 +143,25 @@ fn studies() {
         &["no variable `d1`", "no source `arm deflection`"],
     );
 }
+
+/// The nearest option, value, shipped name and file are named.
+#[test]
+fn what_is_nearest() {
+    let folder = tempdir().unwrap();
+    write(folder.path(), "arm.toml", &crate::readme::spec());
+    write(folder.path(), "arm.csv", "");
+    for (words, expected) in [
+        (&["analyse", "pps"][..], "a similar subcommand exists: 'analyze'"),
+        (&["analyze", "pps", "--monte-carl", "3"], "a similar argument exists: '--monte-carlo'"),
+        (&["generate", "pps", "--lang", "rsut"], "a similar value exists: 'rust'"),
+        (&["compensate", "pps", "--data", "x.csv"], "unexpected argument '--data'"),
+        (&["check", "pumma560"], "did you mean `puma560`?"),
+        (&["check", "arm"], "there is `arm.toml`"),
+        (&["check", "amr"], "there is `arm.toml`"),
+    ] {
+        let output = crate::running::command(words).current_dir(folder.path()).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{stderr}");
+        assert!(stderr.contains(expected), "{words:?}\n{stderr}");
+    }
+}

@@ -10,9 +10,7 @@ impl Report {
     /// The results in sentences: tolerance, spheres, compensation, first order.
     pub fn conclusions(&self) -> Vec<String> {
         let sentences = [
-            tolerance(self, Measurand::Position),
             allowed(self, Measurand::Position),
-            tolerance(self, Measurand::Orientation),
             allowed(self, Measurand::Orientation),
             Some(spheres(self)),
             ellipsoid(self),
@@ -23,7 +21,7 @@ impl Report {
         sentences.into_iter().flatten().collect()
     }
 
-    fn show(&self, value: f64) -> String {
+    pub(super) fn show(&self, value: f64) -> String {
         format!("{} {}", number::trimmed(value, self.decimals()), self.spec.length.symbol())
     }
 
@@ -42,17 +40,6 @@ impl Report {
     }
 }
 
-fn tolerance(report: &Report, measurand: Measurand) -> Option<String> {
-    let tolerance = report.tolerance(measurand)?;
-    let share = percent(report.budget.errors(measurand).1.radius.value, tolerance);
-    let what = match measurand {
-        Measurand::Position => "",
-        Measurand::Orientation => " of the orientation",
-    };
-    let tolerance = unit::shown(report, measurand, tolerance);
-    Some(format!("Tolerance{what}: {tolerance}; the radius is {share} of it."))
-}
-
 fn allowed(report: &Report, measurand: Measurand) -> Option<String> {
     let admissible = report.admissible(measurand)?;
     let how = match admissible.equal_probability {
@@ -60,8 +47,9 @@ fn allowed(report: &Report, measurand: Measurand) -> Option<String> {
         probability => format!("with a probability of at least {}", number::at_least(probability)),
     };
     Some(format!(
-        "With all sources × {} the radius is within it; with each at an equal share of {} it is met {how}.",
+        "With all sources × {} the largest error is {}, the tolerance; with each at an equal share of {} it is met {how}.",
         number::digits(admissible.together?, 3),
+        unit::shown(report, measurand, report.tolerance(measurand)?),
         unit::shown(report, measurand, admissible.share?)
     ))
 }

@@ -2,7 +2,8 @@
 //!
 //! `job` is the question, `report` the answer. The sweep runs once; `figures` gathers on the way what the figures show.
 //! `first_order` compares with the exact chain, `agreement` with published figures; `ledger` ranks the sources,
-//! `judged` holds them against the tolerance and `verdict` says so, `stated` are budgets after the GUM and `uncertainty` their tables,
+//! `judged` holds them against the tolerance,
+//! `summary` answers in a few sentences and `verdict` says so, `stated` are budgets after the GUM and `uncertainty` their tables,
 //! `unreachable` says what could not be had and why, `conclusions` puts the results into sentences; `json` is the report as
 //! machines read it.
 
@@ -17,6 +18,7 @@ mod ledger;
 mod report;
 mod source_value;
 mod stated;
+mod summary;
 mod uncertainty;
 pub mod unit;
 mod unreachable;

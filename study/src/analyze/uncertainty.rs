@@ -71,7 +71,7 @@ pub fn totals(report: &Report, stated: &Stated) -> Listing {
 
 /// What the budget covers.
 pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
-    let Statement { measurand, coverage, coverage_factors, .. } = &stated.statement;
+    let Statement { measurand, coverage, .. } = &stated.statement;
     let (_, combined, _) = report.budget.errors(*measurand);
     let estimated = is_estimated(&stated.statement);
     let show = |value| unit::shown(report, *measurand, value);
@@ -94,30 +94,30 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
             number::short(draws as f64),
         ),
     };
-    let factor = format!("{:.3}", coverage_factors[3]);
     let percent = number::short(100.0 * COVERAGE);
     let factors = match estimated {
-        false => format!(
-            "k is that of {percent} % of a normal error: {factor} of the norm of a vector with this covariance. Degrees of freedom are taken as infinite."
-        ),
+        false => format!("k is that of {percent} % of a normal error. Degrees of freedom are taken as infinite."),
         true => format!(
-            "k is that of {percent} % of Student's t with ν effective degrees of freedom, along each axis after Welch and Satterthwaite (G.4.1): \
-             {factor} of the norm of a vector with this covariance, whose ν is the harmonic mean of the sources by their shares."
+            "k is that of {percent} % of Student's t with ν effective degrees of freedom, along each axis after Welch and Satterthwaite (G.4.1); \
+             ν of the norm is the harmonic mean of the sources by their shares."
         ),
     };
-    let mut sentences = vec![
-        format!(
-            "After the GUM (JCGM 100), where u is largest ({at}): u = value × sensitivity / divisor, added as root sum of squares. {factors}"
-        ),
-        holds,
-    ];
+    let mut sentences = vec![format!("This is where u is largest: {at}."), holds];
     sentences.extend(elsewhere(report, *measurand, combined.standard_radius.value));
-    if combined.repeatable_radius.value > 0.0 {
+    let biased = combined.repeatable_radius.value > 0.0;
+    if biased {
         sentences.push(format!(
-            "The budget covers the random sources. The repeatable ones are known errors: the GUM takes for granted that they are \
-             corrected (3.2.4). As long as they are not they are a bias, of up to {} at these configurations, and stand beside U (6.3.1, note).",
+            "Repeatable errors that are not corrected are a bias, of up to {} at these configurations.",
             show(combined.repeatable_radius.value)
         ));
+    }
+    sentences.push(format!(
+        "After the GUM (JCGM 100): u = value × sensitivity / divisor, added as root sum of squares. {factors}"
+    ));
+    if biased {
+        let corrected = "The budget covers the random sources. Repeatable ones are known errors: the GUM takes for granted that they are \
+                         corrected (3.2.4); as long as they are not, they stand beside U (6.3.1, note).";
+        sentences.push(corrected.to_owned());
     }
     sentences
 }

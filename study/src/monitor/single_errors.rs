@@ -13,6 +13,9 @@ const ALIKE: f64 = 0.98;
 /// The share of an error that must be left when the station is taken off.
 const SEEN: f64 = 1e-3;
 
+/// What does less than this share of the error that does most does nothing.
+const ROUNDING: f64 = 1e-9;
+
 /// A number of the machine that may have changed, all others staying what they are.
 #[derive(Clone, Debug)]
 pub(super) struct SingleError {
@@ -43,8 +46,10 @@ impl SingleErrors {
     /// the targets: of those that act alike the first has the chart.
     pub(super) fn new(spec: &Spec, model: &Model, numbers: &Numbers) -> Self {
         let mut all = Self { list: Vec::new(), charts: Vec::new(), unseen: Vec::new() };
-        for (single, before) in candidates(spec, model, numbers) {
-            if norm(&single.column) <= SEEN * before || before == 0.0 {
+        let candidates = candidates(spec, model, numbers);
+        let rounding = ROUNDING * candidates.iter().map(|(_, before)| *before).fold(0.0, f64::max);
+        for (single, before) in candidates {
+            if norm(&single.column) <= SEEN * before || before <= rounding {
                 all.unseen.push(single.name);
                 continue;
             }

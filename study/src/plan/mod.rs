@@ -105,7 +105,9 @@ impl Plan {
         let spread = Figures::from_norms(spread.into_iter().map(|deviation| deviation.hypot(own)).collect());
         let sizes = model.priors(EXPECTED).map_err(fail)?;
         let unseen = tool_points.unseen(judged, |k| sizes[k].unwrap_or(1.0));
-        let unseen = unseen.into_iter().map(|(k, moves)| Unseen::new(&model, k, moves)).collect();
+        // A millionth of what the instrument can tell is rounding.
+        let matters = |(k, moves): &(usize, f64)| moves * sizes[*k].unwrap_or(1.0) > 1e-6 * map.uncertainty.length;
+        let unseen = unseen.into_iter().filter(matters).map(|(k, moves)| Unseen::new(&model, k, moves)).collect();
         let moved = setup.moved(&rows);
         if let Some(note) = scale_note(&setup.ideal, &rows, &moved).map_err(fail)? {
             notes.note(&note);
