@@ -22,7 +22,11 @@ pub(super) fn text(report: &Report) -> String {
                 parts.push(format!("What the tolerance allows, and what to tighten first ({unit})\n{table}"));
             }
         }
-        parts.push(format!("Each source alone ({unit})\n{}{}", tables::sources(report), wrapped(METRICS, 0) + "\n"));
+        parts.push(format!(
+            "Each source alone ({unit})\n{}{}",
+            tables::sources(report),
+            wrapped(METRICS, 0) + "\n"
+        ));
         if let Some(turns) = analyze::turns(report) {
             parts.push(format!("Ledger of the orientation: rows 4 to 6 (mrad)\n{}", listed(&turns)));
         }

@@ -63,7 +63,8 @@ fn sizes(report: &Report, decimals: usize) -> String {
 /// The first rows.
 fn commands(description: &Description, report: &Report) -> String {
     let unit = |kind| if kind == VariableKind::Revolute { "°" } else { report.length };
-    let names = description.variables.iter().map(|variable| format!("{} ({})", variable.name, unit(variable.kind)));
+    let names =
+        description.variables.iter().map(|variable| format!("{} ({})", variable.name, unit(variable.kind)));
     let names: Vec<String> = names.collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let mut table = Table::new(&[&["line"][..], &names, &["before", "after"]].concat());
@@ -73,7 +74,8 @@ fn commands(description: &Description, report: &Report) -> String {
             VariableKind::Revolute => format!("{:.4}", value.to_degrees()),
             VariableKind::Prismatic => fixed(*value, error_decimals(description.length)),
         });
-        let left = [row.before.length, row.after.length].map(|value| fixed(value, error_decimals(description.length)));
+        let left = [row.before.length, row.after.length]
+            .map(|value| fixed(value, error_decimals(description.length)));
         table.row([&[row.line.to_string()][..], &values.collect::<Vec<_>>(), &left].concat());
     }
     let right: Vec<usize> = (0..description.variables.len() + 3).collect();

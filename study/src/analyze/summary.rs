@@ -24,9 +24,11 @@ impl Report {
             ),
             None => String::new(),
         };
-        let together = format!("Largest error: {}{share}{}.", self.show(all.largest.value), self.place(all.largest));
+        let together =
+            format!("Largest error: {}{share}{}.", self.show(all.largest.value), self.place(all.largest));
         let sources = ledger::sources(self);
-        let name = |Entry { name, largest, .. }: &Entry<'_>| format!("\"{name}\", {}", self.show(largest.value));
+        let name =
+            |Entry { name, largest, .. }: &Entry<'_>| format!("\"{name}\", {}", self.show(largest.value));
         let mut named = sources.iter().filter(|entry| entry.largest.value > 0.0);
         let Some(first) = named.next() else { return vec![together] };
         let mut most = format!("Most of it: {}{}", name(first), self.place(first.largest));

@@ -96,7 +96,9 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
     };
     let percent = number::short(100.0 * COVERAGE);
     let factors = match estimated {
-        false => format!("k is that of {percent} % of a normal error. Degrees of freedom are taken as infinite."),
+        false => {
+            format!("k is that of {percent} % of a normal error. Degrees of freedom are taken as infinite.")
+        }
         true => format!(
             "k is that of {percent} % of Student's t with ν effective degrees of freedom, along each axis after Welch and Satterthwaite (G.4.1); \
              ν of the norm is the harmonic mean of the sources by their shares."

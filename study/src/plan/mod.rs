@@ -106,8 +106,10 @@ impl Plan {
         let sizes = model.priors(EXPECTED).map_err(fail)?;
         let unseen = tool_points.unseen(judged, |k| sizes[k].unwrap_or(1.0));
         // A millionth of what the instrument can tell is rounding.
-        let matters = |(k, moves): &(usize, f64)| moves * sizes[*k].unwrap_or(1.0) > 1e-6 * map.uncertainty.length;
-        let unseen = unseen.into_iter().filter(matters).map(|(k, moves)| Unseen::new(&model, k, moves)).collect();
+        let matters =
+            |(k, moves): &(usize, f64)| moves * sizes[*k].unwrap_or(1.0) > 1e-6 * map.uncertainty.length;
+        let unseen =
+            unseen.into_iter().filter(matters).map(|(k, moves)| Unseen::new(&model, k, moves)).collect();
         let moved = setup.moved(&rows);
         if let Some(note) = scale_note(&setup.ideal, &rows, &moved).map_err(fail)? {
             notes.note(&note);
