@@ -59,13 +59,7 @@ impl Interpreter {
     pub fn evaluate(&self, function: Function, arguments: &[f64]) -> Result<Vec<f64>, Error> {
         let tape = self.tape(function);
         count(Quantity::Arguments, tape.arguments, arguments.len())?;
-        let mut rows = vec![[0.0]; tape.slots];
-        let mut block = Block::new(tape, &mut rows);
-        for (slot, value) in arguments.iter().enumerate() {
-            block.set(slot, 0, *value);
-        }
-        block.run(tape);
-        Ok(tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect())
+        Ok(evaluated(tape, arguments.iter()))
     }
 
     /// The results of a function at one configuration, one after the other, finite and not singular; the margin, where there
@@ -83,7 +77,7 @@ impl Interpreter {
                 checks::inputs(&self.routines.description.inputs, values)?;
             }
         }
-        let values = self.evaluate(function, &arguments.concat())?;
+        let values = evaluated(self.tape(function), arguments.iter().copied().flatten());
         let mut rest = values.as_slice();
         if signature.has_margin(self.routines.description.orientation)
             && let Some((margin, results)) = values.split_last()
@@ -184,6 +178,17 @@ impl Sweepable for Interpreter {
     fn source_displacements(&self, arguments: &Tiles, displacements: &mut Tiles) -> Result<(), Error> {
         self.batch(Function::SourceDisplacements, arguments, displacements)
     }
+}
+
+/// The outputs of a tape; as many arguments as it has.
+fn evaluated<'a>(tape: &Tape, arguments: impl Iterator<Item = &'a f64>) -> Vec<f64> {
+    let mut rows = vec![[0.0]; tape.slots];
+    let mut block = Block::new(tape, &mut rows);
+    for (slot, value) in arguments.enumerate() {
+        block.set(slot, 0, *value);
+    }
+    block.run(tape);
+    tape.outputs.iter().map(|slot| block.value(*slot, 0)).collect()
 }
 
 fn count(quantity: Quantity, expected: usize, found: usize) -> Result<(), Error> {

@@ -121,8 +121,13 @@ fn identified(map: &Map, data: Data, prior: f64) -> Report {
 }
 
 fn identified_with(map: &Map, data: Data, test: Option<Data>, prior: f64) -> Report {
-    let settings =
-        Settings { loss: abbe::identify::Loss::Squares, prior: Prior::Share(prior), folds: 5, time: None };
+    let settings = Settings {
+        loss: abbe::identify::Loss::Squares,
+        prior: Prior::Share(prior),
+        folds: 5,
+        time: None,
+        points: false,
+    };
     let job = Identify {
         machine: nominal(),
         map: map.clone(),

@@ -69,7 +69,8 @@ fn read(text: &str, map: &Map) -> Result<Data, String> {
 }
 
 fn identified(map: &Map, text: &str) -> Result<f64, String> {
-    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None };
+    let settings =
+        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
     let data = read(text, map)?;
     let job = Identify {
         machine: ur5(),

@@ -128,7 +128,8 @@ fn measured(map: &Map, samples: usize, seed: u64) -> Data {
 }
 
 fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
-    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None };
+    let settings =
+        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
     let job = Identify {
         machine: ur5(),
         map: map.clone(),

@@ -56,8 +56,13 @@ fn measured(truth: &str, base: &str, layout: &str, samples: usize, seed: u64) ->
 fn job(nominal: &str, base: &str, layout: &str, data: &Data) -> Identify {
     let machine = machine(nominal);
     let map = map(base, layout, &machine);
-    let settings =
-        Settings { loss: abbe::identify::Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None };
+    let settings = Settings {
+        loss: abbe::identify::Loss::Squares,
+        prior: Prior::Share(0.01),
+        folds: 10,
+        time: None,
+        points: false,
+    };
     let (data, terms, harmonics) = (data.clone(), Vec::new(), Vec::new());
     Identify { machine, map, data, test: None, terms, harmonics, settings, accept: Acceptance::default() }
 }

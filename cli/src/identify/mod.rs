@@ -39,6 +39,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         prior: arguments.prior,
         folds: arguments.folds,
         time: arguments.time,
+        points: arguments.page.report.is_some(),
     };
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;

@@ -15,9 +15,9 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DMatrixView, DVector, DVectorView};
 
-use super::linearize::with_priors;
+use super::linearize::{by_blocks, with_priors};
 use super::solver::Solver;
 use super::triangle::Triangle;
 use super::{Configurations, Failure};
@@ -54,30 +54,31 @@ impl Solver<'_> {
         let used: Vec<usize> = (0..self.data.len()).filter(|i| self.weights[*i] > 0.0).collect();
         let data = || used.iter().map(|i| &self.data[*i]);
         let configurations = Configurations::new(data());
-        let groups = configurations.rows().into_iter();
-        let groups: Vec<Vec<usize>> =
-            groups.map(|rows| rows.into_iter().map(|i| used[i]).collect()).collect();
+        let numbers = configurations.numbers(data());
+        let at_most = |most: usize| numbers.iter().map(|count| *count.min(&most)).sum::<usize>();
         let n: usize = data().map(super::Observation::count).sum();
         let p = self.x.len();
-        let (means, bounded) =
-            (configurations.numbers(data(), usize::MAX), configurations.numbers(data(), POSE));
-        let several = configurations.numbers(data(), 3) < means;
+        let (means, bounded) = (at_most(usize::MAX), at_most(POSE));
+        let several = at_most(3) < means;
+        let count = configurations.count;
         let known = |covariance, sigma, freedom, independent| Known {
             covariance,
             sigma,
             freedom: f64::max(freedom, 1.0),
             independent,
-            configurations: configurations.count,
+            configurations: count,
         };
-        if several {
-            let (covariance, sigma) = self.sandwich(&groups, n)?;
-            let freedom = (configurations.count as f64 - 1.0).min(bounded as f64 - p as f64);
-            return Ok(known(covariance, sigma, freedom, Independent::Configurations));
-        }
-        if n == means {
+        if !several && n == means {
             let freedom = n as f64 - p as f64;
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
             return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
+        }
+        let groups = configurations.rows().of(&used);
+        let groups = groups.slices();
+        if several {
+            let (covariance, sigma) = self.sandwich(&groups, n)?;
+            let freedom = (count as f64 - 1.0).min(bounded as f64 - p as f64);
+            return Ok(known(covariance, sigma, freedom, Independent::Configurations));
         }
         let (covariance, sigma, freedom) = self.visits(&groups, [n, means])?;
         Ok(known(covariance, sigma, freedom, Independent::Points))
@@ -86,39 +87,43 @@ impl Solver<'_> {
     /// Points visited again: covariance, σ and degrees of freedom.
     fn visits(
         &self,
-        groups: &[Vec<usize>],
+        groups: &[&[usize]],
         [n, means]: [usize; 2],
     ) -> Result<(DMatrix<f64>, f64, f64), Failure> {
         let p = self.x.len();
-        let mut room = self.model.room();
-        let mut sums = Triangle::new(p);
-        let (mut between, mut within) = (0.0, 0.0);
-        for rows in groups {
-            // By number of the configuration: the sum of its rows of J, that of its residuals, and how many there are.
-            let mut numbers: BTreeMap<usize, (DVector<f64>, f64, f64)> = BTreeMap::new();
-            for i in rows {
-                let mut places = self.data[*i].places().into_iter();
-                let weight = self.weights[*i].sqrt();
-                self.model.residuals(
-                    &mut room,
-                    &self.data[*i],
-                    self.x.as_slice(),
-                    |residual, derivative| {
+        let block = |_: usize, groups: &[&[usize]]| {
+            let mut room = self.model.room();
+            let mut sums = Triangle::new(p);
+            let (mut between, mut within) = (0.0, 0.0);
+            for rows in groups {
+                // By number of the configuration: the sum of its rows of J, that of its residuals, and how many there are.
+                let mut numbers: BTreeMap<usize, (DVector<f64>, f64, f64)> = BTreeMap::new();
+                for i in rows.iter().copied() {
+                    let mut places = self.data[i].places().into_iter();
+                    let weight = self.weights[i].sqrt();
+                    self.linear(&mut room, i, |residual, row| {
                         let place = places.next().unwrap_or_default();
                         let (s, sum, count) =
                             numbers.entry(place).or_insert_with(|| (DVector::zeros(p), 0.0, 0.0));
-                        (0..p).for_each(|k| s[k] += weight * derivative(k));
+                        s.iter_mut().zip(row).for_each(|(s, value)| *s += weight * value);
                         (*sum, *count) = (*sum + weight * residual, *count + 1.0);
                         within += (weight * residual).powi(2);
-                    },
-                )?;
+                    })?;
+                }
+                for (s, sum, count) in numbers.values() {
+                    between += sum * sum / count;
+                    within -= sum * sum / count;
+                    sums.push(s.as_slice(), 0.0, 1.0);
+                }
             }
-            for (s, sum, count) in numbers.values() {
-                between += sum * sum / count;
-                within -= sum * sum / count;
-                sums.push(s.iter().copied().chain([0.0]), 1.0);
-            }
-        }
+            Ok((sums, between, within))
+        };
+        let (mut sums, mut between, mut within) = (Triangle::new(p), 0.0, 0.0);
+        by_blocks(groups, block, |part| {
+            sums.merge(part.0);
+            between += part.1;
+            within += part.2;
+        })?;
         let (n, m, p) = (n as f64, means as f64, p as f64);
         let alone = within.max(0.0) / (n - m);
         let plain = || {
@@ -149,36 +154,44 @@ impl Solver<'_> {
     }
 
     /// Several numbers of a configuration that may share errors of any kind: covariance and σ.
-    fn sandwich(&self, groups: &[Vec<usize>], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
+    fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
         let p = self.x.len();
         let bread = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
         let Some(l) = bread.solve_upper_triangular(&DMatrix::identity(bread.nrows(), p)) else {
             return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
         };
-        let mut room = self.model.room();
-        let (mut meat, mut squares, mut n) = (DMatrix::zeros(p, p), 0.0, n as f64);
-        for rows in groups {
-            // In coordinates of B^(1/2): J̃ = J L, G = J̃ᵀ J̃, and J̃ᵀ (I − J̃ J̃ᵀ)^(−1/2) = (I − G)^(−1/2) J̃ᵀ.
-            let (mut g, mut v) = (DMatrix::zeros(p, p), DVector::zeros(p));
-            for i in rows {
-                let weight = self.weights[*i].sqrt();
-                self.model.residuals(
-                    &mut room,
-                    &self.data[*i],
-                    self.x.as_slice(),
-                    |residual, derivative| {
-                        let u = l.tr_mul(&DVector::from_fn(p, |k, _| weight * derivative(k)));
-                        g.ger(1.0, &u, &u, 1.0);
-                        v.axpy(weight * residual, &u, 1.0);
-                        squares += (weight * residual).powi(2);
-                    },
-                )?;
+        let block = |_: usize, groups: &[&[usize]]| {
+            let mut room = self.model.room();
+            let (mut rows, mut residuals, mut ends) = (Vec::new(), Vec::new(), Vec::new());
+            for group in groups {
+                for i in group.iter().copied() {
+                    let weight = self.weights[i].sqrt();
+                    self.linear(&mut room, i, |residual, row| {
+                        rows.extend(row.iter().map(|value| weight * value));
+                        residuals.push(weight * residual);
+                    })?;
+                }
+                ends.push(residuals.len());
             }
-            let (corrected, added, spent) = raised(g, &v);
-            meat.ger(1.0, &corrected, &corrected, 1.0);
-            squares += added;
-            n -= spent;
-        }
+            // In coordinates of B^(1/2), a column for every number: J̃ᵀ = Lᵀ Jᵀ.
+            let all = l.tr_mul(&DMatrix::from_vec(p, residuals.len(), rows));
+            let residuals = DVector::from_vec(residuals);
+            let mut parts = DMatrix::zeros(p, groups.len());
+            let (mut squares, mut spent, mut start) = (0.0, 0.0, 0);
+            for (mut part, end) in parts.column_iter_mut().zip(ends) {
+                let (j, r) = (all.columns(start, end - start), residuals.rows(start, end - start));
+                let raised = raised(&j, &r);
+                part.copy_from(&raised.0);
+                (squares, spent, start) = (squares + raised.1, spent + raised.2, end);
+            }
+            Ok((&parts * parts.transpose(), squares, spent))
+        };
+        let (mut meat, mut squares, mut n) = (DMatrix::zeros(p, p), 0.0, n as f64);
+        by_blocks(groups, block, |part| {
+            meat += part.0;
+            squares += part.1;
+            n -= part.2;
+        })?;
         for (k, prior) in self.priors.iter().enumerate() {
             if let Some(sigma) = prior {
                 let row = l.row(k).transpose() / *sigma;
@@ -192,7 +205,7 @@ impl Solver<'_> {
     fn inverse(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
         let p = self.x.len();
         let mut triangle = Triangle::new(p);
-        a.row_iter().for_each(|row| triangle.push(row.iter().copied().chain([0.0]), 1.0));
+        a.transpose().column_iter().for_each(|row| triangle.push(row.as_slice(), 0.0, 1.0));
         let problem = with_priors(triangle, &self.priors, self.x.as_slice());
         let inverse = problem.a.rows(0, p).solve_upper_triangular(&DMatrix::identity(p, p));
         inverse.map_or_else(
@@ -207,9 +220,22 @@ impl Solver<'_> {
     }
 }
 
-/// `(I − G)^(−1/2) v`, `vᵀ (I − G)⁻¹ v`, and how many directions the configuration alone determines: nothing is left of
-/// the residuals along those.
-fn raised(g: DMatrix<f64>, v: &DVector<f64>) -> (DVector<f64>, f64, f64) {
+/// `J̃ᵀ (I − H)^(−1/2) r` and `rᵀ (I − H)⁻¹ r` with `H = J̃ J̃ᵀ`, and how many directions the configuration alone determines:
+/// nothing is left of the residuals along those.
+///
+/// With `G = J̃ᵀ J̃`, smaller where there are many numbers, `J̃ᵀ (I − H)^(−1/2) r = (I − G)^(−1/2) J̃ᵀ r` and
+/// `rᵀ (I − H)⁻¹ r = rᵀr + (J̃ᵀ r)ᵀ (I − G)⁻¹ (J̃ᵀ r)`.
+fn raised(j: &DMatrixView<'_, f64>, r: &DVectorView<'_, f64>) -> (DVector<f64>, f64, f64) {
+    if j.ncols() <= j.nrows() {
+        let (root, squares, spent) = root(j.tr_mul(j), &r.into_owned());
+        return (j * root, squares, spent);
+    }
+    let (root, squares, spent) = root(j * j.transpose(), &(j * r));
+    (root, r.norm_squared() + squares, spent)
+}
+
+/// `(I − G)^(−1/2) v`, `vᵀ (I − G)⁻¹ v`, and how many eigenvalues of G are 1.
+fn root(g: DMatrix<f64>, v: &DVector<f64>) -> (DVector<f64>, f64, f64) {
     if g.trace() < 0.05 {
         // The series: what is left out is below 3e-5 of it.
         let once = &g * v;
@@ -229,20 +255,35 @@ fn raised(g: DMatrix<f64>, v: &DVector<f64>) -> (DVector<f64>, f64, f64) {
 mod tests {
     use nalgebra::{DMatrix, DVector};
 
-    use super::raised;
+    use super::{raised, root};
+
+    /// Few numbers of many unknowns, and many of few.
+    #[test]
+    fn numbers_and_unknowns_say_the_same() {
+        for (p, m, size) in [(3, 5, 0.05), (3, 5, 0.3), (5, 3, 0.05), (5, 3, 0.3)] {
+            let j = DMatrix::from_fn(p, m, |k, i| size * (1.0 + 1.7 * k as f64 + 0.9 * (i * i) as f64).sin());
+            let r = DVector::from_fn(m, |i, _| (2.0 + i as f64).cos());
+            let (found, squares, spent) = raised(&j.as_view(), &r.as_view());
+            let (expected, of_numbers, _) = root(j.tr_mul(&j), &r);
+            let (_, of_unknowns, _) = root(&j * j.transpose(), &(&j * &r));
+            assert!((found - &j * expected).norm() < 1e-5 && spent == 0.0);
+            assert!((squares - of_numbers).abs() < 1e-4);
+            assert!((squares - r.norm_squared() - of_unknowns).abs() < 1e-4);
+        }
+    }
 
     #[test]
     fn the_series_is_the_root() {
         let v = DVector::from_vec(vec![0.3, -1.2, 0.7]);
         let u = DVector::from_vec(vec![0.1, 0.15, -0.05]);
         let small = &u * u.transpose();
-        let (series, squares, _) = raised(small.clone(), &v);
-        let root = (DMatrix::identity(3, 3) - small).try_inverse().unwrap();
-        assert!((squares - v.dot(&(&root * &v))).abs() < 1e-4);
+        let (series, squares, _) = root(small.clone(), &v);
+        let inverse = (DMatrix::identity(3, 3) - small).try_inverse().unwrap();
+        assert!((squares - v.dot(&(&inverse * &v))).abs() < 1e-4);
         assert!((series.norm_squared() - squares).abs() < 1e-4);
         let large = DMatrix::from_diagonal(&DVector::from_vec(vec![0.75, 0.0, 1.0]));
-        let (root, squares, spent) = raised(large, &v);
-        assert!((root[0] - 0.6).abs() < 1e-12 && (root[1] + 1.2).abs() < 1e-12 && root[2] == 0.0);
+        let (raised, squares, spent) = root(large, &v);
+        assert!((raised[0] - 0.6).abs() < 1e-12 && (raised[1] + 1.2).abs() < 1e-12 && raised[2] == 0.0);
         assert!((squares - (0.36 + 1.44)).abs() < 1e-12 && spent == 1.0);
     }
 }

@@ -10,6 +10,7 @@
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
+use super::linearize::by_blocks;
 use super::{Configurations, Failure, Model, Observation};
 use crate::analysis::sampling::{norm, stream};
 
@@ -55,15 +56,25 @@ const SETTLING: [f64; 3] = [0.03, 0.1, 0.3];
 
 /// Judges rows at `x`; none if there are too few to tell.
 pub fn drift(model: &Model, rows: &[&Observation], x: &[f64]) -> Result<Option<Drift>, Failure> {
-    let mut room = model.room();
-    let mut errors = Vec::new();
-    for (place, row) in rows.iter().enumerate() {
-        let all = model.deviations(&mut room, row, x)?;
-        if !all.is_empty() {
-            let mean = [0, 1, 2].map(|axis| all.iter().map(|e| e[axis]).sum::<f64>() / all.len() as f64);
-            errors.push((row.time.unwrap_or(place as f64), *row, mean));
+    let block = |first: usize, part: &[&Observation]| {
+        let mut room = model.room();
+        let mut means = Vec::with_capacity(part.len());
+        for (place, row) in (first..).zip(part) {
+            let (mut sum, mut count) = ([0.0; 3], 0.0);
+            model.each_deviation(&mut room, row, x, |error| {
+                sum = core::array::from_fn(|axis| sum[axis] + error[axis]);
+                count += 1.0;
+            })?;
+            if count > 0.0 {
+                means.push((row.time.unwrap_or(place as f64), place, sum.map(|sum| sum / count)));
+            }
         }
-    }
+        Ok(means)
+    };
+    let mut errors: Vec<Timed> = Vec::new();
+    by_blocks(rows, block, |means| {
+        errors.extend(means.into_iter().map(|(time, place, mean)| (time, rows[place], mean)));
+    })?;
     errors.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(judged(&errors))
 }
@@ -76,8 +87,9 @@ fn judged(errors: &[Timed]) -> Option<Drift> {
     let distances = |part: &[Timed]| part.iter().map(|e| norm(e.2)).sum::<f64>() / part.len().max(1) as f64;
     let ends = [distances(&errors[..tenth]), distances(&errors[errors.len() - tenth..])];
     let configurations = Configurations::new(errors.iter().map(|e| e.1));
-    let groups = configurations.rows();
-    let again: usize = groups.iter().map(Vec::len).filter(|visits| *visits > 1).sum();
+    let rows = configurations.rows();
+    let groups = rows.slices();
+    let again: usize = groups.iter().map(|group| group.len()).filter(|visits| *visits > 1).sum();
     let visited_again = 2 * again > errors.len();
     let mut values: Vec<[f64; 4]> =
         errors.iter().map(|(_, _, [x, y, z])| [*x, *y, *z, norm([*x, *y, *z])]).collect();

@@ -50,20 +50,17 @@ impl Distances {
     /// Figures of them; all 0 if there are none.
     pub fn figures(&self) -> Figures {
         let mut values: Vec<f64> = self.0.iter().map(|(_, value)| *value).collect();
-        values.sort_by(f64::total_cmp);
         let count = values.len();
-        let n = count.max(1) as f64;
-        let rank = (0.95 * n).ceil() as usize;
-        let (mean, standard_error, configurations) = self.mean();
-        Figures {
-            count,
-            configurations,
-            mean,
-            standard_error,
-            rms: (values.iter().map(|v| v * v).sum::<f64>() / n).sqrt(),
-            max: values.last().copied().unwrap_or_default(),
-            p95: values.get(rank.saturating_sub(1)).copied().unwrap_or_default(),
+        if count == 0 {
+            return Figures::default();
         }
+        let n = count as f64;
+        let (mean, standard_error, configurations) = self.mean();
+        let rms = (values.iter().map(|v| v * v).sum::<f64>() / n).sqrt();
+        let max = values.iter().copied().max_by(f64::total_cmp).unwrap_or_default();
+        let rank = (0.95 * n).ceil() as usize;
+        let (_, p95, _) = values.select_nth_unstable_by(rank.max(1) - 1, f64::total_cmp);
+        Figures { count, configurations, mean, standard_error, rms, max, p95: *p95 }
     }
 
     /// How much smaller these are than others of the same points, pair by pair.

@@ -110,7 +110,7 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     // A configuration that is visited again tells no more of the machine. What is told badly counts, too: as many numbers
     // are explained by anything.
     let configurations = Configurations::new(data);
-    let independent = configurations.numbers(data.iter(), usize::MAX);
+    let independent: usize = configurations.numbers(data.iter()).iter().sum();
     let rank = identifiable.rank + identifiable.weak.len();
     if independent <= rank {
         let configurations = configurations.count;
@@ -124,14 +124,16 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     }
     let start = identifiable.kept.iter().map(|k| start[*k]).collect();
     let mut solver = Solver::new(&kept, data, options, &identifiable.kept, start);
-    if options.loss != Loss::Squares {
-        solver.leave_out_gross_errors(options.loss, options.steps)?;
-    }
+    let known = match options.loss {
+        Loss::Squares => None,
+        loss => solver.leave_out_gross_errors(loss, options.steps)?,
+    };
     if !solver.steps_at_most(options.steps)? {
         return Err(Failure::NotConverged { steps: solver.steps });
     }
     let cost = solver.cost_of_data();
-    let Known { covariance, sigma, freedom, independent, configurations } = solver.known()?;
+    let known = known.map_or_else(|| solver.known(), Ok)?;
+    let Known { covariance, sigma, freedom, independent, configurations } = known;
     let mut x = vec![0.0; model.unknowns.len()];
     identifiable.kept.iter().zip(solver.x.iter()).for_each(|(k, value)| x[*k] = *value);
     let (priors, weights, steps) = (options.priors.clone(), solver.weights, solver.steps);

@@ -6,6 +6,7 @@ use super::fit::REJECTED;
 use super::linearize::{push, with_priors};
 use super::triangle::{Problem, Triangle};
 use super::{Configurations, Distances, Failure, Fit, Model, Observation};
+use crate::analysis::in_order;
 use crate::analysis::sampling::halton;
 
 /// The part that each observation is left out with.
@@ -40,11 +41,18 @@ fn triangles(
     weights: &[f64],
     folds: &Folds,
 ) -> Result<Vec<Triangle>, Failure> {
-    let mut triangles = vec![Triangle::new(model.unknowns.len()); folds.count];
-    let mut room = model.room();
-    for (i, observation) in data.iter().enumerate() {
-        push(model, &mut room, observation, x, weights[i], &mut triangles[folds.fold[i]])?;
-    }
+    let one = |fold: usize| {
+        let mut triangle = Triangle::new(model.unknowns.len());
+        let mut room = model.room();
+        for (i, observation) in
+            data.iter().enumerate().filter(|(i, _)| folds.fold[*i] == fold && weights[*i] > 0.0)
+        {
+            push(model, &mut room, observation, x, weights[i], &mut triangle)?;
+        }
+        Ok(triangle)
+    };
+    let mut triangles = Vec::new();
+    in_order(folds.count, one, |triangle| triangles.push(triangle))?;
     Ok(triangles)
 }
 
@@ -70,20 +78,17 @@ pub fn cross_validate(
         x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()
     };
     let solutions: Vec<Vec<f64>> = (0..folds.count).map(solve).collect();
-    let mut room = kept.room();
-    let mut norms = Vec::new();
-    for ((weight, observation), fold) in fit.weighed(data).zip(&folds.fold) {
-        if weight >= REJECTED {
-            let distances = kept.distances(&mut room, observation, &solutions[*fold])?;
-            norms.extend(distances.into_iter().map(|distance| (observation.configuration, distance)));
-        }
-    }
-    Ok(Distances(norms))
+    let rows: Vec<&Observation> = data.iter().collect();
+    let solution = |i: usize| (fit.weights[i] >= REJECTED).then(|| &solutions[folds.fold[i]][..]);
+    let mut distances = Distances::default();
+    kept.take_distances(&rows, solution, |part| distances.0.extend(part))?;
+    Ok(distances)
 }
 
 /// All folds but one.
 fn others(parts: &[Triangle], left_out: usize, priors: &[Option<f64>], x: &[f64]) -> Problem {
     let rest = parts.iter().enumerate().filter(|(fold, _)| *fold != left_out);
-    let all = rest.map(|(_, part)| part.clone()).reduce(Triangle::merged);
-    with_priors(all.unwrap_or_else(|| Triangle::new(x.len())), priors, x)
+    let mut all = Triangle::new(x.len());
+    rest.for_each(|(_, part)| all.merge(part.clone()));
+    with_priors(all, priors, x)
 }

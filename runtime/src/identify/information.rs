@@ -1,9 +1,12 @@
 //! What the configurations of a list tell, and what a sum of them leaves unknown.
 
+use core::convert::Infallible;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SMatrix};
 
+use super::linearize::by_blocks;
 use super::{Failure, Measurement, Model, Observation};
-use crate::analysis::sampling;
+use crate::analysis::{in_order, sampling};
 
 /// What a choice of configurations is to make small or large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,22 +51,27 @@ impl Candidates {
         let (p, count) = (model.unknowns.len(), list.len());
         let rows = list.iter().map(Observation::count).max().unwrap_or_default();
         let arm = sampling::arm_length(model.manipulator, &model.s).map_err(Failure::Machine)?;
-        let mut stack = DMatrix::zeros(rows * count, p);
-        let mut room = model.room();
         let x = vec![0.0; p];
-        for (i, observation) in list.iter().enumerate() {
-            if i % BLOCK == 0 {
-                progress(i, count);
+        let block = |first: usize, part: &[Observation]| {
+            let mut stack = DMatrix::zeros(rows * part.len(), p);
+            let mut room = model.room();
+            for (i, observation) in part.iter().enumerate() {
+                let observation = model.nominally_seen(&mut room, observation)?;
+                let mut at = rows * i;
+                model.linear(&mut room, &observation, &x, |_, row| {
+                    row.iter().enumerate().for_each(|(k, value)| stack[(at, k)] = *value);
+                    at += 1;
+                })?;
+                let mut seen = stack.rows_mut(rows * i, at - rows * i);
+                whiten(model, &observation, model_error, arm, &mut seen);
             }
-            let observation = model.nominally_seen(&mut room, observation)?;
-            let mut at = rows * i;
-            model.residuals(&mut room, &observation, &x, |_, derivative| {
-                (0..p).for_each(|k| stack[(at, k)] = derivative(k));
-                at += 1;
-            })?;
-            let mut seen = stack.rows_mut(rows * i, at - rows * i);
-            whiten(model, &observation, model_error, arm, &mut seen);
-        }
+            Ok((first, stack))
+        };
+        let mut stack = DMatrix::zeros(rows * count, p);
+        by_blocks(list, block, |(first, part)| {
+            progress(first, count);
+            stack.rows_mut(rows * first, part.nrows()).copy_from(&part);
+        })?;
         Ok(Self { stack, rows, count, root: DMatrix::zeros(p, 0) })
     }
 
@@ -124,20 +132,18 @@ impl Candidates {
         &self,
         information: &Information,
         criterion: Criterion,
-        inside: impl Fn(usize) -> bool,
+        inside: impl Fn(usize) -> bool + Sync,
     ) -> Vec<f64> {
-        let mut gains = Vec::with_capacity(self.count);
-        let mut at = 0;
-        while at < self.count {
+        let block = |block: usize| {
+            let at = BLOCK * block;
             let together = BLOCK.min(self.count - at);
-            let block = self.stack.rows(self.rows * at, self.rows * together).into_owned();
-            let (seen, aimed) = information.of(&block, criterion);
-            gains.extend((0..together).map(|i| {
-                let sign = if inside(at + i) { -1.0 } else { 1.0 };
-                gain(&seen, &aimed, self.rows, i, sign)
-            }));
-            at += together;
-        }
+            let rows = self.stack.rows(self.rows * at, self.rows * together).into_owned();
+            let (seen, aimed) = information.of(&rows, criterion);
+            let sign = |i: usize| if inside(at + i) { -1.0 } else { 1.0 };
+            Ok((0..together).map(|i| gain(&seen, &aimed, self.rows, i, sign(i))).collect::<Vec<f64>>())
+        };
+        let mut gains = Vec::with_capacity(self.count);
+        let Ok(()) = in_order::<_, Infallible>(self.count.div_ceil(BLOCK), block, |part| gains.extend(part));
         gains
     }
 

@@ -73,20 +73,15 @@ impl LeftOut {
         let mut x = fit.x.clone();
         x.resize(model.unknowns.len(), 0.0);
         let mut room = model.room();
-        let mut derivatives = vec![0.0; model.unknowns.len()];
-        let mut needed: Vec<usize> = terms.iter().map(|term| term.unknown).collect();
-        needed.sort_unstable();
-        needed.dedup();
         for fold in &rows {
             let first = at;
             for &i in fold {
                 let weight = fit.weights[i].sqrt();
                 let factors = (offer.factors)(&data[i]);
-                model.residuals(&mut room, &data[i], &x, |residual, derivative| {
-                    needed.iter().for_each(|k| derivatives[*k] = weight * derivative(*k));
+                model.linear(&mut room, &data[i], &x, |residual, derivatives| {
                     for (j, term) in terms.iter().enumerate() {
-                        columns[(at, j)] =
-                            derivatives[term.unknown] * term.factor.map_or(1.0, |factor| factors[factor]);
+                        let factor = term.factor.map_or(weight, |factor| weight * factors[factor]);
+                        columns[(at, j)] = derivatives[term.unknown] * factor;
                     }
                     columns[(at, terms.len())] = -weight * residual;
                     configuration.push(data[i].configuration);

@@ -8,17 +8,17 @@ use crate::analysis::in_order;
 /// Observations that one thread takes at a time: always the same, so that results are, too, for any number of threads.
 const ROWS: usize = 512;
 
-/// What `make` makes of every block of the data, given with the number of its first row, in their order.
-pub(super) fn by_blocks<T: Send>(
-    data: &[Observation],
-    make: impl Fn(usize, &[Observation]) -> Result<T, Failure> + Sync,
+/// What `make` makes of every block of rows, given with the number of its first row, in their order.
+pub(super) fn by_blocks<R: Sync, T: Send>(
+    rows: &[R],
+    make: impl Fn(usize, &[R]) -> Result<T, Failure> + Sync,
     take: impl FnMut(T),
 ) -> Result<(), Failure> {
     let block = |block| {
         let first = block * ROWS;
-        make(first, &data[first..data.len().min(first + ROWS)])
+        make(first, &rows[first..rows.len().min(first + ROWS)])
     };
-    in_order(data.len().div_ceil(ROWS), block, take)
+    in_order(rows.len().div_ceil(ROWS), block, take)
 }
 
 /// Residuals and derivatives of all observations at `x`, as a triangle; `weights` by observation, 1 if there are none.
@@ -39,14 +39,9 @@ pub(super) fn linearize(
         }
         Ok(triangle)
     };
-    let mut all: Option<Triangle> = None;
-    by_blocks(data, block, |part| {
-        all = Some(match all.take() {
-            Some(before) => before.merged(part),
-            None => part,
-        });
-    })?;
-    Ok(all.unwrap_or_else(|| Triangle::new(model.unknowns.len())))
+    let mut all = Triangle::new(model.unknowns.len());
+    by_blocks(data, block, |part| all.merge(part))?;
+    Ok(all)
 }
 
 /// The same of one observation: a step solves `J dx = −r`.
@@ -59,9 +54,7 @@ pub(super) fn push(
     triangle: &mut Triangle,
 ) -> Result<(), Failure> {
     let weight = weight.sqrt();
-    model.residuals(room, observation, x, |residual, derivative| {
-        triangle.push((0..x.len()).map(derivative).chain([-residual]), weight);
-    })
+    model.linear(room, observation, x, |residual, row| triangle.push(row, -residual, weight))
 }
 
 /// A row more for every prior: `x/σ`.
@@ -69,7 +62,8 @@ pub(super) fn with_priors(mut triangle: Triangle, priors: &[Option<f64>], x: &[f
     let p = x.len();
     for (k, prior) in priors.iter().enumerate() {
         if let Some(sigma) = prior {
-            triangle.push((0..p).map(|j| f64::from(u8::from(j == k)) / sigma).chain([-x[k] / sigma]), 1.0);
+            let row: Vec<f64> = (0..p).map(|j| f64::from(u8::from(j == k))).collect();
+            triangle.push(&row, -x[k], 1.0 / sigma);
         }
     }
     Problem::from_triangle(&triangle.finish(), &(0..p).collect::<Vec<_>>())

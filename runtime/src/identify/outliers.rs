@@ -6,35 +6,47 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::clustered::Known;
 use super::fit::REJECTED;
-use super::solver::Solver;
+use super::linearize::by_blocks;
+use super::robust::robust_scale_after;
+use super::solver::{Residuals, Solver};
 use super::statistics::f_beyond;
-use super::{Failure, Loss};
+use super::{Configurations, Failure, Folds, Loss, Observation};
 
 /// How likely it may be that any good row is left out by chance.
 const CHANCE: f64 = 0.01;
 
+/// Of more rows than twice these, so many come near first.
+const PART: usize = 4000;
+
+/// Rounds of Huber's weights, then of those that were asked for.
+const ROUNDS: [usize; 2] = [20, 40];
+
+/// How often a step is damped further in a round.
+const TRIES: usize = 8;
+
 impl Solver<'_> {
-    /// Sets the weights: 0 for gross errors, 1 for all others. `steps` are the most of each fit.
-    pub(super) fn leave_out_gross_errors(&mut self, loss: Loss, steps: usize) -> Result<(), Failure> {
-        // Huber first: it comes near from anywhere, and finds the scale; then the loss that was asked for, with that scale.
-        // Gross errors never have their say.
-        let mut scale = self.robust_scale()?;
-        for round in 0..60 {
-            let before = self.x.clone();
-            if round < 12 {
-                scale = self.robust_scale()?;
-            }
-            self.reweight(if round < 12 { Loss::Huber } else { loss }, scale)?;
-            self.steps_at_most(3)?;
-            let moved = (&self.x - &before).component_mul(&self.scale()).amax();
-            if round >= 15 && moved < 1e-3 * self.cost.sqrt() {
-                break;
-            }
+    /// Sets the weights: 0 for gross errors, 1 for all others. `steps` are the most of each fit. How well the unknowns are
+    /// known, if that came out on the way.
+    pub(super) fn leave_out_gross_errors(
+        &mut self,
+        loss: Loss,
+        steps: usize,
+    ) -> Result<Option<Known>, Failure> {
+        let places = self.places_by_number();
+        if self.data.len() > 2 * PART {
+            let folds = Folds::new(self.data, self.data.len() / PART);
+            let part = self.data.iter().zip(&folds.fold).filter(|(_, fold)| **fold == 0);
+            let part: Vec<Observation> = part.map(|(row, _)| row.clone()).collect();
+            let mut few = self.of(&part);
+            few.rounds(loss, places)?;
+            self.x = few.x;
         }
-        self.reweight(Loss::Tukey, scale)?;
+        let (scale, norms) = self.rounds(loss, places)?;
+        self.reweight(Loss::Tukey, &norms, scale);
         self.weights.iter_mut().for_each(|weight| *weight = f64::from(u8::from(*weight >= REJECTED)));
-        let counts = self.data.iter().map(super::Observation::count);
+        let counts = self.data.iter().map(Observation::count);
         let left: usize =
             counts.zip(&self.weights).filter(|(_, weight)| **weight > 0.0).map(|(n, _)| n).sum();
         if left <= self.x.len() {
@@ -45,40 +57,103 @@ impl Solver<'_> {
                 break;
             }
             self.steps_at_most(steps)?;
-            let back = self.could_be_chance()?;
+            let known = self.known()?;
+            let back = self.could_be_chance(&known)?;
             if back.is_empty() {
-                break;
+                return Ok(Some(known));
             }
             back.into_iter().for_each(|i| self.weights[i] = 1.0);
+            self.linearized = false;
         }
-        Ok(())
+        Ok(None)
+    }
+
+    /// How many numbers stand behind each that is independent: visits of a configuration count once.
+    fn places_by_number(&self) -> f64 {
+        let numbers: usize = self.data.iter().map(Observation::count).sum();
+        let independent: usize = Configurations::new(self.data).numbers(self.data.iter()).iter().sum();
+        numbers as f64 / independent.max(1) as f64
+    }
+
+    /// Iteratively reweighted least squares: the scale of what is left, and the norms of the residuals of all rows.
+    ///
+    /// Huber first: it comes near from anywhere, and finds the scale; then the loss that was asked for, with that scale.
+    /// Gross errors never have their say. A round is one step, for which the residuals at its end alone are worked out:
+    /// `Σ ρ` must fall.
+    fn rounds(&mut self, loss: Loss, visits: f64) -> Result<(f64, Vec<f64>), Failure> {
+        let spent = (self.x.len() as f64 * visits) as usize;
+        let scale_of = |mut all: Vec<f64>| robust_scale_after(&mut all, spent).max(1e-300);
+        let Residuals { all, mut norms } = self.residuals(&self.x)?;
+        let mut scale = scale_of(all);
+        for (loss, most) in [Loss::Huber, loss].into_iter().zip(ROUNDS) {
+            let mut damping = 1e-9;
+            for _ in 0..most {
+                self.reweight(loss, &norms, scale);
+                self.linearize_here()?;
+                let before = self.robust_cost(loss, &norms, scale, &self.x);
+                let mut moved = 0.0;
+                for _ in 0..TRIES {
+                    let Some(trial) = self.trial(damping) else {
+                        damping *= 10.0;
+                        continue;
+                    };
+                    let found = self.residuals(&trial)?;
+                    if self.robust_cost(loss, &found.norms, scale, &trial) <= before * (1.0 + 1e-12) {
+                        moved = (&trial - &self.x).component_mul(&self.scale()).amax();
+                        damping = f64::max(damping * 0.1, 1e-15);
+                        (self.x, norms, self.linearized) = (trial, found.norms, false);
+                        if loss == Loss::Huber {
+                            scale = scale_of(found.all);
+                        }
+                        break;
+                    }
+                    damping = f64::max(damping * 10.0, 1e-6);
+                }
+                if moved < 1e-3 * self.cost.sqrt() {
+                    break;
+                }
+            }
+        }
+        Ok((scale, norms))
+    }
+
+    /// `s² Σ ρ(|r|/s)`, and what priors cost.
+    fn robust_cost(&self, loss: Loss, norms: &[f64], scale: f64, x: &DVector<f64>) -> f64 {
+        let rows = norms.iter().zip(self.data);
+        let costs = rows.map(|(norm, row)| loss.cost(norm / scale, row.count()));
+        scale * scale * costs.sum::<f64>() + self.cost_of_priors(x)
     }
 
     /// Rows that were left out, and whose distance could be chance.
-    fn could_be_chance(&self) -> Result<Vec<usize>, Failure> {
+    fn could_be_chance(&self, known: &Known) -> Result<Vec<usize>, Failure> {
         let p = self.x.len();
-        let known = self.known()?;
         let bread = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
         let Some(l) = bread.solve_upper_triangular(&DMatrix::identity(bread.nrows(), p)) else {
             return Ok(Vec::new());
         };
-        let mut room = self.model.room();
-        let mut back = Vec::new();
-        for (i, row) in self.data.iter().enumerate().filter(|(i, _)| self.weights[*i] == 0.0) {
-            let (mut r, mut u) = (Vec::new(), Vec::new());
-            self.model.residuals(&mut room, row, self.x.as_slice(), |residual, derivative| {
-                r.push(residual);
-                u.push(l.tr_mul(&DVector::from_fn(p, |k, _| derivative(k))));
-            })?;
-            let d = r.len();
-            let spread = DMatrix::from_fn(d, d, |a, b| f64::from(u8::from(a == b)) + u[a].dot(&u[b]));
-            let r = DVector::from_vec(r);
-            let squares = spread.cholesky().map_or(f64::INFINITY, |spread| r.dot(&spread.solve(&r)));
-            let f = squares / (d as f64 * known.sigma.powi(2)).max(1e-300);
-            if f_beyond(f, d as f64, known.freedom) * self.data.len() as f64 > CHANCE {
-                back.push(i);
+        let left_out: Vec<usize> = (0..self.data.len()).filter(|i| self.weights[*i] == 0.0).collect();
+        let block = |_: usize, rows: &[usize]| {
+            let mut room = self.model.room();
+            let mut back = Vec::new();
+            for i in rows.iter().copied() {
+                let (mut r, mut u) = (Vec::new(), Vec::new());
+                self.linear(&mut room, i, |residual, row| {
+                    r.push(residual);
+                    u.push(l.tr_mul(&DVector::from_column_slice(row)));
+                })?;
+                let d = r.len();
+                let spread = DMatrix::from_fn(d, d, |a, b| f64::from(u8::from(a == b)) + u[a].dot(&u[b]));
+                let r = DVector::from_vec(r);
+                let squares = spread.cholesky().map_or(f64::INFINITY, |spread| r.dot(&spread.solve(&r)));
+                let f = squares / (d as f64 * known.sigma.powi(2)).max(1e-300);
+                if f_beyond(f, d as f64, known.freedom) * self.data.len() as f64 > CHANCE {
+                    back.push(i);
+                }
             }
-        }
+            Ok(back)
+        };
+        let mut back = Vec::new();
+        by_blocks(&left_out, block, |part| back.extend(part))?;
         Ok(back)
     }
 }

@@ -2,7 +2,8 @@
 
 use super::columns::{Displaced, Frame, turned};
 use super::gradient::Gradient;
-use super::{Distances, Failure, Figures, Measurement, Model, Observation, Role, Uncertainty, Unknown};
+use super::linearize::by_blocks;
+use super::{Distances, Failure, Figures, Measurement, Model, Observation, Role, Unknown};
 use crate::analysis::sampling;
 use crate::chain::rotation_vector;
 use crate::{Component, Error, Pose, Quantity};
@@ -16,8 +17,8 @@ pub struct Room {
     pub(super) frames: Vec<Frame>,
     /// What the errors of base, frames and tool do.
     displaced: Vec<Displaced>,
-    /// How a point moves with every unknown, once somebody has asked.
-    moves: Vec<[f64; 3]>,
+    /// The derivatives of three numbers by every unknown.
+    lines: [Vec<f64>; 3],
     pub(super) targets: Vec<[f64; 3]>,
     pub(super) fixtures: Vec<[f64; 3]>,
     pub(super) zeros: Vec<f64>,
@@ -118,7 +119,7 @@ impl Model<'_> {
             effects: vec![0.0; description.effects.len()],
             frames: Vec::with_capacity(frames + 2),
             displaced: vec![Displaced::NOTHING; frames + 2],
-            moves: Vec::new(),
+            lines: Default::default(),
             targets: self.targets.clone(),
             station: 0,
             fixtures: vec![[0.0; 3]; self.fixtures.len()],
@@ -128,97 +129,94 @@ impl Model<'_> {
         }
     }
 
-    /// Model minus measurement at `x`, number by number: `row(residual, derivative of unknown k)`.
+    /// Model minus measurement at `x`, number by number, in units of the uncertainty of the observation.
     ///
-    /// In units of the uncertainty of the observation. Three for every target that was not hidden, position and rotation
-    /// vector of a pose: six, or one for every reading.
+    /// Three for every target that was not hidden, position and rotation vector of a pose: six, or one for every reading.
     pub(super) fn residuals(
         &self,
         room: &mut Room,
         observation: &Observation,
         x: &[f64],
-        row: impl FnMut(f64, &mut dyn FnMut(usize) -> f64),
+        mut take: impl FnMut(f64),
     ) -> Result<(), Failure> {
-        let weight = observation.weight.sqrt();
-        self.differences(room, observation, x, weight, row)
+        self.numbers::<false>(room, observation, x, |residual, _| take(residual))
     }
 
-    /// Model minus measurement in units of the uncertainty, times a weight.
-    fn differences(
+    /// The same, each with its derivatives by all unknowns.
+    pub(super) fn linear(
         &self,
         room: &mut Room,
         observation: &Observation,
         x: &[f64],
-        weight: f64,
-        mut row: impl FnMut(f64, &mut dyn FnMut(usize) -> f64),
+        row: impl FnMut(f64, &[f64]),
+    ) -> Result<(), Failure> {
+        self.numbers::<true>(room, observation, x, row)
+    }
+
+    /// `row(residual, derivatives)`; no derivatives unless they are asked for.
+    fn numbers<const DERIVED: bool>(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+        mut row: impl FnMut(f64, &[f64]),
     ) -> Result<(), Failure> {
         self.chain(room, observation, x)?;
-        let [length, angle] = [self.uncertainty.length, self.uncertainty.angle].map(|sigma| sigma / weight);
+        let weight = observation.weight.sqrt();
+        let [length, angle] = [self.uncertainty.length, self.uncertainty.angle].map(|sigma| weight / sigma);
         let last = room.frames[room.errors.len() + 1].after;
-        let mut moves = core::mem::take(&mut room.moves);
+        let mut lines = core::mem::take(&mut room.lines);
+        let derived = if DERIVED { self.unknowns.len() } else { 0 };
         match &observation.measured {
             Measurement::Points(points) => {
                 for (j, measured) in points.iter().enumerate() {
                     let Some(measured) = measured else { continue };
-                    let target = *room.targets.get(j).ok_or(Failure::Observation {
-                        line: observation.line,
-                        error: Error::Count {
-                            quantity: Quantity::Pose,
-                            expected: self.targets.len(),
-                            found: points.len(),
-                        },
-                    })?;
-                    let point = last.apply(target);
-                    moves.clear();
+                    let point = last.apply(self.target(room, observation, j)?);
+                    fill(&mut lines, derived, |k| self.point(room, k, j, point).map(|moved| moved * length));
                     for axis in 0..3 {
-                        row((point[axis] - measured[axis]) / length, &mut |k| {
-                            self.moves_of(room, j, point, &mut moves)[k][axis] / length
-                        });
+                        row((point[axis] - measured[axis]) * length, &lines[axis]);
                     }
                 }
             }
             Measurement::Pose(measured) => {
                 let point = last.position();
-                moves.clear();
+                let place = |k| self.point(room, k, usize::MAX, point).map(|moved| moved * length);
+                fill(&mut lines, derived, place);
                 for axis in 0..3 {
-                    row((point[axis] - measured.0[3][axis]) / length, &mut |k| {
-                        self.moves_of(room, usize::MAX, point, &mut moves)[k][axis] / length
-                    });
+                    row((point[axis] - measured.0[3][axis]) * length, &lines[axis]);
                 }
                 let mut difference = last.then(&measured.inverse());
                 difference.0[3] = [0.0; 3];
                 let turn = rotation_vector(&difference);
+                fill(&mut lines, derived, |k| turned(turn, self.turn(room, k)).map(|turned| turned * angle));
                 for axis in 0..3 {
-                    row(turn[axis] / angle, &mut |k| turned(turn, self.turn(room, k))[axis] / angle);
+                    row(turn[axis] * angle, &lines[axis]);
                 }
             }
             Measurement::Readings(values) => {
                 for (i, measured) in values.iter().enumerate().take(self.readings.len()) {
                     let Some(measured) = measured else { continue };
-                    let sigma = self.readings[i].uncertainty / weight;
+                    let unit = weight / self.readings[i].uncertainty;
                     let gradient = self.gradient(room, i);
-                    row((gradient.value - measured) / sigma, &mut |k| {
-                        self.moves(room, i, &gradient, k) / sigma
-                    });
+                    fill(&mut lines, derived, |k| [self.moves(room, i, &gradient, k) * unit, 0.0, 0.0]);
+                    row((gradient.value - measured) * unit, &lines[0]);
                 }
             }
         }
-        room.moves = moves;
+        room.lines = lines;
         Ok(())
     }
 
-    /// How a point of target `j` moves with every unknown: its three coordinates share them.
-    fn moves_of<'v>(
-        &self,
-        room: &Room,
-        j: usize,
-        point: [f64; 3],
-        moves: &'v mut Vec<[f64; 3]>,
-    ) -> &'v [[f64; 3]] {
-        if moves.is_empty() {
-            moves.extend((0..self.unknowns.len()).map(|k| self.point(room, k, j, point)));
-        }
-        moves
+    /// Where target `j` is in the frame of the tool, the chain of `room` being where it is.
+    fn target(&self, room: &Room, observation: &Observation, j: usize) -> Result<[f64; 3], Failure> {
+        let found = || match &observation.measured {
+            Measurement::Points(points) => points.len(),
+            _ => 0,
+        };
+        room.targets.get(j).copied().ok_or_else(|| Failure::Observation {
+            line: observation.line,
+            error: Error::Count { quantity: Quantity::Pose, expected: self.targets.len(), found: found() },
+        })
     }
 
     /// How a point of target `j` moves with unknown `k`.
@@ -266,9 +264,7 @@ impl Model<'_> {
         x: &[f64],
     ) -> Result<Vec<(f64, Vec<f64>)>, Failure> {
         let mut numbers = Vec::new();
-        self.residuals(room, observation, x, |residual, derivative| {
-            numbers.push((-residual, (0..x.len()).map(derivative).collect()));
-        })?;
+        self.linear(room, observation, x, |residual, row| numbers.push((-residual, row.to_vec())))?;
         Ok(numbers)
     }
 
@@ -280,27 +276,41 @@ impl Model<'_> {
         observation: &Observation,
         x: &[f64],
     ) -> Result<Vec<[f64; 3]>, Failure> {
-        if let Measurement::Readings(readings) = &observation.measured {
-            let mut values = Vec::new();
-            self.chain(room, observation, x)?;
-            for (i, measured) in readings.iter().enumerate().take(self.readings.len()) {
-                let Some(measured) = measured.filter(|_| !self.readings[i].gauge.is_angle()) else {
-                    continue;
-                };
-                let Gradient { value, along, .. } = self.gradient(room, i);
-                values.push(along.map(|axis| (value - measured) * axis));
-            }
-            return Ok(values);
-        }
-        let Uncertainty { length, .. } = self.uncertainty;
         let mut values = Vec::new();
-        self.differences(room, observation, x, 1.0, |residual, _| {
-            values.push(residual * length);
-        })?;
-        if matches!(observation.measured, Measurement::Pose(_)) {
-            values.truncate(3);
+        self.each_deviation(room, observation, x, |deviation| values.push(deviation))?;
+        Ok(values)
+    }
+
+    /// The same, one after the other.
+    pub(super) fn each_deviation(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+        mut take: impl FnMut([f64; 3]),
+    ) -> Result<(), Failure> {
+        self.chain(room, observation, x)?;
+        let last = room.frames[room.errors.len() + 1].after;
+        let difference = |a: [f64; 3], b: &[f64; 3]| core::array::from_fn(|i| a[i] - b[i]);
+        match &observation.measured {
+            Measurement::Points(points) => {
+                for (j, measured) in points.iter().enumerate() {
+                    let Some(measured) = measured else { continue };
+                    take(difference(last.apply(self.target(room, observation, j)?), measured));
+                }
+            }
+            Measurement::Pose(measured) => take(difference(last.position(), &measured.position())),
+            Measurement::Readings(readings) => {
+                for (i, measured) in readings.iter().enumerate().take(self.readings.len()) {
+                    let Some(measured) = measured.filter(|_| !self.readings[i].gauge.is_angle()) else {
+                        continue;
+                    };
+                    let Gradient { value, along, .. } = self.gradient(room, i);
+                    take(along.map(|axis| (value - measured) * axis));
+                }
+            }
         }
-        Ok(values.chunks_exact(3).map(|v| [v[0], v[1], v[2]]).collect())
+        Ok(())
     }
 
     /// The norms of the [deviations](Self::deviations).
@@ -328,13 +338,31 @@ impl Model<'_> {
         observations: impl IntoIterator<Item = &'o Observation>,
         x: &[f64],
     ) -> Result<Distances, Failure> {
-        let mut room = self.room();
-        let mut norms = Vec::new();
-        for observation in observations {
-            let distances = self.distances(&mut room, observation, x)?;
-            norms.extend(distances.into_iter().map(|distance| (observation.configuration, distance)));
-        }
-        Ok(Distances(norms))
+        let rows: Vec<&Observation> = observations.into_iter().collect();
+        let mut distances = Distances::default();
+        self.take_distances(&rows, |_| Some(x), |part| distances.0.extend(part))?;
+        Ok(distances)
+    }
+
+    /// The norms of the position errors of those rows that `x` has unknowns for, by number of the row; each with its
+    /// configuration, block by block.
+    pub(super) fn take_distances<'x>(
+        &self,
+        rows: &[&Observation],
+        x: impl Fn(usize) -> Option<&'x [f64]> + Sync,
+        take: impl FnMut(Vec<(usize, f64)>),
+    ) -> Result<(), Failure> {
+        let block = |first: usize, rows: &[&Observation]| {
+            let mut room = self.room();
+            let mut norms = Vec::with_capacity(rows.len());
+            for (i, row) in rows.iter().enumerate() {
+                let Some(x) = x(first + i) else { continue };
+                let norm = |deviation| norms.push((row.configuration, sampling::norm(deviation)));
+                self.each_deviation(&mut room, row, x, norm)?;
+            }
+            Ok(norms)
+        };
+        by_blocks(rows, block, take)
     }
 
     /// The pose of the tool, and how its point moves per unit of every unknown.
@@ -347,5 +375,15 @@ impl Model<'_> {
         let pose = self.pose(room, observation, x)?;
         let moves = (0..self.unknowns.len()).map(|k| self.point(room, k, usize::MAX, pose.position()));
         Ok((pose, moves.collect()))
+    }
+}
+
+/// Three numbers of each of `count` unknowns, by number.
+#[inline]
+fn fill(lines: &mut [Vec<f64>; 3], count: usize, three: impl Fn(usize) -> [f64; 3]) {
+    lines.iter_mut().for_each(|line| line.resize(count, 0.0));
+    let [a, b, c] = lines;
+    for (k, ((a, b), c)) in a.iter_mut().zip(b).zip(c).enumerate() {
+        [*a, *b, *c] = three(k);
     }
 }

@@ -29,6 +29,25 @@ impl Loss {
     }
 }
 
+impl Loss {
+    /// What a residual costs, in scales: its square where it keeps its weight. Of `n = |r|` and `w` its derivative is `2 n w`.
+    pub(super) fn cost(self, norm: f64, d: usize) -> f64 {
+        let stretch = (d.max(1) as f64).sqrt();
+        match self {
+            Self::Squares => norm * norm,
+            Self::Huber => {
+                let bound = 1.345 * stretch;
+                if norm <= bound { norm * norm } else { bound * (2.0 * norm - bound) }
+            }
+            Self::Tukey => {
+                let bound = 4.685 * stretch;
+                let share = (norm / bound).min(1.0);
+                bound * bound / 3.0 * (1.0 - (1.0 - share * share).powi(3))
+            }
+        }
+    }
+}
+
 /// A standard deviation that half of the values cannot spoil: the median of the absolute values / 0.6745.
 pub fn robust_scale(residuals: &mut [f64]) -> f64 {
     robust_scale_after(residuals, 0)
@@ -46,4 +65,19 @@ pub(super) fn robust_scale_after(residuals: &mut [f64], spent: usize) -> f64 {
     let middle = (residuals.len() + spent.min(residuals.len() - 1)) / 2;
     let (_, median, _) = residuals.select_nth_unstable_by(middle, f64::total_cmp);
     *median / 0.674_489_750_196_082
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Loss;
+
+    #[test]
+    fn weights_are_slopes_of_costs() {
+        for loss in [Loss::Squares, Loss::Huber, Loss::Tukey] {
+            for (norm, d) in [(0.3, 1), (1.9, 1), (4.0, 1), (6.0, 1), (3.0, 9), (12.0, 9), (20.0, 9)] {
+                let slope = (loss.cost(norm + 1e-5, d) - loss.cost(norm - 1e-5, d)) / 2e-5;
+                assert!((slope - 2.0 * norm * loss.weight(norm, d)).abs() < 1e-6, "{loss:?} {norm} {d}");
+            }
+        }
+    }
 }

@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::linearize::{linearize, with_priors};
-use super::robust::robust_scale_after;
+use super::linearize::{by_blocks, linearize, with_priors};
+use super::residuals::Room;
 use super::triangle::Problem;
-use super::{Configurations, Failure, Loss, Model, Observation, Options};
+use super::{Failure, Loss, Model, Observation, Options};
 
 /// A fit under way.
 pub(super) struct Solver<'a> {
@@ -19,6 +19,8 @@ pub(super) struct Solver<'a> {
     pub(super) data_alone: DMatrix<f64>,
     pub(super) problem: Problem,
     pub(super) cost: f64,
+    /// Whether all this is at `x`, with the weights as they are.
+    pub(super) linearized: bool,
     pub(super) steps: usize,
 }
 
@@ -41,6 +43,27 @@ impl<'a> Solver<'a> {
             data_alone: DMatrix::zeros(0, p + 1),
             problem: Problem { a: DMatrix::zeros(0, p), b: DVector::zeros(0) },
             cost: f64::INFINITY,
+            linearized: false,
+            steps: 0,
+        }
+    }
+
+    /// The same fit of other data, from where it is.
+    pub(super) fn of<'b>(&self, data: &'b [Observation]) -> Solver<'b>
+    where
+        'a: 'b,
+    {
+        Solver {
+            model: self.model,
+            data,
+            priors: self.priors.clone(),
+            bounds: self.bounds.clone(),
+            x: self.x.clone(),
+            weights: vec![1.0; data.len()],
+            data_alone: self.data_alone.clone(),
+            problem: self.problem.clone(),
+            cost: self.cost,
+            linearized: false,
             steps: 0,
         }
     }
@@ -55,23 +78,38 @@ impl<'a> Solver<'a> {
     }
 
     pub(super) fn cost_of_data(&self) -> f64 {
-        let priors = self.priors.iter().zip(self.x.iter());
-        let of_priors: f64 = priors.filter_map(|(prior, x)| Some((x / (*prior)?).powi(2))).sum();
-        (self.cost - of_priors).max(0.0)
+        (self.cost - self.cost_of_priors(&self.x)).max(0.0)
+    }
+
+    pub(super) fn cost_of_priors(&self, x: &DVector<f64>) -> f64 {
+        let priors = self.priors.iter().zip(x.iter());
+        priors.filter_map(|(prior, x)| Some((x / (*prior)?).powi(2))).sum()
+    }
+
+    /// Residuals and derivatives at `x`, with the weights as they are.
+    pub(super) fn linearize_here(&mut self) -> Result<(), Failure> {
+        (self.data_alone, self.problem, self.cost) = self.linearize(&self.x)?;
+        self.linearized = true;
+        Ok(())
     }
 
     /// Steps until they are nothing beside what the data can tell; whether that was reached.
     pub(super) fn steps_at_most(&mut self, most: usize) -> Result<bool, Failure> {
-        (self.data_alone, self.problem, self.cost) = self.linearize(&self.x)?;
+        if !self.linearized {
+            self.linearize_here()?;
+        }
         let mut damping = 1e-9;
         for _ in 0..most {
-            let Some(step) = self.problem.solve(damping) else {
+            // A millionth of what a single number of the data explains by chance.
+            let nothing = 1e-6 * self.cost / self.data.len().max(1) as f64;
+            if self.problem.promise() <= nothing {
+                return Ok(true);
+            }
+            let Some(trial) = self.trial(damping) else {
                 damping = f64::max(damping * 10.0, 1e-12);
                 continue;
             };
-            let trial = self.within(&self.x + step);
-            let step = &trial - &self.x;
-            let share = step.component_mul(&self.scale()).norm();
+            let share = (&trial - &self.x).component_mul(&self.scale()).norm();
             // Far below what a single measurement changes.
             let small = share < 1e-7 * (1.0 + self.cost.sqrt());
             let (data_alone, problem, cost) = self.linearize(&trial)?;
@@ -80,8 +118,7 @@ impl<'a> Solver<'a> {
                 let gained = self.cost - cost;
                 (self.x, self.data_alone, self.problem, self.cost) = (trial, data_alone, problem, cost);
                 damping = f64::max(damping * 0.1, 1e-15);
-                // A millionth of what a single number of the data explains by chance.
-                if small || gained <= 1e-6 * self.cost / self.data.len().max(1) as f64 {
+                if small || gained <= nothing {
                     return Ok(true);
                 }
             } else if small {
@@ -91,6 +128,11 @@ impl<'a> Solver<'a> {
             }
         }
         Ok(false)
+    }
+
+    /// Where a damped step leads, within the bounds; none if the problem is singular.
+    pub(super) fn trial(&self, damping: f64) -> Option<DVector<f64>> {
+        Some(self.within(&self.x + self.problem.solve(damping)?))
     }
 
     fn within(&self, mut x: DVector<f64>) -> DVector<f64> {
@@ -106,35 +148,53 @@ impl<'a> Solver<'a> {
         DVector::from_vec(self.problem.lengths())
     }
 
-    /// All residuals, and the norm of those of each observation.
-    pub(super) fn residuals(&self) -> Result<(Vec<f64>, Vec<f64>), Failure> {
-        let mut room = self.model.room();
-        let (mut all, mut norms) = (Vec::new(), Vec::new());
-        for observation in self.data {
-            let mut square = 0.0;
-            self.model.residuals(&mut room, observation, self.x.as_slice(), |residual, _| {
-                all.push(residual);
-                square += residual * residual;
-            })?;
-            norms.push(square.sqrt());
-        }
-        Ok((all, norms))
+    /// Residuals and derivatives of row `i` of the data.
+    pub(super) fn linear(
+        &self,
+        room: &mut Room,
+        i: usize,
+        row: impl FnMut(f64, &[f64]),
+    ) -> Result<(), Failure> {
+        self.model.linear(room, &self.data[i], self.x.as_slice(), row)
     }
 
-    /// The scale of what is left of numbers that are not gross errors; visits of a configuration count once.
-    pub(super) fn robust_scale(&self) -> Result<f64, Failure> {
-        let mut all = self.residuals()?.0;
-        let configurations = Configurations::new(self.data);
-        let visits = all.len() as f64 / configurations.numbers(self.data.iter(), usize::MAX).max(1) as f64;
-        let spent = (self.x.len() as f64 * visits) as usize;
-        Ok(robust_scale_after(&mut all, spent).max(1e-300))
+    /// All residuals at `x`, and the norm of those of each observation.
+    pub(super) fn residuals(&self, x: &DVector<f64>) -> Result<Residuals, Failure> {
+        let block = |_: usize, rows: &[Observation]| {
+            let mut room = self.model.room();
+            let (mut all, mut norms) = (Vec::new(), Vec::with_capacity(rows.len()));
+            for observation in rows {
+                let mut square = 0.0;
+                self.model.residuals(&mut room, observation, x.as_slice(), |residual| {
+                    all.push(residual);
+                    square += residual * residual;
+                })?;
+                norms.push(square.sqrt());
+            }
+            Ok((all, norms))
+        };
+        let mut residuals = Residuals::default();
+        by_blocks(self.data, block, |(all, norms)| {
+            residuals.all.extend(all);
+            residuals.norms.extend(norms);
+        })?;
+        Ok(residuals)
     }
 
-    pub(super) fn reweight(&mut self, loss: Loss, scale: f64) -> Result<(), Failure> {
-        let norms = self.residuals()?.1;
+    /// Gives every row the weight that a loss has for its residual.
+    pub(super) fn reweight(&mut self, loss: Loss, norms: &[f64], scale: f64) {
         for ((weight, norm), observation) in self.weights.iter_mut().zip(norms).zip(self.data) {
             *weight = loss.weight(norm / scale, observation.count());
         }
-        Ok(())
+        self.linearized = false;
     }
+}
+
+/// What is left of the data.
+#[derive(Default)]
+pub(super) struct Residuals {
+    /// Of every number.
+    pub(super) all: Vec<f64>,
+    /// Of every observation.
+    pub(super) norms: Vec<f64>,
 }

@@ -33,8 +33,8 @@ impl Model<'_> {
                 Observation { measured: Measurement::Points(points.clone()), weight: 1.0, ..row.clone() };
             let mut moves = Matrix3xX::zeros(p);
             let mut axis = 0;
-            model.residuals(&mut room, &seen, &x, |_, derivative| {
-                (0..p).for_each(|k| moves[(axis, k)] = derivative(k) * length);
+            model.linear(&mut room, &seen, &x, |_, row| {
+                (0..p).for_each(|k| moves[(axis, k)] = row[k] * length);
                 axis += 1;
             })?;
             Ok(moves)

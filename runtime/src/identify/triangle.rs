@@ -25,24 +25,25 @@ impl Triangle {
         Self { r: vec![0.0; width * width], waiting: vec![[0.0; BLOCK]; width], filled: 0 }
     }
 
-    /// Takes in a row: the derivatives, then the right side, all times `weight`.
-    pub(super) fn push(&mut self, row: impl Iterator<Item = f64>, weight: f64) {
-        for (column, value) in self.waiting.iter_mut().zip(row) {
-            column[self.filled] = value * weight;
+    /// Takes in a row: the derivatives and the right side, all times `weight`.
+    pub(super) fn push(&mut self, row: &[f64], right: f64, weight: f64) {
+        let (place, last) = (self.filled, self.waiting.len() - 1);
+        for (column, value) in self.waiting[..last].iter_mut().zip(row) {
+            column[place] = value * weight;
         }
+        self.waiting[last][place] = right * weight;
         self.filled += 1;
         if self.filled == BLOCK {
             self.fold();
         }
     }
 
-    /// Of the rows of both; they have the same width.
-    pub(super) fn merged(mut self, mut other: Self) -> Self {
+    /// Takes in the rows of another one of the same width.
+    pub(super) fn merge(&mut self, mut other: Self) {
         other.fold();
         for row in other.r.chunks_exact(self.waiting.len()) {
-            self.push(row.iter().copied(), 1.0);
+            self.push(row, row[row.len() - 1], 1.0);
         }
-        self
     }
 
     fn fold(&mut self) {
@@ -77,6 +78,11 @@ impl Problem {
         let r = full.qr().unpack_r();
         let p = columns.len();
         Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
+    }
+
+    /// By how much `‖b‖²` falls at the least: `‖Qᵀb‖²`, `A` being its own `R`.
+    pub(super) fn promise(&self) -> f64 {
+        self.b.rows(0, self.a.ncols().min(self.b.len())).norm_squared()
     }
 
     /// `min ‖A x − b‖² + λ ‖D x‖²` with `D` the lengths of the columns; none if it is singular.
@@ -121,10 +127,11 @@ mod tests {
         let mut triangle = Triangle::new(p);
         let mut half = Triangle::new(p);
         for i in 0..m {
-            let row = (0..=p).map(|j| value(i, j));
-            if i < 400 { triangle.push(row, 1.0) } else { half.push(row, 1.0) }
+            let row: Vec<f64> = (0..p).map(|j| value(i, j)).collect();
+            if i < 400 { &mut triangle } else { &mut half }.push(&row, value(i, p), 1.0);
         }
-        let r = triangle.merged(half).finish();
+        triangle.merge(half);
+        let r = triangle.finish();
         let x = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]).solve(0.0).unwrap();
         let a = DMatrix::from_fn(m, p, value);
         let b = DVector::from_fn(m, |i, _| value(i, p));

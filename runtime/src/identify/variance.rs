@@ -42,9 +42,9 @@ pub fn variance_components(
             _ => vec![0; observation.count()],
         };
         let mut instruments = instruments.into_iter();
-        kept.residuals(&mut room, observation, &x, |residual, derivative| {
+        kept.linear(&mut room, observation, &x, |residual, row| {
             let instrument = instruments.next().unwrap_or(0);
-            let row = nalgebra::DVector::from_fn(p, |k, _| derivative(k) * weight.sqrt());
+            let row = nalgebra::DVector::from_column_slice(row) * weight.sqrt();
             // j (RᵀR)⁻¹ jᵀ = |R⁻ᵀ j|².
             let leverage = root.solve_lower_triangular(&row).map_or(1.0, |part| part.norm_squared());
             components[instrument].numbers += 1;

@@ -89,7 +89,7 @@ impl Compensate {
             check_poses(map)?;
         }
         let manipulator = machine.evaluator(true);
-        let mut data = self.data.completed(map, &*manipulator, &machine.spec);
+        let mut data = self.data.completed(map, &*manipulator, &machine.spec).into_owned();
         in_f0(map, &mut data);
         let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated = extrapolated(&machine.spec, &*manipulator, "rows", places, notes);

@@ -1,5 +1,7 @@
 //! Inputs that no column has because the rows have them: by their order, or by the pose of the machine in each.
 
+use std::borrow::Cow;
+
 use abbe::identify::Observation;
 use abbe::{Manipulator, Pose};
 use abbe_codegen::spec::Spec;
@@ -70,7 +72,10 @@ impl FromRows {
 
 impl Data {
     /// The same rows with the inputs that follow from them; `manipulator` is that of the spec.
-    pub(crate) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Self {
+    pub(crate) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
+        if !map.inputs.iter().any(|channel| matches!(channel, Channel::FromRows(_))) {
+            return Cow::Borrowed(self);
+        }
         let mut data = self.clone();
         let order = in_order(&self.observations);
         let sorted: Vec<&Observation> = order.iter().map(|i| &self.observations[*i]).collect();
@@ -79,7 +84,7 @@ impl Data {
             let values = follows.values(manipulator, spec, &sorted);
             order.iter().zip(values).for_each(|(i, value)| data.observations[*i].u[input] = value);
         }
-        data
+        Cow::Owned(data)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Rows of a data file: what can be used, and what cannot and why.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
+use std::hash::{BuildHasher, RandomState};
 use std::path::Path;
 
 use abbe::identify::{Configurations, Observation};
@@ -98,20 +99,24 @@ impl Data {
         let [group, direction, time] =
             [&map.group, &map.direction, &map.time].map(|column| column.as_ref().and_then(|c| place(&c)));
         let (mut groups, mut directions) = (Vec::new(), Vec::new());
-        let mut known = HashSet::new();
+        // By a hash of their digits, the place of the first row that has it.
+        let mut known: HashMap<u64, usize> = HashMap::new();
+        let digits = RandomState::new();
         for record in table.records() {
             let record = record?;
             let measured = (columns == Columns::Measured).then_some(&measured[..]);
             let row = row(&record, &commanded, measured, map).and_then(|(bits, row)| {
-                if !once || known.insert(bits) {
-                    Ok(row)
-                } else {
-                    Err("the same as a row before it, digit by digit".to_owned())
+                let hash = digits.hash_one(bits);
+                let before = known.get(&hash).map(|place| &data.observations[*place]);
+                if once && before.is_some_and(|before| is_same(before, &row)) {
+                    return Err("the same as a row before it, digit by digit".to_owned());
                 }
+                Ok((hash, row))
             });
             let row = row.and_then(|row| Ok((row, time.map(|place| record.time(place)).transpose()?)));
             match row {
-                Ok((observation, time)) => {
+                Ok(((hash, observation), time)) => {
+                    known.entry(hash).or_insert(data.observations.len());
                     let station = station.map_or(0, |place| data.station(record.text(place)));
                     data.observations.push(Observation { time, station, ..observation });
                     groups.extend(group.map(|place| record.text(place).to_owned()));
@@ -213,6 +218,11 @@ impl Summary {
 
 /// The digits of a row, by which it is known again.
 type Bits = Vec<u64>;
+
+/// Whether two rows say the same.
+fn is_same(a: &Observation, b: &Observation) -> bool {
+    a.q == b.q && a.u == b.u && a.measured == b.measured
+}
 
 /// What a record says; `measured` are the places of what was measured, none if that is not wanted.
 fn row(

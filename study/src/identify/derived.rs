@@ -1,5 +1,7 @@
 //! Numbers that follow from the order of the rows, or from a pose: inputs that no column has.
 
+use std::borrow::Cow;
+
 use abbe::identify::Observation;
 use abbe::{Component, Manipulator, VariableKind};
 use abbe_codegen::expr::Dimension;
@@ -88,14 +90,17 @@ pub(super) fn with_inputs(spec: &Spec, derived: &[Derived]) -> Spec {
 }
 
 /// The same rows with these inputs; `fitted` are those that the machine is identified by.
-pub(super) fn with_columns(
+pub(super) fn with_columns<'d>(
     manipulator: &dyn Manipulator,
     spec: &Spec,
     derived: &[Derived],
-    data: &Data,
+    data: Cow<'d, Data>,
     fitted: bool,
-) -> Data {
-    let mut data = data.clone();
+) -> Cow<'d, Data> {
+    if derived.is_empty() {
+        return data;
+    }
+    let mut data = data.into_owned();
     let count = data.observations.len();
     let order = in_order(&data.observations);
     let rows: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
@@ -111,7 +116,7 @@ pub(super) fn with_columns(
     for (n, i) in order.into_iter().enumerate() {
         data.observations[i].u.extend(columns.iter().map(|column| column[n]));
     }
-    data
+    Cow::Owned(data)
 }
 
 impl Derived {

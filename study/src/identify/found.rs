@@ -76,14 +76,15 @@ pub struct FoundMagnitude {
 }
 
 impl FoundModel {
-    /// In numbers of the chain as far as `in_numbers` has them; `left` is the root mean square position error of the rows that were used.
+    /// In numbers of the chain as far as `in_numbers` has them; `left` is the root mean square position error of the rows that were
+    /// used, and of rows left out in turn.
     pub(super) fn new(
         spec: &Spec,
         solved: &Solved,
         in_numbers: Option<&InNumbers>,
         data: &Data,
         pose: bool,
-        left: f64,
+        left: [f64; 2],
     ) -> Self {
         let Solved { model, fit, .. } = solved;
         let deviations = fit.standard_deviations();
@@ -133,8 +134,8 @@ impl FoundModel {
             },
             printable_name(&data.file),
             env!("CARGO_PKG_VERSION"),
-            digits(left, 4),
-            digits(solved.crossed.figures().rms, 4),
+            digits(left[0], 4),
+            digits(left[1], 4),
         );
         found
     }

@@ -11,8 +11,8 @@ const ROWS: usize = 400;
 pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option<String> {
     let rows = &data.observations;
     if let Some(plain) = plain {
-        let distances = distances(model, rows, &plain.x).ok()?;
-        let mut all: Vec<f64> = distances.into_iter().flat_map(|(_, distances)| distances).collect();
+        let distances = model.all_distances(rows, &plain.x).ok()?;
+        let mut all: Vec<f64> = distances.0.into_iter().map(|(_, distance)| distance).collect();
         let rms = (all.iter().map(|d| d * d).sum::<f64>() / all.len().max(1) as f64).sqrt();
         // Norms of Gaussian errors: the root mean square is 1.13 / 0.6745⁻¹ times that scale, about 0.76.
         if rms < 1.6 * robust_scale(&mut all) {

@@ -65,11 +65,8 @@ impl Identify {
         let derived = derived(&machine.spec, map, &self.terms, self.data.observations.len());
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());
-        let completed = |data: &Data, fitted: bool| {
-            let data = data.completed(map, &nominal, &spec);
-            with_columns(&nominal, &spec, &derived, &data, fitted)
-        };
-        let data = completed(&self.data, true);
+        let completed = |data, fitted| with_columns(&nominal, &spec, &derived, data, fitted);
+        let data = completed(self.data.completed(map, &nominal, &spec), true);
 
         let stages = candidates(&spec, &derived, &self.terms, &self.harmonics);
         let chosen = match stages.is_empty() {
@@ -86,9 +83,9 @@ impl Identify {
         estimate(&mut setup, map, &data, settings.prior)
             .map_err(|failure| mistake::whole(&data.file, failure))?;
         let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
-        let test = self.test.as_ref().map(|test| completed(test, false));
+        let test = self.test.as_ref().map(|test| completed(test.completed(map, &nominal, &spec), false));
         let identified = Identified { setup: &setup, solved: &solved, chosen: &chosen, derived: &derived };
-        report(self, &identified, &data, test.as_ref())
+        report(self, &identified, &data, test.as_deref())
     }
 }
 
@@ -109,7 +106,7 @@ fn report(
     data: &Data,
     test: Option<&Data>,
 ) -> Result<Report, Diagnostics> {
-    let Identify { machine, map, settings: Settings { folds, .. }, .. } = job;
+    let Identify { machine, map, settings, .. } = job;
     let Identified { setup, solved, chosen, derived } = *identified;
     let spec = &machine.spec;
     let Solved { model, fit, .. } = solved;
@@ -129,9 +126,10 @@ fn report(
     let judged =
         |test: &Data| compared(solved, &setup.delivered, test, &test.observations.iter().collect::<Vec<_>>());
     let test_sizes = test.as_ref().map(judged).transpose()?;
+    let crossed = solved.crossed.figures();
     let accepted = match &test_sizes {
         Some(test) => job.accept.judge("the test rows", &test.after),
-        None => job.accept.judge("rows left out in turn", &solved.crossed.figures().into()),
+        None => job.accept.judge("rows left out in turn", &crossed.into()),
     };
     let files: Vec<Summary> = std::iter::once(data).chain(&test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
@@ -142,9 +140,8 @@ fn report(
     let same = Some(&in_numbers).filter(|_| apart <= SAME * left);
     let found = FoundModel {
         derived: derived.to_vec(),
-        ..FoundModel::new(spec, solved, same, data, setup.pose, left)
+        ..FoundModel::new(spec, solved, same, data, setup.pose, [left, crossed.rms])
     };
-    let crossed = solved.crossed.figures();
     let order = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
     let outside = |test: &Data| {
@@ -153,6 +150,7 @@ fn report(
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
     let outside = test.as_ref().map(outside).transpose()?.flatten();
+    let points = if settings.points { points(solved, data, test.as_ref())? } else { Vec::new() };
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -192,7 +190,7 @@ fn report(
         accepted,
         outside,
         cross_validation: CrossValidation {
-            folds: (*folds).clamp(2, Configurations::new(rows).count.max(2)),
+            folds: settings.folds.clamp(2, Configurations::new(rows).count.max(2)),
             configurations: crossed.configurations,
             constant: chosen.constant.as_ref().map(|constant| constant.crossed.figures().into()),
             after: crossed.into(),
@@ -213,7 +211,7 @@ fn report(
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).collect(),
-        points: points(solved, data, test.as_ref())?,
+        points,
         files,
         placed: found.placed.clone(),
         found,
@@ -367,12 +365,13 @@ fn compared(
     };
     let simple = distances(&solved.simple, &solved.simple_fit.x)?;
     let after = distances(&solved.model, &solved.fit.x)?;
+    let left = after.figures();
     Ok(Compared {
         rows: rows.len(),
-        configurations: after.figures().configurations,
+        configurations: left.configurations,
         before: distances(delivered, &[])?.figures().into(),
         base_and_tool: simple.figures().into(),
-        after: after.figures().into(),
+        after: left.into(),
         gain: after.compared_with(&simple).into(),
     })
 }

@@ -21,6 +21,9 @@ use crate::number::digits;
 /// In how many configurations an error must be the same.
 const SAMPLES: usize = 5;
 
+/// The most rows at which machines are compared.
+const ROWS: usize = 1000;
+
 /// From which correlation on two numbers cannot be told apart.
 const CORRELATED: f64 = 0.9;
 
@@ -95,8 +98,8 @@ pub(super) fn number_terms(spec: &Spec) -> Vec<Term> {
 }
 
 impl InNumbers {
-    /// How far apart the points of rows are by this and by the fit, root mean square: of second order. The last sources of
-    /// the manipulator are the [`number_terms`].
+    /// How far apart the points of rows are by this and by the fit, root mean square: of second order. Of many rows some tell
+    /// it. The last sources of the manipulator are the [`number_terms`].
     pub(super) fn difference(
         &self,
         spec: &Spec,
@@ -119,7 +122,7 @@ impl InNumbers {
         let written = setup.real.with(unknowns);
         let (mut room, mut room_of_fit) = (written.room(), model.room());
         let (mut squares, mut points) = (0.0, 0);
-        for row in rows {
+        for row in rows.iter().step_by(rows.len().div_ceil(ROWS)) {
             let here = written.deviations(&mut room, row, &x)?;
             for (a, b) in here.iter().zip(model.deviations(&mut room_of_fit, row, &fit.x)?) {
                 squares += (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>();

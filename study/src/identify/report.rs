@@ -87,7 +87,7 @@ pub struct Report {
     /// The files: the data, and the test data if there are any.
     #[serde(skip)]
     pub files: Vec<Summary>,
-    /// What is left of every point: of the data, then of the test data.
+    /// What is left of every point, if the settings ask for it: of the data, then of the test data.
     #[serde(skip)]
     pub points: Vec<PointResidual>,
     /// The identified machine.

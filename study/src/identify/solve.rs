@@ -28,6 +28,8 @@ pub struct Settings {
     /// How long richer terms are tried; then no further ones are, and what comes out depends on the computer. As long as it
     /// takes if there is none.
     pub time: Option<Duration>,
+    /// Whether what is left of every point is kept, for pictures.
+    pub points: bool,
 }
 
 /// What the data say.

@@ -152,7 +152,7 @@ impl Measure {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, map, data, accept } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
-        let data = data.completed(map, &interpreter, &machine.spec);
+        let data = data.completed(map, &interpreter, &machine.spec).into_owned();
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
         let fitted = check_readings(&setup, map, &data)?;
         let base_fitted = setup.find_places(map, &data)?;

@@ -79,8 +79,10 @@ impl Checks {
 
     /// The same checks with the inputs that follow from their rows; `manipulator` is that of the spec.
     pub(super) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Self {
-        let one =
-            |check: &Check| Check { data: check.data.completed(map, manipulator, spec), ..check.clone() };
+        let one = |check: &Check| Check {
+            data: check.data.completed(map, manipulator, spec).into_owned(),
+            ..check.clone()
+        };
         Self { calendar: self.calendar, list: self.list.iter().map(one).collect() }
     }
 

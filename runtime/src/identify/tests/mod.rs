@@ -58,11 +58,11 @@ fn disturbed(model: &Model) -> Vec<f64> {
 
 fn residuals(model: &Model, seen: &Observation, x: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let (mut values, mut rows) = (Vec::new(), Vec::new());
-    let take = |residual: f64, derivative: &mut dyn FnMut(usize) -> f64| {
+    let take = |residual: f64, row: &[f64]| {
         values.push(residual);
-        rows.push((0..x.len()).map(derivative).collect());
+        rows.push(row.to_vec());
     };
-    model.residuals(&mut model.room(), seen, x, take).unwrap();
+    model.linear(&mut model.room(), seen, x, take).unwrap();
     (values, rows)
 }
 

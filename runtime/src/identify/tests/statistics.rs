@@ -95,6 +95,26 @@ fn gross_errors_are_rejected_and_named() {
     }
 }
 
+/// Of so many rows a part comes near first.
+#[test]
+fn gross_errors_among_many_rows_are_named() {
+    let model = Model::ideal(&Pps, vec![[0.0; 3]], Uncertainty { length: 0.04, angle: 1.0 });
+    let model = model.with(model.constants(false));
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(5);
+    let list = sampled(&Pps, &[0, 1, 2, 3, 4, 5], 9000, 1);
+    let truth: Vec<f64> = disturbed(&model).iter().map(|x| x * 0.05).collect();
+    let mut data = measured(&model, &truth, &list, 0.04, &mut random);
+    let wrong: Vec<u64> = data.iter().map(|row| row.line).filter(|line| line % 30 == 7).collect();
+    for row in data.iter_mut().filter(|row| wrong.contains(&row.line)) {
+        let Measurement::Points(points) = &mut row.measured else { unreachable!() };
+        points[0].as_mut().unwrap()[2] -= 3.0;
+    }
+    let options = Options { loss: Loss::Tukey, priors: model.priors(0.01).unwrap(), ..Options::default() };
+    let found = fit(&model, &data, &options).unwrap();
+    assert!(found.rejected(&data).map(|row| row.line).eq(wrong));
+    assert!((0.97..1.03).contains(&found.sigma), "{}", found.sigma);
+}
+
 /// More rows than one block of them, some of them wrong: on one thread, two and five.
 #[cfg(feature = "parallel")]
 #[test]
