@@ -52,7 +52,8 @@ fn measured(samples: usize, near: bool, seed: u64) -> Data {
 }
 
 fn found(seed: u64) -> Machine {
-    let settings = Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
+    let settings =
+        Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
     let job = Identify {
         machine: ur5(),
         map: map(),
