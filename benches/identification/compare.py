@@ -2,25 +2,26 @@
 
 compare.py ABBE VENVS GRID.csv RANDOM.csv
 """
-import json
+import csv
+import itertools
 import math
 import pathlib
 import re
+import resource
 import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROBOT = HERE.parent.parent / "manipulators"
 ABBE, VENVS, GRID, RANDOM = sys.argv[1:]
 # What a program says of its own result: the lines with one of these words.
-TELLING = re.compile(r"Convergence:|Excluded:|Condition:|condition is satisfied|error:|help|warning|note:|Traceback|Error", re.I)
-
-
+TELLING = re.compile(
+    r"Convergence:|Excluded:|condition is satisfied|evaluations is exceeded|error:|help|warning|note:|Traceback|Error", re.I
+)
 # The longest that a program is waited for, s.
-PATIENCE = 600
+PATIENCE = 300
 
 
 def lines(path, until=None):
@@ -30,75 +31,102 @@ def lines(path, until=None):
     return sum(1 for line in text.splitlines() if line.strip() and not line.strip().startswith("#"))
 
 
+def points(path):
+    """The points that were measured: target less difference."""
+    with open(path, newline="") as file:
+        return [[float(row[f"{axis}_t"]) - float(row[f"{axis}_dif"]) for axis in "xyz"] for row in csv.DictReader(file)]
+
+
+MEASURED = points(RANDOM)
+
+
 def run(*command):
-    start = time.monotonic()
+    """What a program printed, and its processor time: that does not grow with what else the computer does."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=PATIENCE)
     except subprocess.TimeoutExpired:
         done = subprocess.CompletedProcess(command, 1, "", f"error: not done after {PATIENCE} s")
-    return done, time.monotonic() - start
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def told(text):
     found = [" ".join(line.split()) for line in text.splitlines() if TELLING.search(line)]
-    return [line[:150] for line in found[:4]]
+    return [line[:180] for line in found[:4]]
 
 
 def peer(name, misread):
-    def fit():
-        done, seconds = run(pathlib.Path(VENVS, name, "bin/python"), HERE / name / "fit.py", GRID, RANDOM, misread)
-        unseen = re.search(r"^UNSEEN (.*)$", done.stdout, re.M)
-        distances = [float(number) for number in unseen[1].split()] if unseen else []
-        return distances, seconds, told(done.stdout + done.stderr)
-
-    return fit
+    done, seconds = run(pathlib.Path(VENVS, name.lower(), "bin/python"), HERE / name.lower() / "fit.py", GRID, RANDOM, misread)
+    found = re.search(r"^POINTS (.*)$", done.stdout, re.M)
+    numbers = [float(number) for number in found[1].split()] if found else []
+    return [numbers[i : i + 3] for i in range(0, len(numbers), 3)], seconds, told(done.stdout + done.stderr)
 
 
 def abbe(misread):
-    def fit():
-        text = (ROBOT / "maps/ur5.toml").read_text()
-        if misread == "mm":
-            text = text.replace('unit = "mm"', 'unit = "m"')
-        if misread == "rad":
-            text = text.replace('unit = "deg"', 'unit = "rad"')
-        with tempfile.TemporaryDirectory() as folder:
-            chart = pathlib.Path(folder, "ur5.toml")
-            chart.write_text(text)
-            done, seconds = run(ABBE, "identify", "ur5", GRID, "--map", chart, "--test", RANDOM, "--json")
-        unseen = json.loads(done.stdout)["test"]["after"] if done.stdout.startswith("{") else None
-        return unseen, seconds, told(done.stderr)
-
-    return fit
-
-
-def shown(unseen):
-    """Mean and its standard error, and the largest."""
-    if not unseen:
-        return "none", ""
-    if isinstance(unseen, dict):
-        n = unseen["count"] if "count" in unseen else sum(1 for _ in open(RANDOM)) - 1
-        mean, largest = unseen["mean"], unseen["max"]
-        error = math.sqrt(max(unseen["rms"] ** 2 - mean**2, 0.0) / (n - 1))
-    else:
-        mean, largest = statistics.mean(unseen), max(unseen)
-        error = statistics.stdev(unseen) / math.sqrt(len(unseen))
-    return f"{mean:.4f} ± {error:.4f}", f"{largest:.3f}"
+    text = (ROBOT / "maps/ur5.toml").read_text()
+    if misread == "mm":
+        text = text.replace('unit = "mm"', 'unit = "m"')
+    if misread == "rad":
+        text = text.replace('unit = "deg"', 'unit = "rad"')
+    with tempfile.TemporaryDirectory() as folder:
+        chart, found, seen = (pathlib.Path(folder, name) for name in ("ur5.toml", "found.toml", "seen.csv"))
+        chart.write_text(text)
+        done, seconds = run(ABBE, "identify", "ur5", GRID, "--map", chart, "--out", found)
+        if done.returncode != 0:
+            return [], seconds, told(done.stderr)
+        # Where the machine that was found would be seen.
+        run(ABBE, "simulate", found, "--map", found.with_suffix(".map.toml"), "--at", RANDOM, "--noise", "1e-9mm", "--out", seen)
+        return points(seen), seconds, told(done.stderr)
 
 
-PROGRAMS = [
-    ("abbe", abbe, lines(ROBOT / "specs/ur5.toml", "[[source]]") + lines(ROBOT / "maps/ur5.toml")),
-    ("FIGAROH", lambda misread: peer("figaroh", misread), lines(HERE / "figaroh/fit.py") + lines(HERE / "figaroh/fit.yaml")),
-    ("pybotics", lambda misread: peer("pybotics", misread), lines(HERE / "pybotics/fit.py")),
-    ("SciPy", lambda misread: peer("scipy", misread), lines(HERE / "scipy/fit.py")),
-]
-MISREAD = [("mm", "Millimetres of the measured points read as metres"), ("rad", "Degrees of the joints read as radians")]
+def mean(values):
+    """The mean and its standard error."""
+    return f"{statistics.mean(values):.4f} ± {statistics.stdev(values) / math.sqrt(len(values)):.4f}"
 
-print("| | unseen mean, mm | largest, mm | s | lines of the user |\n|---|---|---|---|---|")
-for name, program, written in PROGRAMS:
-    unseen, seconds, _ = program("")()
-    print("| " + " | ".join([name, *shown(unseen), f"{seconds:.2f}", str(written)]) + " |", flush=True)
-for misread, title in MISREAD:
+
+def errors(predicted):
+    return [math.dist(a, b) for a, b in zip(predicted, MEASURED)]
+
+
+def row(*cells):
+    print("| " + " | ".join(cells) + " |", flush=True)
+
+
+WRITTEN = {
+    "abbe": lines(ROBOT / "specs/ur5.toml", "[[source]]") + lines(ROBOT / "maps/ur5.toml"),
+    "FIGAROH": lines(HERE / "figaroh/fit.py") + lines(HERE / "figaroh/fit.yaml"),
+    "pybotics": lines(HERE / "pybotics/fit.py"),
+    "SciPy": lines(HERE / "scipy/fit.py"),
+}
+
+
+def program(name, misread):
+    return abbe(misread) if name == "abbe" else peer(name, misread)
+
+
+print("| | unseen mean, mm | less that of abbe, row by row | largest, mm | processor time, s | lines of the user |\n|---|---|---|---|---|---|")
+predicted = {}
+for name, written in WRITTEN.items():
+    predicted[name], seconds, _ = program(name, "")
+    if not predicted[name]:
+        row(name, "none", "", "", f"{seconds:.2f}", str(written))
+        continue
+    unseen = errors(predicted[name])
+    less = [a - b for a, b in zip(unseen, errors(predicted["abbe"]))]
+    row(name, mean(unseen), mean(less) if any(less) else "", f"{max(unseen):.3f}", f"{seconds:.2f}", str(written))
+
+print("\nHow far apart two programs say that the tool is, on the same unseen rows:\n")
+print("| | mean, mm | largest, mm |\n|---|---|---|")
+for a, b in itertools.combinations([name for name in predicted if predicted[name]], 2):
+    apart = [math.dist(p, q) for p, q in zip(predicted[a], predicted[b])]
+    row(f"{a}, {b}", f"{statistics.mean(apart):.4f}", f"{max(apart):.4f}")
+
+for misread, title in [
+    ("mm", "Millimetres of the measured points read as metres"),
+    ("rad", "Degrees of the joints read as radians"),
+]:
     print(f"\n{title}:\n\n| | unseen mean, mm | what it says |\n|---|---|---|")
-    for name, program, _ in PROGRAMS:
-        unseen, _, said = program(misread)()
-        print(f"| {name} | {shown(unseen)[0]} | {'; '.join(said).replace('|', '/') or 'nothing'} |", flush=True)
+    for name in WRITTEN:
+        found, _, said = program(name, misread)
+        row(name, mean(errors(found)) if found else "none", "; ".join(said).replace("|", "/") or "nothing")

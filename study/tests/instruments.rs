@@ -292,3 +292,56 @@ fn what_is_found_is_measured_again() {
         assert!(anew.base_fitted && anew.explained.left_rms < 1.1 * measured.explained.left_rms, "{name}");
     }
 }
+
+/// Two balls on the table of a milling machine, one left of the middle of x and one right of it.
+const BARS: &str = r#"
+[data]
+setup = "setup"
+[joints]
+x = { column = "x", unit = "mm" }
+y = { column = "y", unit = "mm" }
+z = { column = "z", unit = "mm" }
+[[instrument]]
+name = "left"
+kind = "distance"
+setup = 1
+column = "length"
+unit = "mm"
+at = ["-100 mm", "3 mm", "250 mm"]
+range = ["149 mm", "151 mm"]
+uncertainty = "1 um"
+[[instrument]]
+name = "right"
+kind = "distance"
+setup = 2
+column = "length"
+unit = "mm"
+at = ["100 mm", "0 mm", "250 mm"]
+range = ["149 mm", "151 mm"]
+uncertainty = "1 um"
+"#;
+
+fn mill() -> Machine {
+    Machine::find("machine3").unwrap()
+}
+
+/// The candidates of a plan are a sequence by Halton, the first joint of which is left and right in turn; so must setups not be.
+#[test]
+fn every_setup_is_measured_all_around() {
+    let (machine, map) = (mill(), Map::parse("bars.toml", BARS, &mill().spec).unwrap());
+    let study = Study::find(None, &machine).unwrap();
+    let criterion = abbe::identify::Criterion::Variance;
+    let choice = Choice::Optimal { criterion, count: 40, candidates: 200 };
+    let report = Plan { machine, map, choice, study, model_error: 0.0 }.run(&mut ()).unwrap();
+    for (setup, center) in [(1, 200.0), (2, 400.0)] {
+        let in_setup = |row: &&abbe::identify::Observation| {
+            let abbe::identify::Measurement::Readings(read) = &row.measured else { return false };
+            read[setup - 1].is_some()
+        };
+        let x: Vec<f64> = report.observations.iter().filter(in_setup).map(|row| row.q[0] - center).collect();
+        let share = x.iter().filter(|x| **x > 0.0).count() as f64 / x.len() as f64;
+        assert!((0.2..0.8).contains(&share), "setup {setup}: {share}");
+    }
+    // Three squarenesses are all that constant errors of such a machine are.
+    assert_eq!((report.rank, report.machine.rank), (9, 3));
+}

@@ -2,7 +2,7 @@
 import sys
 
 import numpy as np
-from pybotics.optimization import OptimizationHandler, compute_absolute_errors, optimize_accuracy
+from pybotics.optimization import OptimizationHandler, optimize_accuracy
 from pybotics.robot import Robot
 from scipy.optimize import least_squares
 
@@ -27,4 +27,5 @@ handler = OptimizationHandler(
 q, points = read(sys.argv[1])
 result = least_squares(optimize_accuracy, handler.generate_optimization_vector(), args=(handler, q, points), verbose=1)
 handler.apply_optimization_vector(result.x)
-print("UNSEEN", *compute_absolute_errors(*read(sys.argv[2]), handler.robot) / POINT)
+points = [handler.robot.fk(joints)[:3, 3] / POINT for joints in read(sys.argv[2])[0]]
+print("POINTS", *np.ravel(points))

@@ -161,7 +161,8 @@ fn not_known(spec: &Spec, report: &Report) -> String {
 
 fn errors(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
-    let mut table = Table::new(&["position error", "rows", "mean", "±", "rms", "95 %", "max"]);
+    let what = if report.instruments.is_empty() { "position error" } else { "error of a reading" };
+    let mut table = Table::new(&[what, "rows", "mean", "±", "rms", "95 %", "max"]);
     let mut row = |name: &str, rows: usize, sizes: &Sizes| {
         let sure = sizes.standard_error.map_or("?".to_owned(), |error| fixed(error, decimals));
         let [mean, rms, p95, max] =

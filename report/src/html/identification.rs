@@ -74,8 +74,10 @@ fn summary(spec: &Spec, report: &Report) -> String {
 fn sizes(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
     let row = |name: &str, rows: usize, sizes: &Sizes| {
-        let cells =
-            [sizes.mean, sizes.rms, sizes.p95, sizes.max].map(|v| format!("<td>{}</td>", fixed(v, decimals)));
+        let sizes =
+            [Some(sizes.mean), sizes.standard_error, Some(sizes.rms), Some(sizes.p95), Some(sizes.max)];
+        let cells = sizes.map(|size| size.map_or("?".to_owned(), |size| fixed(size, decimals)));
+        let cells = cells.map(|cell| format!("<td>{cell}</td>"));
         format!("<tr><td class=\"words\">{name}</td><td>{rows}</td>{}</tr>\n", cells.concat())
     };
     let mut rows = String::new();
@@ -89,9 +91,10 @@ fn sizes(spec: &Spec, report: &Report) -> String {
             rows += &row(&name, compared.rows, &report.cross_validation.after);
         }
     }
+    let what = if report.instruments.is_empty() { "position error" } else { "error of a reading" };
     format!(
-        "<table class=\"ledger\"><thead><tr><th class=\"words\">position error, {}</th><th>rows</th><th>mean</th><th>rms</th><th>95 %</th>\
-         <th>max</th></tr></thead>\n<tbody>{rows}</tbody></table>\n<p>What is left is {} times what the instrument's uncertainty explains.</p>\n",
+        "<table class=\"ledger\"><thead><tr><th class=\"words\">{what}, {}</th><th>rows</th><th>mean</th><th>±</th><th>rms</th><th>95 %</th>\
+         <th>max</th></tr></thead>\n<tbody>{rows}</tbody></table>\n<p>±: one standard error of the mean. What is left is {} times what the instrument's uncertainty explains.</p>\n",
         spec.length.symbol(),
         digits(report.uncertainty_factor, 3)
     )

@@ -28,8 +28,10 @@ pub(crate) fn aimed(
         if aimed.len() == most {
             break;
         }
-        // The next setup when the last one has its row.
-        let aim = &aims[aimed.len() % aims.len()];
+        // The next setup when the last one has its row; not in turn, for the bases of Halton's sequence are turns as well, and a
+        // setup would see one half of a joint's travel.
+        let turn = (aimed.len() as f64 * std::f64::consts::SQRT_2).fract();
+        let aim = &aims[((turn * aims.len() as f64) as usize).min(aims.len() - 1)];
         // The golden ratio spreads readings evenly over their ranges.
         let share = (0.5 + (i / aims.len()) as f64 * 0.618_033_988_749_895).fract();
         let wanted: Vec<Option<f64>> = aim.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();

@@ -19,8 +19,14 @@ pub struct Counts {
 impl Counts {
     pub(crate) fn new(model: &Model, identifiable: &Identifiable) -> Self {
         let machine = |unknown: &Unknown| matches!(unknown, Unknown::Base(..) | Unknown::Error(..));
+        let stands = |unknown: &Unknown| matches!(unknown, Unknown::Fixture(..) | Unknown::Zero(_));
+        let kept = || identifiable.kept.iter().map(|k| &model.unknowns[*k]);
         Self {
-            rank: identifiable.errors,
+            // What instruments that stand anywhere take on is no error of the machine.
+            rank: match model.unknowns.iter().any(stands) {
+                true => kept().filter(|unknown| machine(unknown)).count(),
+                false => identifiable.errors,
+            },
             unknowns: model.unknowns.iter().filter(|unknown| machine(unknown)).count(),
             base: model.unknowns.iter().any(|unknown| matches!(unknown, Unknown::Base(..))),
         }

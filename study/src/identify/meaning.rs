@@ -177,8 +177,11 @@ impl<'a> Basis<'a> {
         let count = kept.len();
         let forms = (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
         let mut basis = Self { model, fit, forms, free: vec![true; count] };
+        // A direction of an instrument that is held as it is expected takes no place.
+        let held = |k: usize| fit.identifiable.inexact.contains(&k);
+        let is_free = |k: usize, unknown: &Unknown| matches!(unknown, Unknown::Fixture(..)) && held(k);
         for (k, unknown) in model.unknowns.iter().enumerate() {
-            if !matches!(unknown, Unknown::Error(..)) {
+            if !matches!(unknown, Unknown::Error(..)) && !is_free(k, unknown) {
                 let coordinates = basis.kept_coordinates(k);
                 let taken = coordinates.iter().map(|factor| factor.abs() > 1e-9);
                 basis.free.iter_mut().zip(taken).for_each(|(free, taken)| *free &= !taken);

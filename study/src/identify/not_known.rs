@@ -20,7 +20,10 @@ pub struct NotKnown {
 
 impl NotKnown {
     pub(crate) fn all(model: &Model, identifiable: &Identifiable, length: LengthUnit) -> Vec<Self> {
-        let weak = identifiable.weak.iter().filter(|weak| weak.expected.is_finite());
+        // Of an instrument's direction no more need be known than is expected of it.
+        let matters = |k: usize| !matches!(model.unknowns[k], Unknown::Fixture(..) | Unknown::Zero(_));
+        let weak = identifiable.weak.iter();
+        let weak = weak.filter(|weak| weak.expected.is_finite() && matters(weak.unknown));
         let not_known = weak.map(|weak| {
             let unknown = model.unknowns[weak.unknown];
             let rotation = match unknown {
