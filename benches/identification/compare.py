@@ -76,7 +76,7 @@ def abbe(misread):
         if done.returncode != 0:
             return [], seconds, told(done.stderr)
         # Where the machine that was found would be seen.
-        run(ABBE, "simulate", found, "--map", found.with_suffix(".map.toml"), "--at", RANDOM, "--noise", "1e-9mm", "--out", seen)
+        run(ABBE, "simulate", found, RANDOM, "--map", found.with_suffix(".map.toml"), "--noise", "1e-9mm", "--out", seen)
         return points(seen), seconds, told(done.stderr)
 
 
