@@ -332,7 +332,7 @@ fn every_setup_is_measured_all_around() {
     let study = Study::find(None, &machine).unwrap();
     let criterion = abbe::identify::Criterion::Variance;
     let choice = Choice::Optimal { criterion, count: 40, candidates: 200 };
-    let report = Plan { machine, map, choice, study, model_error: 0.0 }.run(&mut ()).unwrap();
+    let report = Plan { machine, map, choice, study, model_error: 0.0, seed: None }.run(&mut ()).unwrap();
     for (setup, center) in [(1, 200.0), (2, 400.0)] {
         let in_setup = |row: &&abbe::identify::Observation| {
             let abbe::identify::Measurement::Readings(read) = &row.measured else { return false };

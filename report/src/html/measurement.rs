@@ -10,6 +10,7 @@ use plotly::{Layout, Plot, Scatter3D};
 
 use super::figure::{Figures, round};
 use super::provenance::{Provenance, instrument};
+use super::reach::Reach;
 use super::residuals::{Residual, histogram, over_all};
 use super::{document, escaped, section, style};
 use crate::axis::{BAR, INK, XYZ, css};
@@ -47,12 +48,13 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provena
         return document(&format!("{}: measured", spec.title), &body.concat());
     }
     let mut drawn = Figures::new();
-    drawn.add(
-        &format!("Accuracy: errors in space{}", of_paper(13)),
-        &[cloud(&position, &report.row_errors)],
-        560,
-        "Each dot is ΔX of one row.",
-    );
+    let (dots, beyond) = cloud(&position, &report.row_errors);
+    let words = match beyond {
+        0 => "Each dot is ΔX of one row.".to_owned(),
+        1 => "Each dot is ΔX of one row; 1 is beyond the picture.".to_owned(),
+        beyond => format!("Each dot is ΔX of one row; {beyond} are beyond the picture."),
+    };
+    drawn.add(&format!("Accuracy: errors in space{}", of_paper(13)), &[dots], 560, &words);
     let title = format!("Accuracy: how often which error occurs{}", of_paper(14));
     drawn.add(&title, &histograms(&position), 260, "ΔX of all rows.");
     if !about.is_empty() {
@@ -155,12 +157,19 @@ fn paper_figure(number: u32) -> String {
     format!(" <span class=\"paper\">cf. Figure {number} of the paper</span>")
 }
 
-fn cloud(errors: &[[f64; 3]], rows: &[RowError]) -> Plot {
+fn norm(error: [f64; 3]) -> f64 {
+    error.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Without gross errors, and how many those are.
+fn cloud(errors: &[[f64; 3]], rows: &[RowError]) -> (Plot, usize) {
+    let reach = Reach::new(errors.iter().map(|error| norm(*error)).collect());
     let scene = style::scene(["x error (mm)", "y error (mm)", "z error (mm)"], AspectMode::Data, 2, 0.8);
     let mut plot = style::plot(Layout::new().margin(style::margin([0, 0, 0, 0])).scene(scene));
     let step = errors.len().div_ceil(MOST).max(1);
     let lines = rows.iter().map(|row| row.observation.line);
-    let shown: Vec<(&[f64; 3], u64)> = errors.iter().zip(lines).step_by(step).collect();
+    let shown = errors.iter().zip(lines).filter(|(error, _)| reach.contains(norm(**error)));
+    let shown: Vec<(&[f64; 3], u64)> = shown.step_by(step).collect();
     let along = |axis: usize| shown.iter().map(|(error, _)| round(error[axis])).collect::<Vec<_>>();
     let hover = shown.iter().map(|([x, y, z], line)| {
         format!("({}, {}, {}) mm<br>line {line}", trimmed(*x, 4), trimmed(*y, 4), trimmed(*z, 4))
@@ -171,12 +180,12 @@ fn cloud(errors: &[[f64; 3]], rows: &[RowError]) -> Plot {
         .hover_text_array(hover.collect::<Vec<_>>())
         .marker(Marker::new().size(3).opacity(0.8).color(css(BAR, 1.0)));
     plot.add_trace(dots);
-    plot
+    (plot, reach.beyond)
 }
 
 fn histograms(errors: &[[f64; 3]]) -> Vec<Plot> {
     let along = |axis: usize| errors.iter().map(|error| error[axis]).collect::<Vec<_>>();
-    let norms = errors.iter().map(|e| e.iter().map(|v| v * v).sum::<f64>().sqrt()).collect();
+    let norms = errors.iter().map(|error| norm(*error)).collect();
     let all = [
         ("x error (mm)", along(0), XYZ[0]),
         ("y error (mm)", along(1), XYZ[1]),

@@ -14,6 +14,7 @@ mod monitoring;
 mod page;
 mod plots;
 mod provenance;
+mod reach;
 mod residuals;
 
 pub use compensation::compensation;

@@ -7,6 +7,7 @@ use plotly::layout::{AspectMode, BarMode};
 use plotly::{Bar, Layout, Plot, Scatter, Scatter3D};
 
 use super::figure::{Figures, round, step, thinned};
+use super::reach::Reach;
 use super::style;
 use crate::axis::{Axis, BAR, GREY, INK, XYZ, css};
 
@@ -202,11 +203,23 @@ fn dots(plot: &mut Plot, shown: &[(f64, &Residual)], to_mm: f64) {
     );
 }
 
+/// The axis of errors of a picture of these points, but for gross ones.
+fn error_axis(residuals: &[Residual], to_mm: f64) -> plotly::layout::Axis {
+    let after = residuals.iter().map(|residual| norm(residual.after) * to_mm);
+    let before = residuals.iter().filter_map(|residual| Some(norm(residual.before?) * to_mm));
+    let reach = Reach::new(after.chain(before).collect());
+    let axis = style::axis(&reach.title("error (mm)"));
+    match reach.beyond {
+        0 => axis.range_mode(plotly::layout::RangeMode::ToZero),
+        _ => axis.range(vec![0.0, round(1.05 * reach.ends[1])]),
+    }
+}
+
 fn over_rows(residuals: &[Residual], every: usize, to_mm: f64) -> Plot {
     let layout = Layout::new()
         .margin(style::margin([56, 10, 10, 44]))
         .x_axis(style::axis("points in the order of the rows").exponent_format(ExponentFormat::None))
-        .y_axis(style::axis("error (mm)").range_mode(plotly::layout::RangeMode::ToZero));
+        .y_axis(error_axis(residuals, to_mm));
     let mut plot = style::plot(layout);
     let numbered = residuals.iter().enumerate().map(|(i, residual)| (i as f64 + 1.0, residual));
     dots(&mut plot, &numbered.step_by(every).collect::<Vec<_>>(), to_mm);
@@ -228,7 +241,7 @@ fn over_joint(residuals: &[Residual], joint: usize, spec: &Spec, to_mm: f64) -> 
     let layout = Layout::new()
         .margin(style::margin([48, 10, 10, 44]))
         .x_axis(style::axis(&axis.title()))
-        .y_axis(style::axis("error (mm)").range_mode(plotly::layout::RangeMode::ToZero));
+        .y_axis(error_axis(residuals, to_mm));
     let mut plot = style::plot(layout);
     let shown = residuals.iter().step_by(every).map(|residual| (place(residual), residual));
     dots(&mut plot, &shown.collect::<Vec<_>>(), to_mm);
@@ -251,10 +264,14 @@ fn histograms(residuals: &[Residual], to_mm: f64) -> Vec<Plot> {
     axes.chain([histogram("norm of the error (mm)", &both)]).collect()
 }
 
-/// Of several lists over the same bins.
+/// Of several lists over the same bins, without gross values.
 pub(super) fn histogram(name: &str, lists: &[(Vec<f64>, String)]) -> Plot {
-    let all = || lists.iter().flat_map(|(values, _)| values.iter().copied());
-    let (least, most) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    // Each has gross values of its own.
+    let each: Vec<Reach> = lists.iter().map(|(values, _)| Reach::new(values.clone())).collect();
+    let beyond = each.iter().map(|reach| reach.beyond).sum();
+    let ends = each.iter().map(|reach| reach.ends);
+    let ends = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default();
+    let (reach, [least, most]) = (Reach { ends, beyond }, ends);
     let largest = lists.iter().map(|(values, _)| values.len()).max().unwrap_or_default();
     // As many as the square root of the values, so that twenty rows are no comb.
     let bins = ((largest as f64).sqrt() * 1.5).ceil().clamp(5.0, BINS as f64) as usize;
@@ -262,12 +279,12 @@ pub(super) fn histogram(name: &str, lists: &[(Vec<f64>, String)]) -> Plot {
     let layout = Layout::new()
         .margin(style::margin([56, 10, 10, 44]))
         .bar_mode(BarMode::Overlay)
-        .x_axis(style::axis(name))
+        .x_axis(style::axis(&reach.title(name)))
         .y_axis(style::axis("how many").exponent_format(ExponentFormat::None));
     let mut plot = style::plot(layout);
     for (values, colour) in lists {
         let mut counts = vec![0_usize; bins];
-        for value in values {
+        for value in values.iter().filter(|value| reach.contains(**value)) {
             counts[(((value - least) / width) as usize).min(bins - 1)] += 1;
         }
         let middles: Vec<f64> = (0..bins).map(|i| round(least + (i as f64 + 0.5) * width)).collect();
