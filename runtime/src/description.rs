@@ -92,12 +92,22 @@ pub struct Frame {
     pub name: Text,
     /// Index of the variable that it declares; none if it is fixed.
     pub variable: Option<usize>,
+    /// Whether it is known to be a lower pair, or fixed: `A_i` depends on no variable but its own, and that turns it about
+    /// or moves it along an axis which is fixed in `F_{i-1}`, one to one. Of the last frame: and `T` is fixed.
+    ///
+    /// What cannot be reached is then known without a search.
+    pub lower_pair: bool,
 }
 
 impl Frame {
-    /// All its fields, in their order.
+    /// A frame that may move in any way.
     pub const fn new(name: &'static str, variable: Option<usize>) -> Self {
-        Self { name: Text::Constant(name), variable }
+        Self { name: Text::Constant(name), variable, lower_pair: false }
+    }
+
+    /// A frame that is known to be a lower pair, or fixed.
+    pub const fn lower_pair(name: &'static str, variable: Option<usize>) -> Self {
+        Self { name: Text::Constant(name), variable, lower_pair: true }
     }
 }
 

@@ -85,12 +85,12 @@ pub mod pps {
         length: LengthUnit::Millimetre,
         orientation: Orientation::EulerYzx,
         frames: List::Constant(&[
-            Frame::new("lateral", Some(0)),
-            Frame::new("vertical", Some(1)),
-            Frame::new("longitudinal", Some(2)),
-            Frame::new("spin", Some(3)),
-            Frame::new("roll", Some(4)),
-            Frame::new("pitch", Some(5)),
+            Frame::lower_pair("lateral", Some(0)),
+            Frame::lower_pair("vertical", Some(1)),
+            Frame::lower_pair("longitudinal", Some(2)),
+            Frame::lower_pair("spin", Some(3)),
+            Frame::lower_pair("roll", Some(4)),
+            Frame::lower_pair("pitch", Some(5)),
         ]),
         variables: List::Constant(&[
             Variable::new("d1", VariableKind::Prismatic, [0.0, 2256.0], 1128.0),

@@ -80,12 +80,12 @@ pub mod puma560 {
         length: LengthUnit::Metre,
         orientation: Orientation::RotationVector,
         frames: List::Constant(&[
-            Frame::new("waist", Some(0)),
-            Frame::new("shoulder", Some(1)),
-            Frame::new("elbow", Some(2)),
-            Frame::new("wrist roll", Some(3)),
-            Frame::new("wrist bend", Some(4)),
-            Frame::new("flange", Some(5)),
+            Frame::lower_pair("waist", Some(0)),
+            Frame::lower_pair("shoulder", Some(1)),
+            Frame::lower_pair("elbow", Some(2)),
+            Frame::lower_pair("wrist roll", Some(3)),
+            Frame::lower_pair("wrist bend", Some(4)),
+            Frame::lower_pair("flange", Some(5)),
         ]),
         variables: List::Constant(&[
             Variable::new(

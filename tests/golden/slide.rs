@@ -55,7 +55,7 @@ pub mod slide {
         title: Text::Constant("slide"),
         length: LengthUnit::Millimetre,
         orientation: Orientation::RotationVector,
-        frames: List::Constant(&[Frame::new("carriage", Some(0))]),
+        frames: List::Constant(&[Frame::lower_pair("carriage", Some(0))]),
         variables: List::Constant(&[Variable::new(
             "d1",
             VariableKind::Prismatic,

@@ -34,7 +34,7 @@ impl Spec {
 
     /// What a manipulator of this spec says about itself, with these effects of its enabled sources.
     pub fn describe(&self, effects: impl IntoIterator<Item = Effect>) -> Description {
-        let frames = self.frames.iter();
+        let frames = self.frames.iter().zip(self.lower_pairs());
         let variables = self.variables.iter();
         let parameters = self.parameters.iter();
         let inputs = self.inputs.iter();
@@ -44,7 +44,11 @@ impl Spec {
             length: self.length,
             orientation: self.orientation,
             frames: frames
-                .map(|frame| Frame { name: frame.name.as_str().into(), variable: frame.variable })
+                .map(|(frame, lower_pair)| Frame {
+                    name: frame.name.as_str().into(),
+                    variable: frame.variable,
+                    lower_pair,
+                })
                 .collect(),
             variables: variables
                 .map(|variable| Variable {

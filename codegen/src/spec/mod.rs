@@ -2,7 +2,7 @@
 //!
 //! [`Spec`] is what a file says once nothing is wrong with it. `declarations` reads the names, `frames` the
 //! transforms, `sources`, `effects`, `elastic`, `deviations` and `loads` the physical errors; `positive` checks the signs of masses and
-//! stiffnesses, `rigid` that every matrix is a rigid motion.
+//! stiffnesses, `rigid` that every matrix is a rigid motion, `lower_pairs` finds out which frames are plain joints.
 
 mod covariance;
 mod declarations;
@@ -14,6 +14,7 @@ mod fitted;
 mod frames;
 mod keys;
 mod loads;
+mod lower_pairs;
 mod names;
 mod points;
 mod positive;

@@ -58,6 +58,7 @@ pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiabl
 pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
 pub use random::{MonteCarlo, Quantile, monte_carlo};
+use reach::Inverse;
 pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
 #[cfg(feature = "identify")]
 pub(crate) use sweep::in_order;

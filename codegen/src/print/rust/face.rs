@@ -81,9 +81,10 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     let mut list = |name: &str, entries: Vec<(&str, Vec<String>)>| {
         writer.array_of_calls(&format!("{name}: List::Constant(&"), &entries, "),");
     };
-    let frames = spec.frames.iter();
-    let frames =
-        frames.map(|frame| ("Frame::new", vec![quoted(&frame.name), format!("{:?}", frame.variable)]));
+    let frames = spec.frames.iter().zip(spec.lower_pairs()).map(|(frame, lower_pair)| {
+        let constructor = if lower_pair { "Frame::lower_pair" } else { "Frame::new" };
+        (constructor, vec![quoted(&frame.name), format!("{:?}", frame.variable)])
+    });
     list("frames", frames.collect());
     let variables = spec.variables.iter().map(|variable| {
         let kind = match variable.kind {

@@ -32,7 +32,7 @@ const VARIABLES: [Variable; 6] = [
 ];
 
 const fn frame(index: usize) -> Frame {
-    Frame::new("joint", Some(index))
+    Frame::lower_pair("joint", Some(index))
 }
 
 const FRAMES: [Frame; 6] = [frame(0), frame(1), frame(2), frame(3), frame(4), frame(5)];

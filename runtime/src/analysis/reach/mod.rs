@@ -1,13 +1,22 @@
 //! Joint variables that bring the tool to a target: the ideal tool, and the real one.
 
 mod bounded;
+mod bounds;
 mod compensate;
+mod descents;
 mod inverse;
+mod joint_chain;
 mod obstacle;
+mod quest;
 mod reach_error;
 mod real_tool;
+mod residual;
+mod search;
+#[cfg(test)]
+mod tests;
 
 pub use compensate::compensated;
+pub(in crate::analysis) use inverse::Inverse;
 pub use inverse::{Target, inverse};
 pub use obstacle::{Missing, Obstacle, mobility, obstacle};
 pub use reach_error::ReachError;

@@ -84,21 +84,27 @@ impl<'a> Block<'a> {
         if self.workspace.fill_rows(range.clone(), &mut self.arguments) {
             self.indices.extend(range);
         } else {
-            let mut place = self.workspace.home().clone();
-            for index in range {
-                match self.workspace.fill(index, &mut place) {
+            let indices: Vec<usize> = range.collect();
+            let mut refused = None;
+            let workspace = self.workspace;
+            workspace.fill_each(&indices, &mut |place, configuration, filled| {
+                let index = indices[place];
+                match filled {
                     Ok(()) => {
-                        let inputs = checks::inputs(&self.manipulator.description().inputs, &place.u);
-                        inputs.map_err(|error| Unevaluated { configuration: Some(index), error })?;
-                        self.write(self.indices.len(), &place);
+                        let inputs = checks::inputs(&self.manipulator.description().inputs, &configuration.u);
+                        if let (None, Err(error)) = (refused, inputs) {
+                            refused = Some(Unevaluated { configuration: Some(index), error });
+                        }
+                        self.write(self.indices.len(), configuration);
                         self.indices.push(index);
                     }
                     Err(reason) => {
-                        let (point, asked) = (self.workspace.point(index), place.clone());
+                        let (point, asked) = (workspace.point(index), configuration.clone());
                         self.unreachable.push(Unreachable { index, point, asked, reason });
                     }
                 }
-            }
+            });
+            refused.map_or(Ok(()), Err)?;
         }
         self.finish_filling();
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::axis::{combinations, combine, in_range};
 use super::{Axis, Configuration, Workspace};
-use crate::analysis::{ReachError, Target, inverse};
+use crate::analysis::{Inverse, ReachError, Target};
 use crate::{Error, Manipulator, Pose, Quantity};
 
 /// What a tool that reaches a point of a [`BaseBox`] has to point at.
@@ -27,12 +27,12 @@ pub struct BaseBox {
 
 /// A box of points in the base frame; see [`base_box`].
 pub struct ReachedBox<'a> {
-    manipulator: &'a dyn Manipulator,
     axes: Vec<Axis>,
     /// The pose at home, whose position is replaced.
     pose: Pose,
     orientation: ToolOrientation,
-    solved: Vec<usize>,
+    /// From home; or why nothing is reached at all.
+    inverse: Result<Inverse<'a>, ReachError>,
     home: Configuration,
 }
 
@@ -44,9 +44,9 @@ pub fn base_box<'a>(manipulator: &'a dyn Manipulator, region: &BaseBox) -> Resul
     in_range(region.solved.iter().copied(), Quantity::Variables, description.variables.len())?;
     let home = Configuration::home(description);
     let pose = manipulator.pose(&home.q, &home.s)?;
+    let inverse = Inverse::new(manipulator, &home.s, &home.q, &region.solved);
     let axes = region.points.iter().enumerate().map(|(index, values)| Axis { index, values: values.clone() });
-    let BaseBox { orientation, ref solved, .. } = *region;
-    Ok(ReachedBox { manipulator, axes: axes.collect(), pose, orientation, solved: solved.clone(), home })
+    Ok(ReachedBox { axes: axes.collect(), pose, orientation: region.orientation, inverse, home })
 }
 
 impl ReachedBox<'_> {
@@ -54,6 +54,15 @@ impl ReachedBox<'_> {
         let mut point = self.pose.position();
         combine(index, &self.axes, &mut point);
         point
+    }
+
+    fn target(&self, index: usize) -> Target {
+        let Pose([x, y, z, _]) = self.pose;
+        let point = self.at(index);
+        match self.orientation {
+            ToolOrientation::Free => Target::Point(point),
+            ToolOrientation::Home => Target::Pose(Pose([x, y, z, point])),
+        }
     }
 }
 
@@ -67,16 +76,30 @@ impl Workspace for ReachedBox<'_> {
     }
 
     fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
-        configuration.copy_from(&self.home);
-        let mut pose = self.pose;
-        pose.0[3] = self.at(index);
-        let target = match self.orientation {
-            ToolOrientation::Free => Target::Point(pose.position()),
-            ToolOrientation::Home => Target::Pose(pose),
+        let mut filled = Ok(());
+        self.fill_each(&[index], &mut |_, found, result| {
+            configuration.copy_from(found);
+            filled = result;
+        });
+        filled
+    }
+
+    fn fill_each(
+        &self,
+        indices: &[usize],
+        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
+    ) {
+        let targets: Vec<Target> = indices.iter().map(|index| self.target(*index)).collect();
+        let found = match &self.inverse {
+            Ok(inverse) => inverse.solve(&targets),
+            Err(reason) => vec![Err(*reason); targets.len()],
         };
-        let Configuration { q, s, .. } = &*configuration;
-        configuration.q = inverse(self.manipulator, s, q, &self.solved, &target)?;
-        Ok(())
+        let mut configuration = self.home.clone();
+        for (place, found) in found.into_iter().enumerate() {
+            configuration.copy_from(&self.home);
+            let filled = found.map(|q| configuration.q = q);
+            show(place, &mut configuration, filled);
+        }
     }
 
     fn point(&self, index: usize) -> Option<[f64; 3]> {

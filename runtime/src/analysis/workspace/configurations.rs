@@ -26,6 +26,20 @@ pub trait Workspace: Sync {
     /// cannot be had, that holds what was asked for.
     fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError>;
 
+    /// Shows those configurations one after the other, each by its place in the list, as [`fill`](Self::fill) writes it: for
+    /// workspaces that make several sooner than one by one. Whoever is shown one may change it.
+    fn fill_each(
+        &self,
+        indices: &[usize],
+        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
+    ) {
+        let mut configuration = self.home().clone();
+        for (place, index) in indices.iter().enumerate() {
+            let filled = self.fill(*index, &mut configuration);
+            show(place, &mut configuration, filled);
+        }
+    }
+
     /// Writes what differs from home in the configurations of a range into rows q, s, u of `rows`, which hold those of
     /// home, if all can be had and this is quicker than one by one; says whether it did.
     fn fill_rows(&self, _range: Range<usize>, _rows: &mut Tiles) -> bool {
@@ -46,7 +60,12 @@ pub trait Workspace: Sync {
 
     /// All configurations that can be reached, stored: for small workspaces.
     fn reached(&self) -> Vec<Configuration> {
-        (0..self.len()).filter_map(|index| self.configuration(index).ok()).collect()
+        let indices: Vec<usize> = (0..self.len()).collect();
+        let mut reached = Vec::new();
+        self.fill_each(&indices, &mut |_, configuration, filled| {
+            reached.extend(filled.ok().map(|()| configuration.clone()));
+        });
+        reached
     }
 }
 

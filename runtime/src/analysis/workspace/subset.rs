@@ -24,11 +24,26 @@ impl Workspace for Subset<'_> {
     }
 
     fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        self.workspace.fill(self.place(index), configuration)
+    }
+
+    fn fill_each(
+        &self,
+        indices: &[usize],
+        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
+    ) {
+        let places: Vec<usize> = indices.iter().map(|index| self.place(*index)).collect();
+        self.workspace.fill_each(&places, show);
+    }
+}
+
+impl Subset<'_> {
+    /// The index in the workspace itself.
+    fn place(&self, index: usize) -> usize {
         let all = self.workspace.len();
-        let place = match all <= self.count {
+        match all <= self.count {
             true => index,
             false => ((index as f64 * GOLDEN).fract() * all as f64) as usize,
-        };
-        self.workspace.fill(place, configuration)
+        }
     }
 }

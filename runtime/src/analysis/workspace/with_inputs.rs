@@ -53,6 +53,18 @@ impl Workspace for WithInputs<'_> {
         filled
     }
 
+    fn fill_each(
+        &self,
+        indices: &[usize],
+        show: &mut dyn FnMut(usize, &mut Configuration, Result<(), ReachError>),
+    ) {
+        let places: Vec<usize> = indices.iter().map(|index| self.split(*index).0).collect();
+        self.workspace.fill_each(&places, &mut |place, configuration, filled| {
+            combine(self.split(indices[place]).1, &self.inputs, &mut configuration.u);
+            show(place, configuration, filled);
+        });
+    }
+
     fn fill_rows(&self, range: Range<usize>, rows: &mut Tiles) -> bool {
         let ((first, combination), (last, other)) = (self.split(range.start), self.split(range.end - 1));
         if combination != other || !self.workspace.fill_rows(first..last + 1, rows) {

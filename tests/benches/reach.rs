@@ -1,0 +1,70 @@
+//! Boxes of tool points, each reached by inverse kinematics: in reach, out of reach, and half and half.
+//!
+//! `cargo bench -p abbe-tests --bench reach`
+
+use std::time::Duration;
+
+use abbe::Manipulator;
+use abbe::analysis::{BLOCK, BaseBox, ToolOrientation, Workspace, base_box, sampling::grid};
+use abbe_manipulators::{general6r::General6r, iiwa::Iiwa, pps::Pps, puma560::Puma560, ur5::Ur5};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
+/// How many points along each side.
+const SIDE: usize = 8;
+
+/// Sides in metres.
+type Sides = [[f64; 2]; 3];
+
+const NEAR: Sides = [[0.3, 0.5], [-0.2, 0.2], [0.3, 0.6]];
+const FAR: Sides = [[1.5, 2.5], [-1.0, 1.0], [0.0, 2.0]];
+const AROUND: Sides = [[-1.1, 1.1], [-1.1, 1.1], [-0.7, 1.5]];
+
+fn reach(criterion: &mut Criterion) {
+    let pps = [
+        [[0.8, 1.4], [1.4, 1.8], [1.6, 2.2]],
+        [[5.0, 6.0], [1.0, 2.0], [1.0, 3.0]],
+        [[-1.0, 3.2], [1.0, 2.2], [0.0, 4.0]],
+    ];
+    let arm = [NEAR, FAR, AROUND];
+    let robots: [(&dyn Manipulator, [Sides; 3]); 5] =
+        [(&Iiwa, arm), (&General6r, arm), (&Ur5, arm), (&Puma560, arm), (&Pps, pps)];
+    let mut group = criterion.benchmark_group("points");
+    group.throughput(Throughput::Elements(SIDE.pow(3) as u64));
+    for (robot, boxes) in robots {
+        let description = robot.description();
+        for (name, sides) in ["in reach", "out of reach", "around"].into_iter().zip(boxes) {
+            for (turned, orientation) in [("", ToolOrientation::Free), (", turned", ToolOrientation::Home)] {
+                let in_unit = |side: [f64; 2]| side.map(|x| x / description.length.in_metres());
+                let region = BaseBox {
+                    points: sides.map(|side| grid(in_unit(side), SIDE)),
+                    orientation,
+                    solved: (0..description.variables.len()).collect(),
+                };
+                let workspace = base_box(robot, &region).expect("its own variables");
+                let indices: Vec<usize> = (0..workspace.len()).collect();
+                group.bench_function(format!("{}/{name}{turned}", description.name), |bencher| {
+                    bencher.iter(|| {
+                        let mut reached = 0;
+                        for block in indices.chunks(BLOCK) {
+                            let mut show = |filled: Result<_, _>| reached += usize::from(filled.is_ok());
+                            workspace.fill_each(block, &mut |_, _, filled| show(filled));
+                        }
+                        reached
+                    });
+                });
+            }
+        }
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(100))
+        .measurement_time(Duration::from_millis(500))
+        .without_plots();
+    targets = reach
+}
+criterion_main!(benches);
