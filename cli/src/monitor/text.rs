@@ -18,10 +18,11 @@ pub(super) fn text(spec: &Spec, report: &Report) -> String {
             parts[0] += &format!("{}\n", wrapped(&line, 2));
         }
     }
-    let paragraph = |sentence: &String| wrapped(sentence, 0) + "\n";
-    parts[0] += &report.watched().iter().map(paragraph).collect::<String>();
+    let paragraphs =
+        |sentences: &[String]| sentences.iter().map(|said| wrapped(said, 0) + "\n").collect::<String>();
+    parts[0] += &paragraphs(&report.findings());
+    parts.push(paragraphs(&report.watched()));
     parts.push(charts(report));
-    parts.push(report.findings().iter().map(paragraph).collect());
     parts.join("\n")
 }
 

@@ -24,8 +24,13 @@ impl Report {
             ),
             None => String::new(),
         };
+        let bounds = match self.budget.combined.random_radius.value {
+            0.0 => "",
+            _ => ", random sources at their bounds",
+        };
+        let largest = all.largest;
         let together =
-            format!("Largest error: {}{share}{}.", self.show(all.largest.value), self.place(all.largest));
+            format!("Largest error{bounds}: {}{share}{}.", self.show(largest.value), self.place(largest));
         let sources = ledger::sources(self);
         let name =
             |Entry { name, largest, .. }: &Entry<'_>| format!("\"{name}\", {}", self.show(largest.value));

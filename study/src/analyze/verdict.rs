@@ -55,15 +55,13 @@ impl Report {
         let least = match judged.configurations {
             1 if all == 1 => "the only configuration".to_owned(),
             some if some < all => {
-                format!(
-                    "the least of {some} of {all} configurations: those where an approximation has it lowest"
-                )
+                format!("the least of {all} configurations ({some} were drawn at, those where an approximation has it lowest)")
             }
             _ => format!("the least of all {all} configurations"),
         };
         let how = match judged.compliance.draws {
-            Some(draws) => format!("{} draws", number::short(draws as f64)),
-            None if self.is_random(judged.measurand) => "all random sources are normal".to_owned(),
+            Some(draws) => format!("random ones drawn {} times", number::short(draws as f64)),
+            None if self.is_random(judged.measurand) => "random ones all normal".to_owned(),
             None => "nothing is random".to_owned(),
         };
         let asked = number::at_least(self.study.probability);
@@ -73,8 +71,8 @@ impl Report {
         };
         let met = if judged.verdict == Verdict::NotMet { "not met" } else { "met" };
         format!(
-            "{name}: {met}. The error is within {tolerance} with probability {} at {at}, {least}; {enough}. \
-             Repeatable sources are as they are, random ones drawn ({how}), to first order.",
+            "{name}: {met}. The error is within {tolerance} with probability {}; {enough}. This is {least}, at {at}. To first \
+             order, repeatable sources as they are, {how}.",
             probability(judged.compliance)
         )
     }
