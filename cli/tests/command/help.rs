@@ -137,20 +137,26 @@ fn every_command_has_a_manual_page() {
 fn documents_name_options_that_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folder = |name: &str| fs::read_dir(root.join(name)).unwrap().map(|entry| entry.unwrap().path());
-    let pages = folder("docs").chain(folder("docs/reference")).chain([root.join("README.md"), root.join("manipulators/README.md")]);
+    let pages = folder("docs")
+        .chain(folder("docs/reference"))
+        .chain([root.join("README.md"), root.join("manipulators/README.md")]);
     let pages = pages.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
-    let helps: Vec<(String, String)> = commands().into_iter().map(|name| (name.clone(), help(&name))).collect();
+    let helps: Vec<(String, String)> =
+        commands().into_iter().map(|name| (name.clone(), help(&name))).collect();
     let mut named = 0;
     for page in pages {
         let text = fs::read_to_string(&page).unwrap();
         for line in text.split(['\n', '`']) {
             let line = line.trim_start_matches("$ ").split(" # ").next().unwrap_or_default();
-            let Some((_, words)) = line.split_once("abbe ").filter(|(before, _)| before.is_empty()) else { continue };
+            let Some((_, words)) = line.split_once("abbe ").filter(|(before, _)| before.is_empty()) else {
+                continue;
+            };
             let mut words = words.split_whitespace();
             let name = words.next().unwrap_or_default();
             let Some((_, help)) = helps.iter().find(|(command, _)| command == name) else { continue };
             for option in words.filter(|word| word.starts_with("--")) {
-                let option = option.trim_end_matches(['.', ',', ')', ']']).split('=').next().unwrap_or_default();
+                let option =
+                    option.trim_end_matches(['.', ',', ')', ']']).split('=').next().unwrap_or_default();
                 let known = help.split_whitespace().any(|word| word.trim_end_matches(',') == option);
                 assert!(known || option == "--help", "{}: abbe {name} has no {option}", page.display());
                 named += 1;

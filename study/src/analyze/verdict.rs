@@ -55,7 +55,9 @@ impl Report {
         let least = match judged.configurations {
             1 if all == 1 => "the only configuration".to_owned(),
             some if some < all => {
-                format!("the least of {all} configurations ({some} were drawn at, those where an approximation has it lowest)")
+                format!(
+                    "the least of {all} configurations ({some} were drawn at, those where an approximation has it lowest)"
+                )
             }
             _ => format!("the least of all {all} configurations"),
         };
