@@ -1,42 +1,54 @@
-//! Interruption (Ctrl-C): no half-written file is left, and the exit status is 130.
+//! The end by a signal: no half-written file is left, and the exit status is 128 + its number.
 
-use std::fs::{self, File};
-use std::io;
-use std::path::PathBuf;
 use std::process;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::NamedTempFile;
+use crate::output::temporary::Begun;
 
-/// What a shell calls the end by SIGINT: 128 + 2.
-const INTERRUPTED: i32 = 130;
-
-/// The temporary files that were begun. Those that were finished or dropped are not there any more: names are
-/// random, so that nothing else can stand in their places.
-static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-fn temporary_files() -> MutexGuard<'static, Vec<PathBuf>> {
-    TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
+/// Ends the process with that status, without what was begun.
+fn end(status: i32) -> ! {
+    // Held to the end: no other file is begun, and files that are going to their places are there.
+    Begun::hold().clear();
+    process::exit(status)
 }
 
-/// From now on an interruption removes the temporary files and ends the process.
-pub(crate) fn clean_up_on_interrupt() {
+/// From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP remove the temporary files and end the process.
+///
+/// To be called before there are other threads: the signals are blocked in all of them, and one waits.
+#[cfg(unix)]
+pub(crate) fn clean_up_on_signals() {
+    use nix::sys::signal::{SigSet, Signal};
+
+    let mut signals = SigSet::empty();
+    signals.add(Signal::SIGINT);
+    signals.add(Signal::SIGTERM);
+    if !hangup_is_ignored() {
+        signals.add(Signal::SIGHUP);
+    }
+    // Without this the files stay behind as temporary ones; nothing else is lost.
+    if signals.thread_block().is_ok() {
+        std::thread::spawn(move || {
+            if let Ok(signal) = signals.wait() {
+                // A second one ends the process at once, whatever the first is waiting for.
+                let _ = signals.thread_unblock();
+                end(128 + signal as i32);
+            }
+        });
+    }
+}
+
+/// Whether SIGHUP is to be ignored, as below `nohup`. Only Linux says so without unsafe code.
+#[cfg(unix)]
+fn hangup_is_ignored() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    ignored.is_some_and(|mask| mask & (1 << (nix::sys::signal::Signal::SIGHUP as u32 - 1)) != 0)
+}
+
+/// From now on Ctrl-C removes the temporary files and ends the process.
+#[cfg(not(unix))]
+pub(crate) fn clean_up_on_signals() {
+    const INTERRUPTED: i32 = 130;
     // Without a handler the files stay behind as temporary ones; nothing else is lost.
-    let _ = ctrlc::set_handler(|| {
-        // The lock is held to the end: no other file is begun.
-        for path in temporary_files().iter() {
-            let _ = fs::remove_file(path);
-        }
-        process::exit(INTERRUPTED);
-    });
-}
-
-/// A temporary file that an interruption removes.
-pub(crate) fn temporary(
-    make: impl FnOnce() -> io::Result<NamedTempFile<File>>,
-) -> io::Result<NamedTempFile<File>> {
-    let mut files = temporary_files();
-    let file = make()?;
-    files.push(file.path().to_owned());
-    Ok(file)
+    let _ = ctrlc::set_handler(|| end(INTERRUPTED));
 }

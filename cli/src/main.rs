@@ -35,7 +35,7 @@ use failure::Failure;
 use output::Outcome;
 
 fn main() -> ExitCode {
-    interrupt::clean_up_on_interrupt();
+    interrupt::clean_up_on_signals();
     let result = run(&Arguments::parse());
     match result.and_then(|outcome| outcome.print()) {
         Ok(status) => status,

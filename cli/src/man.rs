@@ -1,6 +1,5 @@
 //! `abbe man`: manual pages, one for the command and one for each of its commands.
 
-use std::fs;
 use std::io;
 
 use clap::CommandFactory;
@@ -8,15 +7,16 @@ use clap_mangen::Man;
 
 use crate::arguments::{self, Arguments};
 use crate::failure::Failure;
-use crate::output::{Outcome, cannot_write, note, write};
+use crate::output::{Outcome, Outputs, cannot_write, note};
 
 pub(crate) fn run(arguments: &arguments::Man) -> Result<Outcome, Failure> {
     let folder = &arguments.out;
-    fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
     let pages = pages().map_err(|error| cannot_write(folder, &error))?;
-    for (name, text) in &pages {
-        write(&folder.join(name), text)?;
-    }
+    let mut outputs = Outputs::new(&(), arguments.writing.force);
+    outputs.folder(folder)?;
+    let files = pages.iter().map(|(name, text)| outputs.file(&folder.join(name))?.fill(text));
+    let files = files.collect::<Result<Vec<_>, _>>()?;
+    outputs.finish(files)?;
     note(&format!("wrote {}: {} pages", folder.display(), pages.len()));
     Ok(Outcome::passed(String::new()))
 }

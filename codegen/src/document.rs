@@ -29,12 +29,21 @@ pub struct Document {
     pub folder: Option<PathBuf>,
     /// Further files that were read for it, and what is in them.
     pub(crate) beside: Vec<(PathBuf, Vec<u8>)>,
+    /// Every file that was read for it, its own first.
+    pub files: Vec<PathBuf>,
 }
 
 impl Document {
     /// A text that has been read already.
     pub fn new(path: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
-        Self { path: path.into(), text: text.into(), found: Vec::new(), folder: None, beside: Vec::new() }
+        Self {
+            path: path.into(),
+            text: text.into(),
+            found: Vec::new(),
+            folder: None,
+            beside: Vec::new(),
+            files: Vec::new(),
+        }
     }
 
     /// Reads a file. Missing, unreadable, too large and not UTF-8 are [`Diagnostics`] like any other mistake.
@@ -65,7 +74,7 @@ impl Document {
         let bytes = match String::from_utf8(bytes) {
             Ok(text) => {
                 let folder = path.parent().map(Path::to_owned);
-                return Ok(Self { folder, ..Self::new(name, text) });
+                return Ok(Self { folder, files: vec![path.to_owned()], ..Self::new(name, text) });
             }
             Err(error) => error,
         };

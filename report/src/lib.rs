@@ -14,4 +14,4 @@ mod spheres;
 mod svg;
 
 pub use html::{Provenance, compensation, identification, measurement, monitoring};
-pub use pictures::{File, analysis};
+pub use pictures::{File, PAGE, analysis};

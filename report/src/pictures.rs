@@ -9,6 +9,9 @@ use super::figure::Named;
 use super::html;
 use super::svg;
 
+/// The page that holds everything.
+pub const PAGE: &str = "report.html";
+
 /// A file of a report.
 #[derive(Clone, Debug)]
 pub struct File {
@@ -31,6 +34,6 @@ pub fn analysis(report: &Report) -> Result<Vec<File>, Diagnostics> {
     let page = html::page(&figures, &drawings, left_out, report);
     let names = figures.iter().map(|figure| format!("{}.svg", figure.name));
     let mut files = names.zip(drawings).map(|(name, text)| File { name, text }).collect::<Vec<_>>();
-    files.push(File { name: "report.html".to_owned(), text: page });
+    files.push(File { name: PAGE.to_owned(), text: page });
     Ok(files)
 }

@@ -1,5 +1,7 @@
 //! By which a file is known again.
 
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use abbe_codegen::diagnostic::Diagnostics;
@@ -14,11 +16,22 @@ pub fn of_text(text: &str) -> String {
 
 /// The SHA-256 of a file, as `sha256sum` says it.
 pub fn of_file(file: &Path) -> Result<String, Diagnostics> {
-    let bytes = std::fs::read(file)
-        .map_err(|error| mistake::whole(file.display(), format!("cannot read this: {error}")))?;
-    Ok(digits(&Sha256::digest(&bytes)))
+    let hash = File::open(file).and_then(of_reader);
+    hash.map_err(|error| mistake::whole(file.display(), format!("cannot read this: {error}")))
 }
 
-fn digits(hash: &[u8]) -> String {
+/// The SHA-256 of all that is read.
+pub fn of_reader(mut reader: impl Read) -> io::Result<String> {
+    let (mut hasher, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        match reader.read(&mut buffer)? {
+            0 => return Ok(digits(&hasher.finalize())),
+            read => hasher.update(&buffer[..read]),
+        }
+    }
+}
+
+/// The hexadecimal digits of a hash.
+pub fn digits(hash: &[u8]) -> String {
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -17,7 +17,7 @@
 //! - **What is said on the way goes to [`Notes`]**: a note, a warning, how far the work is; and a job that takes long
 //!   asks it whether to stop. Nothing here prints, exits, or knows arguments. `&mut ()` hears nothing.
 //! - **Files are named by the caller.** A job reads the ones it is given and writes none: what is to be written comes
-//!   back as text or rows.
+//!   back as text or rows. [`Reads`] says which ones it rests on, so that nobody writes over them.
 //! - Numbers are in the spec's coherent system, as in the spec and in `abbe`. [`number`] is how people read them: views
 //!   use it, reports hold numbers.
 //! - The spec of a [`Machine`] is changed once, by [`Machine::change`], before the job starts.
@@ -66,6 +66,7 @@ mod extrapolated;
 mod listing;
 mod machine;
 mod notes;
+mod reads;
 
 pub use acceptance::{Acceptance, Accepted, Limit};
 pub use changes::{Changes, find_symbol};
@@ -73,4 +74,5 @@ pub use extrapolated::{Extrapolated, Known};
 pub use listing::Listing;
 pub use machine::{Evaluator, Machine};
 pub use notes::Notes;
+pub use reads::Reads;
 pub use study_file::Study;

@@ -1,18 +1,18 @@
 //! The results of every configuration as CSV: all digits, units in the heading, the coherent ones of the spec.
 
-use std::fs;
 use std::io::Write;
 use std::path::Path;
 
 use abbe::analysis::{Configuration, Row};
+use abbe_codegen::cell::harmless;
 use abbe_codegen::spec::{Spec, VariableKind};
 use abbe_study::analyze::{Analyze, Drawn, Report, figures_of, reason};
 use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};
-use csv::Writer;
+use csv::{Writer, WriterBuilder};
 
 use crate::failure::Failure;
-use crate::output::{Pending, cannot_write};
+use crate::output::{Outputs, Pending};
 
 /// The files of a folder; none appears before all are complete.
 pub(super) struct Files {
@@ -40,13 +40,15 @@ impl Moved {
 
 impl Files {
     /// Begins the files; makes the folder if there is none.
-    pub(super) fn create(folder: &Path, spec: &Spec, moved: Moved, drawn: bool) -> Result<Self, Failure> {
-        if folder.exists() && !folder.is_dir() {
-            let message = "this is a file, not a folder";
-            return Err(Failure::of(folder.display(), message).help("--out takes a folder"));
-        }
-        fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
-        let begin = |name: &str| Pending::create(&folder.join(name)).map(Writer::from_writer);
+    pub(super) fn create(
+        folder: &Path,
+        outputs: &mut Outputs,
+        spec: &Spec,
+        moved: Moved,
+        drawn: bool,
+    ) -> Result<Self, Failure> {
+        outputs.folder(folder)?;
+        let mut begin = |name: &str| outputs.file(&folder.join(name)).map(writer);
         let mut files = Self {
             configurations: begin("configurations.csv")?,
             sources: begin("sources.csv")?,
@@ -60,7 +62,9 @@ impl Files {
         heading.extend(names(spec, &files.moved));
         let sources = spec.enabled_sources().map(|source| source.name.as_str());
         for what in ["ideal"].into_iter().chain(sources).chain(["repeatable", "random"]) {
-            heading.extend(["x", "y", "z"].map(|axis| format!("{what} {axis} ({unit})")));
+            heading.extend(
+                ["x", "y", "z"].map(|axis| harmless(&format!("{what} {axis} ({unit})")).into_owned()),
+            );
         }
         files.keep(|files| files.configurations.write_record(&heading));
         Ok(files)
@@ -77,8 +81,8 @@ impl Files {
         self.keep(|files| files.configurations.write_record(&record));
     }
 
-    /// Writes the other files, and puts all in their places.
-    pub(super) fn finish(mut self, report: &Report) -> Result<(), Failure> {
+    /// Writes the other files. All are complete.
+    pub(super) fn finish(mut self, report: &Report) -> Result<Vec<Pending>, Failure> {
         self.keep(|files| write_sources(&mut files.sources, report));
         self.keep(|files| write_unreachable(&mut files.unreachable, report));
         self.keep(|files| match (&mut files.monte_carlo, &report.monte_carlo) {
@@ -88,13 +92,9 @@ impl Files {
         if let Some(error) = self.failure {
             return Err(Failure::of("--out", format!("cannot write the files: {error}")));
         }
-        let mut complete = Vec::new();
         let always = [self.configurations, self.sources, self.unreachable];
-        for writer in always.into_iter().chain(self.monte_carlo) {
-            let pending = writer.into_inner();
-            complete.push(pending.map_err(|error| Failure::of("--out", error.error().to_string()))?);
-        }
-        complete.into_iter().try_for_each(Pending::finish)
+        let all = always.into_iter().chain(self.monte_carlo).map(Writer::into_inner);
+        all.map(|file| file.map_err(|error| Failure::of("--out", error.error()))).collect()
     }
 
     fn keep(&mut self, write: impl FnOnce(&mut Self) -> csv::Result<()>) {
@@ -104,6 +104,11 @@ impl Files {
     }
 }
 
+/// A name that begins with # is no comment.
+fn writer(file: Pending) -> Writer<Pending> {
+    WriterBuilder::new().comment(Some(b'#')).from_writer(file)
+}
+
 fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Result<()> {
     let unit = report.spec.length.symbol();
     let axes = ["x", "y", "z", "norm"].map(|axis| format!("{axis} ({unit})"));
@@ -111,11 +116,11 @@ fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Resul
     writer.write_record(heading.chain(["worst configuration".to_owned()]).collect::<Vec<_>>())?;
     let index = |worst: Option<usize>| worst.map(|worst| worst.to_string()).unwrap_or_default();
     for errors in &report.budget.sources {
-        let (name, class) = (report.name(errors), class(errors.class).0);
+        let (name, class) = (harmless(report.name(errors)), class(errors.class).0);
         for (metric_name, metric) in Metric::ALL {
             let [x, y, z, norm] = figures_of(errors, metric).map(|figure| number(&figure));
             let worst = index(errors.worst);
-            writer.write_record([name, class, metric_name, &x, &y, &z, &norm, &worst])?;
+            writer.write_record([&name, class, metric_name, &x, &y, &z, &norm, &worst])?;
         }
     }
     let combined = &report.budget.combined;

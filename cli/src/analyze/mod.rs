@@ -14,7 +14,7 @@ use abbe_study::analyze::{Analyze, Report, Verdict};
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{self, Outcome, Pending, note};
+use crate::output::{self, Outcome, Outputs, note};
 
 use files::{Files, Moved};
 
@@ -25,16 +25,22 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     let report = match &arguments.out {
         None => job.run(&mut console)?,
         Some(folder) => {
+            let mut outputs = Outputs::new(&job, arguments.writing.force);
+            let drawn = job.monte_carlo.is_some();
             let mut files =
-                Files::create(folder, &job.machine().spec, Moved::new(&job), job.monte_carlo.is_some())?;
+                Files::create(folder, &mut outputs, &job.machine().spec, Moved::new(&job), drawn)?;
+            let mut page = Some(outputs.file(&folder.join(abbe_report::PAGE))?);
             let mut show = |row: &Row| files.configuration(row);
             let report = job.run_showing(Some(&mut show), &mut console)?;
-            let pictures = abbe_report::analysis(&report)?;
-            let pictures =
-                pictures.iter().map(|file| Pending::complete(&folder.join(&file.name), &file.text));
-            let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
-            files.finish(&report)?;
-            pictures.into_iter().try_for_each(Pending::finish)?;
+            let mut complete = files.finish(&report)?;
+            for file in abbe_report::analysis(&report)? {
+                let begun = match page.take_if(|_| file.name == abbe_report::PAGE) {
+                    Some(page) => page,
+                    None => outputs.file(&folder.join(&file.name))?,
+                };
+                complete.push(begun.fill(&file.text)?);
+            }
+            outputs.finish(complete)?;
             note_what_is_not_listed(&report);
             report
         }

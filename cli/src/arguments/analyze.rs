@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::{Running, Subject};
+use super::shared::{Running, Subject, Writing};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -34,6 +34,8 @@ pub(crate) struct Analyze {
     /// unreachable.csv, with draws monte_carlo.csv
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

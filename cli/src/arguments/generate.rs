@@ -5,6 +5,8 @@ use abbe_codegen::print::Language;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 
+use super::shared::Writing;
+
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
     "  abbe generate arm.toml --out arm.rs
@@ -20,6 +22,8 @@ pub(crate) struct Generate {
     /// Write to this file instead of stdout
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
 }
 
 /// The languages by their names.

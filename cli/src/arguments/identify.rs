@@ -4,7 +4,7 @@ use std::time::Duration;
 use abbe_study::identify::Prior;
 use clap::{Args, ValueEnum};
 
-use super::shared::{Measured, Page, Running, Subject};
+use super::shared::{Measured, Page, Running, Subject, Writing};
 use super::values::{duration, folds, prior};
 
 #[derive(Args, Debug)]
@@ -50,6 +50,8 @@ pub(crate) struct Identify {
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) page: Page,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

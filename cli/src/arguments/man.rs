@@ -2,6 +2,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::shared::Writing;
+
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
     "  abbe man --out man1
@@ -10,4 +12,6 @@ pub(crate) struct Man {
     /// Write into this folder: abbe.1, and a page for each command
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
 }

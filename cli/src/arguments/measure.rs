@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::shared::{Measured, Running, Subject};
+use super::shared::{Measured, Running, Subject, Writing};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -27,6 +27,8 @@ pub(crate) struct Measure {
     /// The date that the page shows; it knows no clock
     #[arg(long, value_name = "DATE", requires = "out")]
     pub(crate) date: Option<String>,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

@@ -39,6 +39,9 @@ use clap::{Parser, Subcommand};
 ///
 /// A SPEC is the path of a spec file (TOML), or the name of a shipped manipulator: `abbe list`. Data are the argument
 /// after it. `abbe COMMAND --help` has examples of every command.
+///
+/// Files are written whole or not at all, and never over one that is read. What abbe wrote, and nobody has changed since, it
+/// replaces; other files only with `--force`. `-` is stdout.
 #[derive(Debug, Parser)]
 #[command(name = "abbe", version, after_help = after_help!(
     "  abbe analyze pps                which error matters, and how much

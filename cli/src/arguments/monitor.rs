@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use super::shared::{Page, Running, Subject};
+use super::shared::{Page, Running, Subject, Writing};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -32,6 +32,8 @@ pub(crate) struct Monitor {
     pub(crate) check: bool,
     #[command(flatten)]
     pub(crate) page: Page,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
 
-use super::shared::{Running, Subject};
+use super::shared::{Running, Subject, Writing};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -43,6 +43,8 @@ pub(crate) struct Plan {
     /// Write the configurations: a CSV file to be completed by measuring
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

@@ -79,6 +79,14 @@ pub(crate) struct Page {
     pub(crate) date: Option<String>,
 }
 
+// How files are written.
+#[derive(Args, Debug)]
+pub(crate) struct Writing {
+    /// Replace files that abbe did not write, or that were changed since; never one that this run reads
+    #[arg(long, display_order = 92)]
+    pub(crate) force: bool,
+}
+
 // How a job is run, and what it prints.
 #[derive(Args, Debug)]
 pub(crate) struct Running {

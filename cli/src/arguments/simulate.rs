@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueHint};
 
-use super::shared::{Running, Subject};
+use super::shared::{Running, Subject, Writing};
 use super::values::share;
 
 #[derive(Args, Debug)]
@@ -38,6 +38,8 @@ pub(crate) struct Simulate {
     /// Write to this file instead of stdout
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
 }

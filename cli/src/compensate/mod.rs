@@ -10,7 +10,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, json, write};
+use crate::output::{Outcome, Outputs, json};
 use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
@@ -23,17 +23,19 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         false => Data::read_commanded(&arguments.data, &map)?,
     };
     let job = Compensate { machine, map, data, poses: arguments.poses, tolerance };
+    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let commands = outputs.wanted(arguments.out.as_deref())?;
+    let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
-    if let Some(file) = &arguments.out {
-        write(file, &report.table(&job.map).csv())?;
-    }
-    if let Some(file) = &arguments.page.report {
+    let commands = commands.map(|file| file.fill(&report.table(&job.map).csv())).transpose()?;
+    let page = page.map(|file| {
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);
-        let provenance =
-            provenance(spec, map, [("commands", &arguments.data)], arguments.page.date.as_ref())?;
-        write(file, &abbe_report::compensation(spec, &job.map, &report, &provenance))?;
-    }
+        let files = [("commands", &arguments.data)];
+        let provenance = provenance(spec, map, files, arguments.page.date.as_ref())?;
+        file.fill(&abbe_report::compensation(spec, &job.map, &report, &provenance))
+    });
+    let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;
     let text = match arguments.running.json {
         true => json(&report)?,
         false => {
@@ -41,7 +43,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
             text::text(manipulator.description(), &report, arguments.out.as_deref())
         }
     };
-    Ok(Outcome::checked(text, report.complete()))
+    Ok(Outcome::checked(text, report.complete()).beside(printed))
 }
 
 /// The map that is given, or the names of the spec.

@@ -3,7 +3,7 @@
 mod alike;
 mod text;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use abbe::identify::Loss;
 use abbe_codegen::spec::{Spec, VariableKind};
@@ -14,7 +14,7 @@ use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};
 use crate::arguments::{self, Robust, Terms};
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{Outcome, json, note, write};
+use crate::output::{Outcome, Outputs, Pending, json, note};
 use crate::provenance::provenance;
 
 pub(crate) use alike::table as alike_table;
@@ -45,22 +45,32 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;
     let terms = families(&arguments.terms);
     let job = Identify { machine, map, data, test, terms, harmonics, settings, accept };
+    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let out = arguments.out.as_deref().map(|file| begin(file, &mut outputs)).transpose()?;
+    let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
-    let written =
-        arguments.out.as_ref().map(|file| write_found(file, arguments, &job, &report)).transpose()?;
-    let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    if let Some(file) = &arguments.page.report {
+    let out = out.map(|(spec, map, name)| Ok::<_, Failure>((found(name, &job, &report)?, spec, map)));
+    let (written, out) = match out.transpose()? {
+        None => (None, Vec::new()),
+        Some((found, spec, map)) => (Some(found.text), vec![spec.fill(&found.spec)?, map.fill(&found.map)?]),
+    };
+    let page = page.map(|file| {
         let test = arguments.test.iter().map(|file| ("test", file));
         let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
         let spec = &job.machine.spec;
         let provenance = provenance(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
-        write(file, &abbe_report::identification(spec, &job.map, &report, &provenance))?;
-    }
-    if arguments.running.json {
-        report.notes.iter().for_each(|line| note(line));
-        return Ok(Outcome::checked(json(&report)?, accepted));
-    }
-    Ok(Outcome::checked(text::text(&job.machine.spec, &report, written.as_deref()), accepted))
+        file.fill(&abbe_report::identification(spec, &job.map, &report, &provenance))
+    });
+    let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
+    let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
+    let text = match arguments.running.json {
+        true => {
+            report.notes.iter().for_each(|line| note(line));
+            json(&report)?
+        }
+        false => text::text(&job.machine.spec, &report, written.as_deref()),
+    };
+    Ok(Outcome::checked(text, accepted).beside(printed))
 }
 
 /// The limits that are given, or those of the map.
@@ -69,36 +79,46 @@ pub(crate) fn accept(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Accep
     Ok(Acceptance::read("--accept", text, spec.length)?)
 }
 
-/// Writes the spec of the identified machine and its map; what was added to the spec comes back, line by line.
-fn write_found(
-    file: &Path,
-    arguments: &arguments::Identify,
-    job: &Identify,
-    report: &Report,
-) -> Result<String, Failure> {
-    let machine = &job.machine;
-    let map_file = file.with_extension("map.toml");
-    let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if same(&map_file, &arguments.measured.map) {
-        let message = format!("the map of this run is {}, which would be overwritten", map_file.display());
-        return Err(Failure::of("--out", message).help("name another file"));
+/// Begins the spec of the identified machine, and beside it its map.
+fn begin<'f>(file: &'f Path, outputs: &mut Outputs) -> Result<(Pending, Pending, &'f Path), Failure> {
+    let spec = outputs.file(file)?;
+    if !spec.is_file() {
+        return Err(Failure::of(file.display(), "this is no file, and a map is to be written beside it")
+            .help("name a file for the spec"));
     }
+    Ok((spec, outputs.file(&map_file(file))?, file))
+}
+
+/// The map of an identified machine stands beside its spec.
+fn map_file(spec: &Path) -> PathBuf {
+    spec.with_extension("map.toml")
+}
+
+/// The spec of the identified machine and its map, and what is said of them.
+struct Found {
+    spec: String,
+    map: String,
+    text: String,
+}
+
+/// What is to be written; what was added to the spec is said line by line.
+fn found(file: &Path, job: &Identify, report: &Report) -> Result<Found, Failure> {
+    let machine = &job.machine;
     let spec = report.found.written(&machine.spec, &machine.text()?, &file.display().to_string())?;
-    let name = map_file.display().to_string();
+    let name = map_file(file).display().to_string();
     let map = report.found.written_map(&job.map, &machine.spec, &name)?;
-    write(file, &spec.text)?;
-    write(&map_file, &map)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned() + "\n");
     let lines: String = lines.collect();
     let beside = format!(
         "Beside it {name}: the map with where the machine stands and what is mounted on its tool. Give `measure`, \
          `simulate`, `compensate` and `plan` both."
     );
-    Ok(format!(
+    let text = format!(
         "Written to {}: the nominal spec, these lines, and the covariance of what they say\n{lines}{}\n",
         file.display(),
         crate::table::wrapped(&beside, 0)
-    ))
+    );
+    Ok(Found { spec: spec.text, map, text })
 }
 
 fn loss(robust: Robust) -> Loss {

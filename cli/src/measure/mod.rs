@@ -9,7 +9,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::accept;
-use crate::output::{Outcome, cannot_write, json, write};
+use crate::output::{Outcome, Outputs, json};
 use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
@@ -20,19 +20,25 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let data = Data::read(&arguments.measured.data, &map)?;
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let job = Measure { machine, map, data, accept };
+    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let files = match &arguments.out {
+        None => None,
+        Some(folder) => {
+            outputs.folder(folder)?;
+            Some((outputs.file(&folder.join("errors.csv"))?, outputs.file(&folder.join(abbe_report::PAGE))?))
+        }
+    };
     let report = job.run(&mut Console::default())?;
     let spec = &job.machine.spec;
-    if let Some(folder) = &arguments.out {
+    if let Some((errors, page)) = files {
         let provenance = provenance(
             spec,
             Some(&job.map),
             [("measurements", &arguments.measured.data)],
             arguments.date.as_ref(),
         )?;
-        let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
-        std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
-        write(&folder.join("errors.csv"), &report.table().csv())?;
-        write(&folder.join("report.html"), &page)?;
+        let text = abbe_report::measurement(spec, &job.map, &report, &provenance);
+        outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
     }
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
     Ok(Outcome::checked(

@@ -9,7 +9,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, json, write};
+use crate::output::{Outcome, Outputs, json};
 use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
@@ -28,13 +28,16 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
         ..Settings::default()
     };
     let job = Monitor { machine, map, checks, settings };
+    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let page = outputs.wanted(arguments.page.report.as_deref())?;
     let report = job.run(&mut Console::default())?;
-    if let Some(file) = &arguments.page.report {
+    let page = page.map(|file| {
         let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
         let provenance = provenance(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
-        write(file, &abbe_report::monitoring(spec, &job.map, &report, &provenance))?;
-    }
+        file.fill(&abbe_report::monitoring(spec, &job.map, &report, &provenance))
+    });
+    let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();
     let text = if arguments.running.json { json(&report)? } else { text::text(&job.machine.spec, &report) };
-    Ok(Outcome::checked(text, passed))
+    Ok(Outcome::checked(text, passed).beside(printed))
 }

@@ -13,7 +13,7 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::alike_table;
 use crate::number::length;
-use crate::output::{Outcome, json, write};
+use crate::output::{Outcome, Outputs, json};
 use crate::table::wrapped;
 
 pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
@@ -34,14 +34,16 @@ pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
     let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
     let study = arguments::study(arguments.study.as_deref(), &machine)?;
     let job = Plan { machine, map, choice, study, model_error, seed: arguments.seed };
+    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let out = outputs.wanted(arguments.out.as_deref())?;
     let report = job.run(&mut Console::default())?;
-    if let Some(file) = &arguments.out {
-        write(file, &report.table(&job.map).csv())?;
-    }
-    Ok(Outcome::passed(match arguments.running.json {
+    let out = out.map(|file| file.fill(&report.table(&job.map).csv())).transpose()?;
+    let printed = outputs.finish(out)?;
+    let text = match arguments.running.json {
         true => json(&report)?,
         false => text(&job.machine.spec, &job.map, &report, arguments.out.as_deref()),
-    }))
+    };
+    Ok(Outcome::passed(text).beside(printed))
 }
 
 fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {

@@ -7,7 +7,7 @@ use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, json, write};
+use crate::output::{Outcome, Outputs, json};
 
 pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -27,14 +27,15 @@ pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
         random: arguments.random,
         seed: arguments.seed,
     };
+    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let out = outputs.wanted(arguments.out.as_deref())?;
     let report = job.run(&mut Console::default())?;
     let table = &report.table;
-    if let Some(file) = &arguments.out {
-        write(file, &table.csv())?;
-    }
-    Ok(Outcome::passed(match &arguments.out {
+    let printed = outputs.finish(out.map(|file| file.fill(&table.csv())).transpose()?)?;
+    let text = match &arguments.out {
         _ if arguments.running.json => json(&report)?,
         Some(file) => format!("{}: {} rows\n", file.display(), table.rows.len()),
         None => table.csv(),
-    }))
+    };
+    Ok(Outcome::passed(text).beside(printed))
 }

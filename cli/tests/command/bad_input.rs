@@ -86,7 +86,8 @@ fn places_to_write_to() {
 
     let blocked = folder.path().join("blocked");
     fs::create_dir_all(blocked.join("sources.csv")).unwrap();
-    refused(&["analyze", "pps", "--out", &path(&blocked)], &["sources.csv"]);
+    refused(&["analyze", "pps", "--out", &path(&blocked)], &["none was written by abbe", "--force"]);
+    refused(&["analyze", "pps", "--force", "--out", &path(&blocked)], &["sources.csv"]);
     assert_eq!(fs::read_dir(&blocked).unwrap().count(), 1, "no partial file is left");
 }
 

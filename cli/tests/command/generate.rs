@@ -26,11 +26,11 @@ fn a_file_is_written_whole() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("arm.rs");
     fs::write(&path, "what was there before").unwrap();
-    let run = abbe(&["generate", "puma560", "--out", path.to_str().unwrap()]);
+    let run = abbe(&["generate", "puma560", "--force", "--out", path.to_str().unwrap()]);
     assert_eq!((run.status, run.stdout.as_str()), (0, ""));
     assert!(run.stderr.starts_with("wrote "));
     assert_eq!(fs::read_to_string(&path).unwrap(), prints(&["generate", "puma560"]));
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left there");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing else is left there but the record");
 }
 
 #[test]

@@ -439,5 +439,5 @@ fn limits_make_a_verdict() {
     let again = ["identify", "ur5", path(&data), "--map", path(&map), "--out", path(&out)];
     let run = abbe(&again);
     assert_eq!(run.status, 2);
-    assert!(run.stderr.contains("which would be overwritten"), "{}", run.stderr);
+    assert!(run.stderr.contains("this run reads this file, and would write over it"), "{}", run.stderr);
 }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::PathBuf;
 
+use crate::cell::meant;
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::{Document, Item};
 
@@ -44,6 +45,7 @@ impl Columns {
             fail(document, format!("cannot read `{file}`: {error}"), help);
             return None;
         }
+        document.files.push(path.clone());
         document.beside.push((path, bytes.clone()));
         if bytes.len() as u64 > LARGEST {
             let message = format!("`{file}` is larger than {} MiB", LARGEST >> 20);
@@ -52,8 +54,10 @@ impl Columns {
         }
         let mut reader =
             csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(&bytes[..]);
-        let result =
-            reader.headers().map(|names| names.iter().map(str::to_owned).collect()).and_then(|names| {
+        let result = reader
+            .headers()
+            .map(|names| names.iter().map(|name| meant(name).to_owned()).collect())
+            .and_then(|names| {
                 let rows =
                     reader.records().map(|row| row.map(|row| (row.position().map_or(0, |p| p.line()), row)));
                 Ok((names, rows.collect::<Result<Vec<_>, _>>()?))

@@ -1,5 +1,7 @@
 //! The question, and how it is answered.
 
+use std::path::PathBuf;
+
 use abbe::Description;
 use abbe::analysis::{
     Admissible, Asked, Budget, Measurand, Row, Statement, Subset, Unevaluated, Watch, Workspace,
@@ -17,6 +19,7 @@ use crate::changes::Changes;
 use crate::extrapolated::extrapolated;
 use crate::machine::Machine;
 use crate::notes::Notes;
+use crate::reads::Reads;
 use crate::study_file::Study;
 use crate::{mistake, number};
 
@@ -39,6 +42,12 @@ pub struct Analyze {
     pub interpret: bool,
     /// Whether to gather what the figures of the study show.
     pub figures: bool,
+}
+
+impl Reads for Analyze {
+    fn files(&self) -> Vec<PathBuf> {
+        [self.machine.files(), self.study.files()].concat()
+    }
 }
 
 impl Analyze {

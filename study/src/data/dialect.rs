@@ -15,14 +15,12 @@ pub(super) struct Dialect {
 }
 
 impl Dialect {
-    /// Of a file's text. The first line that is no comment has the names of the columns: whatever it has most of stands
+    /// Of a file's text. The first record has the names of the columns: whatever it has most of outside of quotes stands
     /// between them. Decimals have a comma if a cell is a number with a comma and none is one with a point.
     pub(super) fn detect(bytes: &[u8]) -> Self {
-        let mut lines = bytes.split(|byte| matches!(byte, b'\n' | b'\r'));
-        let heading = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")).unwrap_or_default();
-        let count = |delimiter: u8| heading.iter().filter(|byte| **byte == delimiter).count();
+        let counts = separators(bytes);
         // Of equals the last is taken.
-        let delimiter = [b'\t', b';', b','].into_iter().max_by_key(|delimiter| count(*delimiter));
+        let delimiter = [b'\t', b';', b','].into_iter().max_by_key(|byte| counts[usize::from(*byte)]);
         let plain = Self { delimiter: delimiter.unwrap_or(b','), decimal_comma: false };
         let records =
             plain.reader(bytes).into_records().take(LOOKED_AT).filter_map(Result::ok).collect::<Vec<_>>();
@@ -75,6 +73,27 @@ impl Dialect {
     }
 }
 
+/// How often every byte stands in the heading, outside of quotes.
+fn separators(bytes: &[u8]) -> [usize; 256] {
+    let mut rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    while let [b'\n' | b'\r' | b'#', ..] = rest {
+        let comment = rest.iter().take_while(|byte| rest[0] == b'#' && **byte != b'\n').count();
+        rest = &rest[comment.max(1)..];
+    }
+    let (mut counts, mut quoted, mut before) = ([0; 256], false, b',');
+    for byte in rest.iter().copied() {
+        match byte {
+            // A quote in the middle of a cell is one; of two in a quoted cell, the second opens it again.
+            b'"' if quoted || matches!(before, b',' | b';' | b'\t' | b'"') => quoted = !quoted,
+            b'\n' | b'\r' if !quoted => break,
+            _ if quoted => {}
+            _ => counts[usize::from(byte)] += 1,
+        }
+        before = byte;
+    }
+    counts
+}
+
 #[cfg(test)]
 mod tests {
     use super::Dialect;
@@ -90,6 +109,8 @@ mod tests {
             ("a;b, measured;c\n1.5;x,y;3\n", b';', false),
             ("a;b\n1,5;2.5\n", b';', false),
             ("a\n1\n", b',', false),
+            ("\"a;b;c\",\"d\n;;\"\"e\"\n1.5,2\n", b',', false),
+            ("5\" rail;x;y, z\n1;2;3\n", b';', false),
         ] {
             assert_eq!(Dialect::detect(text.as_bytes()), Dialect { delimiter, decimal_comma }, "{text:?}");
         }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostics;
 use csv::StringRecord;
 
@@ -37,7 +38,7 @@ impl File {
         let mut table = Self { file: file_name, bytes, dialect, heading: Vec::new() };
         let mut reader = dialect.reader(&table.bytes);
         let heading = reader.headers().map_err(|error| unreadable(&table.file, &error))?;
-        table.heading = heading.iter().map(str::to_owned).collect();
+        table.heading = heading.iter().map(|name| meant(name).to_owned()).collect();
         Ok(table)
     }
 
@@ -105,7 +106,7 @@ impl Record<'_> {
 
     /// What stands at a place.
     pub(super) fn text(&self, place: usize) -> &str {
-        self.fields.get(place).unwrap_or_default()
+        self.fields.get(place).map_or("", meant)
     }
 
     /// The time at a place: a number, or of a date the days since 1970.

@@ -1,5 +1,6 @@
 //! What the columns of a data file are.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use abbe::Pose;
@@ -83,6 +84,8 @@ pub struct Map {
     pub(super) resolution: Vec<Option<f64>>,
     pub(super) path: String,
     pub(super) text: Arc<str>,
+    /// The file it was read from; none if it is shipped.
+    pub(crate) files: Vec<PathBuf>,
 }
 
 impl Map {
@@ -111,6 +114,7 @@ impl Map {
             resolution: resolution(spec),
             path: "the names of the spec".to_owned(),
             text: Arc::from(""),
+            files: Vec::new(),
         }
     }
 

@@ -144,6 +144,7 @@ fn read_map(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<
         resolution: resolution(spec),
         path: document.path.clone(),
         text: Arc::clone(&document.text),
+        files: document.files.clone(),
     })
 }
 

@@ -35,7 +35,7 @@ pub(super) fn constant(
 }
 
 pub(super) fn column(item: &Item<'_>, document: &mut Document) -> Option<Column> {
-    document.string(item).map(|name| Column { name, span: Some(item.span()) })
+    document.string(item).map(|name| Column { name: name.trim().to_owned(), span: Some(item.span()) })
 }
 
 pub(super) fn columns<const N: usize>(

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher, RandomState};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use abbe::identify::{Configurations, Observation};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -28,6 +28,8 @@ pub struct Unusable {
 pub struct Data {
     /// The file's name.
     pub file: String,
+    /// The file itself; none if the rows come from elsewhere.
+    pub files: Vec<PathBuf>,
     /// How it is written, if not with commas between cells and points in decimals.
     pub written: Option<&'static str>,
     /// Those that can be used, in order.
@@ -95,7 +97,13 @@ impl Data {
         let station = station.as_ref().and_then(place);
         let (commanded, measured) = (places(&commanded), places(&measured));
         let (stations, written) = (map.stations.names(), table.dialect.words());
-        let mut data = Self { file: file.display().to_string(), written, stations, ..Self::default() };
+        let mut data = Self {
+            file: file.display().to_string(),
+            files: vec![file.to_owned()],
+            written,
+            stations,
+            ..Self::default()
+        };
         let [group, direction, time] =
             [&map.group, &map.direction, &map.time].map(|column| column.as_ref().and_then(|c| place(&c)));
         let (mut groups, mut directions) = (Vec::new(), Vec::new());

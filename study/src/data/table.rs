@@ -1,5 +1,9 @@
 //! Rows to be written: a heading and numbers.
 
+use std::borrow::Cow;
+
+use abbe_codegen::cell::harmless;
+use csv::{QuoteStyle, WriterBuilder};
 use serde::Serialize;
 
 /// A table of numbers, for a CSV file.
@@ -15,28 +19,32 @@ pub struct Table {
 }
 
 impl Table {
-    /// As text: digits enough for a nanometre.
+    /// As text: digits enough for a nanometre, and nothing that a spreadsheet would run.
     pub fn csv(&self) -> String {
-        let mut text = self.heading.join(",") + "\n";
+        // What stands between cells in other countries would be taken for that, were it not in quotes.
+        let texts = || self.heading.iter().chain(&self.labels);
+        let quotes = match texts().any(|text| text.contains([';', '\t'])) {
+            true => QuoteStyle::NonNumeric,
+            false => QuoteStyle::Necessary,
+        };
+        let mut builder = WriterBuilder::new();
+        builder.comment(Some(b'#')).flexible(true).quote_style(quotes);
+        let mut writer = builder.from_writer(Vec::new());
+        let mut write = |record: Vec<Cow<'_, str>>| {
+            // A vector takes everything.
+            let _ = writer.write_record(record.iter().map(|cell| cell.as_bytes()));
+        };
+        write(self.heading.iter().map(|name| harmless(name)).collect());
         for (i, row) in self.rows.iter().enumerate() {
-            let label = self.labels.get(i).map(|label| quoted(label));
-            let fields = row.iter().map(|value| value.map_or(String::new(), field));
-            let fields = label.into_iter().chain(fields);
-            text += &(fields.collect::<Vec<_>>().join(",") + "\n");
+            let label = self.labels.get(i).map(|label| harmless(label));
+            let cells = row.iter().map(|value| value.map_or("".into(), |value| number(value).into()));
+            write(label.into_iter().chain(cells).collect());
         }
-        text
+        String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
     }
 }
 
-/// A text as a field: in quotes where it needs them.
-fn quoted(text: &str) -> String {
-    match text.contains([',', '"', '\n', '\r', '#']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
-    }
-}
-
-fn field(value: f64) -> String {
+fn number(value: f64) -> String {
     let value = format!("{value:.9e}").parse::<f64>().unwrap_or(value);
     format!("{}", value + 0.0)
 }

@@ -2,7 +2,7 @@
 //!
 //! `docs/reference/plan.md` has every key.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe::analysis::{Axis, Configuration};
@@ -23,6 +23,8 @@ pub struct Sets {
     repeat: usize,
     sets: Vec<Set>,
     inputs: Vec<Axis>,
+    /// The files it was read from: its own, and those of paths; none if it is shipped.
+    pub(crate) files: Vec<PathBuf>,
 }
 
 #[derive(Clone, Debug)]
@@ -162,5 +164,11 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
         };
         sets.push(Set { name, content });
     }
-    Some(Sets { title: head.optional_text("title", document), repeat: repeat?, sets, inputs })
+    Some(Sets {
+        title: head.optional_text("title", document),
+        repeat: repeat?,
+        sets,
+        inputs,
+        files: document.files.clone(),
+    })
 }

@@ -84,6 +84,7 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Stud
         compensation,
         figures,
         file: Some(identify(document)),
+        files: document.files.clone(),
     })
 }
 

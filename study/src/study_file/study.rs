@@ -1,5 +1,7 @@
 //! What a study says.
 
+use std::path::PathBuf;
+
 use abbe_codegen::spec::Spec;
 
 use super::compensation::Compensated;
@@ -38,6 +40,8 @@ pub struct Study {
     pub figures: Vec<Figure>,
     /// Its file and the SHA-256 of the text; none if there is no study.
     pub file: Option<(String, String)>,
+    /// The files it was read from: its own, and those of paths.
+    pub files: Vec<PathBuf>,
 }
 
 impl Study {
@@ -81,6 +85,7 @@ impl Study {
             compensation: None,
             not_reproducible: Vec::new(),
             file: None,
+            files: Vec::new(),
         }
     }
 }

@@ -12,6 +12,7 @@ use std::path;
 
 use abbe::Manipulator;
 use abbe::analysis::Configuration;
+use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Section};
 use abbe_codegen::expr::{Dimension, find_name, parse_value};
@@ -102,7 +103,9 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
     let item = section.required("file", document)?;
     let file = document.string(&item)?;
     let folder = path::Path::new(&document.path).parent().unwrap_or(path::Path::new(""));
-    let found = read_file(&folder.join(&file), spec);
+    let path = folder.join(&file);
+    let found = read_file(&path, spec);
+    document.files.push(path);
     let found = found.map_err(|message| {
         let message = format!("{}: {message}", file.escape_debug());
         document.mistake(
@@ -119,7 +122,7 @@ fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64
     let reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_path(file);
     let mut reader = reader.map_err(|error| error.to_string())?;
     let heading = reader.headers().map_err(|error| error.to_string())?;
-    let columns = heading.iter().map(|name| column(name, spec)).collect::<Result<Vec<_>, _>>()?;
+    let columns = heading.iter().map(|name| column(meant(name), spec)).collect::<Result<Vec<_>, _>>()?;
     for (i, column) in columns.iter().enumerate() {
         if columns[..i].iter().any(|other| other.place == column.place) {
             return Err(format!("the column `{}` stands there twice", &heading[i]));

@@ -1,0 +1,76 @@
+//! A file that waits for its place until it, and all others of its command, are complete.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+use tempfile::NamedTempFile;
+
+use super::place::{Place, parent};
+use super::{cannot_write, temporary};
+use crate::failure::Failure;
+
+/// A file that is being written.
+#[derive(Debug)]
+pub(crate) struct Pending {
+    /// As the user calls it.
+    pub(super) path: PathBuf,
+    pub(super) place: Place,
+    pub(super) content: Content,
+    hash: Sha256,
+}
+
+/// Where it is until then.
+#[derive(Debug)]
+pub(super) enum Content {
+    Beside(NamedTempFile<File>),
+    Memory(Vec<u8>),
+}
+
+impl Pending {
+    pub(super) fn begin(path: &Path, place: Place) -> Result<Self, Failure> {
+        let content = match &place {
+            Place::File(file) => {
+                let old = fs::metadata(file).ok();
+                let begun = temporary::file(parent(file), old.as_ref());
+                Content::Beside(begun.map_err(|error| cannot_write(path, &error))?)
+            }
+            Place::Stdout | Place::Through(_) => Content::Memory(Vec::new()),
+        };
+        Ok(Self { path: path.to_owned(), place, content, hash: Sha256::new() })
+    }
+
+    /// The same with a text in it.
+    pub(crate) fn fill(mut self, text: &str) -> Result<Self, Failure> {
+        match self.write_all(text.as_bytes()) {
+            Ok(()) => Ok(self),
+            Err(error) => Err(cannot_write(&self.path, &error)),
+        }
+    }
+
+    /// Whether it will be a file of its own, not what is written to a pipe or a device.
+    pub(crate) fn is_file(&self) -> bool {
+        matches!(self.place, Place::File(_))
+    }
+
+    /// What is in it, as `sha256sum` says it.
+    pub(super) fn hash(&self) -> String {
+        abbe_study::hash::digits(&self.hash.clone().finalize())
+    }
+}
+
+impl Write for Pending {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = match &mut self.content {
+            Content::Beside(file) => file.as_file_mut().write(bytes)?,
+            Content::Memory(memory) => memory.write(bytes)?,
+        };
+        self.hash.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}

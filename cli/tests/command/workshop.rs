@@ -1,0 +1,160 @@
+//! A folder with an arm and all kinds of files that a command reads, to write beside them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use crate::running::prints;
+
+const SPEC: &str = r#"
+[manipulator]
+name = "arm"
+length = "mm"
+
+[tables.straightness]
+file = "rail.csv"
+x = { column = "d1", unit = "mm" }
+y = { column = "dz", unit = "um" }
+interpolation = "linear"
+
+[[frame]]
+name = "column"
+variable = { name = "d1", kind = "prismatic", limits = ["0 mm", "800 mm"] }
+transform = "Tz(d1 + 200 mm)"
+
+[[frame]]
+name = "shoulder"
+variable = { name = "q2", kind = "revolute", limits = ["-150 deg", "150 deg"] }
+dh = { theta = "q2", d = 0, a = 400, alpha = 0 }
+
+[tool]
+transform = "Tx(450 mm)"
+
+[[source]]
+name = "rail"
+class = "repeatable"
+frame = "column"
+e_z = "straightness(d1)"
+
+[[source]]
+name = "encoder"
+class = "random"
+distribution = "uniform"
+joint = "q2"
+error = "20e-6"
+"#;
+
+const MAP: &str = r#"
+[data]
+title = "Laser tracker"
+uncertainty = "0.01 mm"
+base = "exact"
+
+[joints]
+d1 = { column = "d1", unit = "mm" }
+q2 = { column = "q2 (deg)", unit = "deg" }
+
+[point]
+columns = ["x", "y", "z"]
+unit = "mm"
+"#;
+
+const STUDY: &str = "[study]\ntitle = \"A path\"\n[workspace.path]\nfile = \"path.csv\"\n";
+
+const PLAN: &str =
+    "[plan]\ntitle = \"A path\"\n[[set]]\nname = \"path\"\nworkspace.path = { file = \"path.csv\" }\n";
+
+/// As a path and as a plan: the map's column has the name that says its unit.
+pub(crate) const PATH: &str =
+    "d1,q2 (deg)\n0,-90\n100,-60\n200,-30\n300,0\n500,30\n600,60\n700,90\n800,120\n";
+
+/// The files of it, by what they are.
+pub(crate) const FILES: [&str; 8] =
+    ["s.toml", "rail.csv", "m.toml", "study.toml", "path.csv", "plan.toml", "d.csv", "t.csv"];
+
+/// Every command that writes, with what it reads of it, without the path that it writes to: a file, or a folder.
+pub(crate) const WRITING: [(&str, &[&str]); 11] = [
+    ("generate s.toml --out", &["s.toml", "rail.csv"]),
+    (
+        "plan s.toml --map m.toml --optimal 20 --candidates 40 --study study.toml --out",
+        &["s.toml", "rail.csv", "m.toml", "study.toml", "path.csv"],
+    ),
+    (
+        "plan s.toml --map m.toml --sets plan.toml --out",
+        &["s.toml", "rail.csv", "m.toml", "plan.toml", "path.csv"],
+    ),
+    ("simulate s.toml path.csv --map m.toml --out", &["s.toml", "rail.csv", "m.toml", "path.csv"]),
+    ("compensate s.toml d.csv --map m.toml --out", &["s.toml", "rail.csv", "m.toml", "d.csv"]),
+    ("compensate s.toml d.csv --map m.toml --report", &["s.toml", "rail.csv", "m.toml", "d.csv"]),
+    ("monitor s.toml d.csv t.csv --map m.toml --report", &["s.toml", "rail.csv", "m.toml", "d.csv", "t.csv"]),
+    (
+        "identify s.toml d.csv --map m.toml --test t.csv --out",
+        &["s.toml", "rail.csv", "m.toml", "d.csv", "t.csv"],
+    ),
+    (
+        "identify s.toml d.csv --map m.toml --test t.csv --report",
+        &["s.toml", "rail.csv", "m.toml", "d.csv", "t.csv"],
+    ),
+    ("measure s.toml d.csv --map m.toml --out", &["s.toml", "rail.csv", "m.toml", "d.csv"]),
+    ("analyze s.toml --study study.toml --out", &["s.toml", "rail.csv", "study.toml", "path.csv"]),
+];
+
+/// Whether a command writes a folder, and then a file in it.
+pub(crate) fn in_folder(command: &str) -> Option<&'static str> {
+    ["measure", "analyze"].iter().any(|name| command.starts_with(name)).then_some("report.html")
+}
+
+pub(crate) struct Workshop(pub(crate) TempDir);
+
+impl Workshop {
+    pub(crate) fn new() -> Self {
+        let workshop = Self(tempfile::tempdir().unwrap());
+        for (name, text) in [
+            ("s.toml", SPEC),
+            ("rail.csv", "d1,dz\n0,0\n400,12\n800,3\n"),
+            ("m.toml", MAP),
+            ("study.toml", STUDY),
+            ("plan.toml", PLAN),
+            ("path.csv", PATH),
+        ] {
+            fs::write(workshop.at(name), text).unwrap();
+        }
+        // The same configurations twice.
+        for (name, at, seed) in [("d.csv", "--samples 30", "1"), ("t.csv", "d.csv", "2")] {
+            let line = format!("simulate s.toml {at} --map m.toml --seed {seed}");
+            fs::write(workshop.at(name), prints(&workshop.words(&line))).unwrap();
+        }
+        workshop
+    }
+
+    pub(crate) fn at(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub(crate) fn path(&self, name: &str) -> String {
+        self.at(name).to_str().expect("a path is text").to_owned()
+    }
+
+    /// The words of a command, with the paths of its files.
+    pub(crate) fn words(&self, line: &str) -> Vec<String> {
+        let path = |word: &str| if word.contains('.') { self.path(word) } else { word.to_owned() };
+        line.split_whitespace().map(path).collect()
+    }
+}
+
+/// All files below a folder, through links, with what is in them; but for the records of what was written.
+pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            all.extend(contents(&path));
+        } else if path.file_name() != Some(".abbe-written".as_ref()) {
+            let content = fs::read(&path).unwrap_or_default();
+            all.insert(path, content);
+        }
+    }
+    all
+}
