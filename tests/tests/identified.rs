@@ -274,3 +274,38 @@ fn chance_is_no_term() {
     // At 5 % each, two or more of four are an accident of 1.4 %.
     assert!(taken <= 1, "{taken}");
 }
+
+/// A shoulder that gives way about three axes, two of them together: weight about one turns it about the other, too.
+#[test]
+fn full_compliances_are_found_and_written() {
+    let number = |value: f64| format!("\"{value}e-5/(N*m)\"");
+    let compliance = |off: f64| {
+        let (d, o) = (number(8.0), number(off));
+        format!(
+            "[[source]]\nname = \"gives way\"\nclass = \"repeatable\"\nframe = \"elbow\"\ncompliance = {{ matrix = [\
+             [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], \
+             [0, 0, 0, {d}, 0, {o}], [0, 0, 0, 0, 0, 0], [0, 0, 0, {o}, 0, {d}]] }}\n\n"
+        )
+    };
+    let load = "[[load]]\nname = \"gripper\"\nmass = \"3 kg\"\nframe = \"wrist 3\"\npoint = \"tool\"\n";
+    let gravity = "gravity = [0, 0, \"-9.80665 m/s^2\"]\n";
+    let nominal = format!("{gravity}{}", ur5(load));
+    for off in [0.0, 6.0, -6.0] {
+        let truth = format!("{gravity}{}", ur5(&format!("{}{load}", compliance(off))));
+        let data = measured(&truth, "exact", POINT, 200, 9);
+        let mut job = job(&nominal, "exact", POINT, &data);
+        job.terms = vec![Family::Elastic];
+        let report = job.run(&mut ()).expect("it is identified");
+        let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
+        let coupled = names.iter().any(|name| name.contains("gives way under weight, e_s with e_p"));
+        println!("{off}: {names:?}");
+        assert_eq!(coupled, off != 0.0, "{off}: {names:?}");
+        // Nothing but the noise is left: √3 σ of a point.
+        assert!(report.fit.after.rms < 1.1 * 0.02 * 3f64.sqrt(), "{off}: {:?}", report.fit.after);
+        let found = written(&report, &nominal);
+        assert_eq!(found.contains("compliance = { matrix = "), coupled, "{found}");
+        let left = left(&report, &nominal, "exact", POINT, &data);
+        let rms = report.fit.after.rms;
+        assert!((left - rms).abs() < 0.01 * rms, "{off}: {left} {rms}\n{found}");
+    }
+}

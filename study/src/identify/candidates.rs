@@ -17,7 +17,7 @@ pub enum Family {
     /// Errors of joints, parameters and frames in proportion to an input: to a load, a temperature, a motor's current.
     Load,
     /// Turns of base and frames in proportion to the moment that the loads of the spec, or the weight of 1 kg at the tool
-    /// point, have about them.
+    /// point, have about them: each about its own axis, then what couples the axes.
     Elastic,
     /// Errors of joints by the direction from which they came, row by row, or in which a weight pulls at them.
     Backlash,
@@ -82,7 +82,7 @@ pub fn candidates(
             of_kind(|kind| matches!(kind, DerivedKind::FromRows(_))),
         ]
         .concat(),
-        [of_joint(&[3, 4], &[3]), gears.collect()].concat(),
+        [of_joint(&[3, 4], &[3]), gears.collect(), with(Family::Elastic, coupled)].concat(),
         with(Family::Product, product),
         of_kind(|kind| matches!(kind, DerivedKind::Settling(_) | DerivedKind::Drift)),
     ];
@@ -168,6 +168,17 @@ fn turns(spec: &Spec) -> Vec<[Place; 3]> {
 fn elastic(spec: &Spec) -> Vec<Vec<Term>> {
     let places = turns(spec).into_iter().flatten();
     places.map(|place| vec![Term { place, basis: Basis::Moment }]).collect()
+}
+
+/// What full compliances have off their diagonals, of base and frames: pair by pair, and all three of a place at once.
+fn coupled(spec: &Spec) -> Vec<Vec<Term>> {
+    let of_place = |[spin, roll, pitch]: [Place; 3]| {
+        let pair = |place: Place, other| Term { place, basis: Basis::Coupled(other) };
+        let three =
+            [pair(spin, Component::Roll), pair(spin, Component::Pitch), pair(roll, Component::Pitch)];
+        three.map(|term| vec![term]).into_iter().chain([three.to_vec()])
+    };
+    turns(spec).into_iter().flat_map(of_place).collect()
 }
 
 fn product(spec: &Spec) -> Vec<Vec<Term>> {

@@ -61,7 +61,8 @@ impl Term {
             deviations.push(Deviation { number, error: error(dimension), span: 0..0 });
         };
         let cause = |component: Component| match self.basis {
-            Basis::Moment => Cause::Compliance(Box::new(compliance(spec, component))),
+            Basis::Moment => Cause::Compliance(Box::new(compliance(spec, component, component))),
+            Basis::Coupled(other) => Cause::Compliance(Box::new(compliance(spec, component, other))),
             _ if component.is_rotation() => Cause::Errors(vec![(component, error(Dimension::NONE))]),
             _ => Cause::Errors(vec![(component, error(Dimension::LENGTH))]),
         };
@@ -121,13 +122,14 @@ fn inverse(factors: &[Factor]) -> Vec<Factor> {
     factors.collect()
 }
 
-/// A microradian per N times the length unit, about one axis.
-fn compliance(spec: &Spec, component: Component) -> Compliance {
+/// A microradian per N times the length unit: about one axis by the moment about the other, and the other way round.
+fn compliance(spec: &Spec, one: Component, other: Component) -> Compliance {
     let value = in_units(spec, 1e-6, &[("N", -1), (spec.length.symbol(), -1)]);
     let dimension = Dimension::NONE.over(Dimension::MOMENT).unwrap_or(Dimension::NONE);
     let mut compliance = Compliance::default();
-    let place = component as usize;
-    compliance[place][place] = Some(Expression::from_number(value, dimension));
+    for (row, column) in [(one, other), (other, one)] {
+        compliance[row.index()][column.index()] = Some(Expression::from_number(value, dimension));
+    }
     compliance
 }
 
@@ -143,7 +145,7 @@ impl Basis {
                 let value = Expression::from_symbol(Symbol::Input(input), dimension);
                 value / Expression::from_number(1.0, dimension)
             }
-            Self::Moment => Expression::from_number(0.0, Dimension::NONE),
+            Self::Moment | Self::Coupled(_) => Expression::from_number(0.0, Dimension::NONE),
         }
     }
 }

@@ -6,7 +6,7 @@
 //! fits and judges on the data alone, `gross` looks for gross errors; `magnitude` are sources of the spec that are fitted with
 //! the constants. `terms` are errors that richer models have, `candidates` those that are tried, `derived` the inputs that
 //! follow from the order of the rows; `choose` takes in what earns its place, `extended` is the spec that has it. `found` is the
-//! identified machine, `placed` where it stands and what is mounted on its tool, `written` its spec (`written_covariance` how well it is known) and `written_map` its map; `report` is what comes out,
+//! identified machine, `placed` where it stands and what is mounted on its tool, `written` its spec (`written_compliance` full compliances, `written_covariance` how well it is known) and `written_map` its map; `report` is what comes out,
 //! with `point_residuals` for pictures, `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
 
 mod aim;
@@ -36,6 +36,7 @@ mod setup;
 mod solve;
 mod terms;
 mod written;
+mod written_compliance;
 mod written_covariance;
 mod written_map;
 

@@ -136,7 +136,7 @@ impl Term {
             Place::Parameter(_) => false,
         };
         match self.basis {
-            Basis::Moment => 1e6 / (9.80665 * setup.arm),
+            Basis::Moment | Basis::Coupled(_) => 1e6 / (9.80665 * setup.arm),
             _ if is_angle => 1.0,
             _ => setup.arm,
         }

@@ -40,6 +40,9 @@ pub enum Basis {
     Input(usize),
     /// The moment that weights have about the frame, in 10⁶ N times the length unit: a compliance.
     Moment,
+    /// The moment about another axis, and the other way round, by reciprocity: what a compliance has off its diagonal, in the same
+    /// unit.
+    Coupled(Component),
 }
 
 /// A number that changes with the joints.
@@ -149,7 +152,7 @@ impl Basis {
     /// Its value where joints and inputs are these; 1 of what is no factor of an error but its cause.
     pub(super) fn value(self, q: &[f64], u: &[f64]) -> f64 {
         match self {
-            Self::One | Self::Moment => 1.0,
+            Self::One | Self::Moment | Self::Coupled(_) => 1.0,
             Self::Wave(wave) => wave.value(q),
             Self::Product(one, other) => one.value(q) * other.value(q),
             Self::Input(input) => u[input],
@@ -158,7 +161,7 @@ impl Basis {
 
     /// Whether it is a compliance.
     pub(super) fn is_elastic(self) -> bool {
-        self == Self::Moment
+        matches!(self, Self::Moment | Self::Coupled(_))
     }
 
     /// As an expression of a spec; a compliance is none, it is one per this.
@@ -172,7 +175,7 @@ impl Basis {
                 let one = if input.unit.is_empty() { "1".to_owned() } else { format!("(1 {})", input.unit) };
                 format!("{}/{one}", input.name)
             }
-            Self::Moment => format!("1e-6/(N*{})", spec.length.symbol()),
+            Self::Moment | Self::Coupled(_) => format!("1e-6/(N*{})", spec.length.symbol()),
         }
     }
 }
@@ -193,6 +196,7 @@ impl Term {
                 _ => format!("{error} of {owner}"),
             },
             Basis::Moment => format!("{owner}: gives way under weight, {error}"),
+            Basis::Coupled(other) => format!("{owner}: gives way under weight, {error} with {}", other.name()),
             Basis::Input(input) => format!("{owner}: {error} with {}", spec.inputs[input].name),
             Basis::Wave(Wave::Power { variable, exponent }) => {
                 format!("{owner}: {error} with {}^{exponent}", spec.variables[variable].name)
@@ -209,7 +213,7 @@ impl Term {
             Basis::Product(one, other) => {
                 format!("{owner}: {} and {}, {error}", one.kind(spec), other.kind(spec))
             }
-            Basis::One | Basis::Input(_) | Basis::Moment => self.name(spec),
+            Basis::One | Basis::Input(_) | Basis::Moment | Basis::Coupled(_) => self.name(spec),
         }
     }
 }

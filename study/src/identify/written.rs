@@ -56,7 +56,9 @@ impl FoundModel {
         let constants = constants.map(|(frame, errors)| self.constant(spec, frame, errors));
         let numbers = self.numbers.iter().map(|found| self.term(spec, found, base));
         let terms = self.terms.iter().filter(|found| self.is_written(spec, found));
-        numbers.chain(constants).chain(terms.map(|found| self.term(spec, found, base))).collect()
+        let terms = terms.filter(|found| !self.is_of_full_compliance(found));
+        let terms = numbers.chain(constants).chain(terms.map(|found| self.term(spec, found, base)));
+        terms.chain([self.full_compliances(spec, base)]).collect()
     }
 
     /// The input of a term that follows from the rows, if it has such a one.
@@ -200,6 +202,10 @@ fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
                 };
                 format!("compliance = {{ diagonal = [{}] }}", Component::ALL.map(entry).join(", "))
             }
+            Basis::Coupled(other) => {
+                let (one, other) = (component.name(), other.name());
+                format!("compliance: {one} and {other} by the moments about each other: \"{factor} * {basis}\"")
+            }
             _ => format!("{} = {error}", component.name()),
         };
         format!("frame = {name:?}\n{error}")
@@ -264,7 +270,7 @@ fn magnitude_table(magnitude: f64, standard_deviation: f64) -> String {
 }
 
 /// A number that a spec understands, to seven digits.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{:e}", format!("{value:.6e}").parse::<f64>().unwrap_or(value) + 0.0)
 }
 
@@ -301,7 +307,7 @@ fn free_name(spec: &Spec, name: &str) -> String {
 }
 
 /// A name that no source has.
-fn source_name(spec: &Spec, name: &str) -> String {
+pub(super) fn source_name(spec: &Spec, name: &str) -> String {
     let taken = |name: &str| spec.sources.iter().any(|source| source.name == name);
     let names = std::iter::once(name.to_owned()).chain((2..).map(|i| format!("{name} ({i})")));
     names.into_iter().find(|name| !taken(name)).unwrap_or_default()

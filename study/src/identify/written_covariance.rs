@@ -48,6 +48,8 @@ impl FoundModel {
             (size != 0.0).then(|| Entry { text: format!("source = {name:?}"), place, size })
         };
         let written = self.terms.iter().filter(|found| self.is_written(spec, found));
+        // One number says nothing of a matrix.
+        let written = written.filter(|found| !self.is_of_full_compliance(found));
         let terms = self.numbers.iter().chain(written);
         let terms =
             terms.filter_map(|found| whole(&self.term_name(spec, found), found.place, found.magnitude));

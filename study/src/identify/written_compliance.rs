@@ -1,0 +1,153 @@
+//! Full compliances of the identified machine: one matrix for a frame, or for what the machine stands on.
+
+use abbe::Component;
+use abbe_codegen::spec::Spec;
+
+use super::found::{FoundModel, FoundTerm};
+use super::terms::{Basis, Place};
+use super::written::{number, source_name};
+use crate::number::digits;
+
+/// The turns of a compliance, in the order of its rows.
+const TURNS: [Component; 3] = [Component::Spin, Component::Roll, Component::Pitch];
+
+/// What gives way: a frame, or what the machine stands on.
+type Owner = Option<usize>;
+
+impl FoundModel {
+    /// Whether a term is in the matrix of one of the full compliances.
+    pub(super) fn is_of_full_compliance(&self, found: &FoundTerm) -> bool {
+        owner(found).is_some_and(|owner| self.full().contains(&owner))
+    }
+
+    /// The owners of full compliances: those with an entry off the diagonal.
+    fn full(&self) -> Vec<Owner> {
+        let mut owners = Vec::new();
+        for found in self.terms.iter().filter(|found| matches!(found.term.basis, Basis::Coupled(_))) {
+            owners.extend(owner(found).filter(|owner| !owners.contains(owner)));
+        }
+        owners
+    }
+
+    /// Their sources; `base` is the frame where `F_0` is.
+    pub(super) fn full_compliances(&self, spec: &Spec, base: &str) -> String {
+        self.full().into_iter().map(|owner| self.full_compliance(spec, base, owner)).collect()
+    }
+
+    /// A spec takes compliances alone from which no load gains energy. What is none is written as `(C + D) − D`, with the smallest
+    /// diagonal D that makes every row of C + D dominated by its diagonal.
+    fn full_compliance(&self, spec: &Spec, base: &str, of: Owner) -> String {
+        let (mut matrix, mut deviations) = ([[0.0; 3]; 3], Vec::new());
+        for found in self.terms.iter().filter(|found| owner(found) == Some(of)) {
+            let (row, column) = entry(found);
+            matrix[row][column] = found.magnitude;
+            matrix[column][row] = found.magnitude;
+            let deviation = digits((found.standard_deviation / found.magnitude).abs(), 2);
+            let [one, other] = [row, column].map(|i| TURNS[i].name());
+            deviations.push(format!("{one} {other} {deviation}"));
+        }
+        let off = if is_semidefinite(&matrix) { [0.0; 3] } else { deficits(&matrix) };
+        (0..3).for_each(|i| matrix[i][i] += off[i]);
+        let (frame, owner) = match of {
+            Some(frame) => (spec.frames[frame].name.as_str(), spec.frames[frame].name.as_str()),
+            None => (base, "what the machine stands on"),
+        };
+        let source = |name: &str, what: &str, magnitude: &str, matrix: &[[f64; 3]; 3]| {
+            format!(
+                "\n[[source]]\nname = {:?}\ndescription = {what:?}\nclass = \"repeatable\"\n{magnitude}reference = {:?}\n\n\
+                 [[source.effect]]\nframe = {frame:?}\ncompliance = {{ matrix = {} }}\n",
+                source_name(spec, name),
+                self.reference,
+                written(spec, matrix),
+            )
+        };
+        let name = format!("identified: {owner}: gives way under weight");
+        let what = format!("Standard deviations, as shares of the entries: {}", deviations.join(", "));
+        let mut text = source(&name, &what, "", &matrix);
+        if off != [0.0; 3] {
+            let diagonal = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { off[i] } else { 0.0 }));
+            let what = "Taken off again: by itself what was found is no compliance, it stands for something else as well";
+            text += &source(&format!("{name}, less"), what, "magnitude = { value = -1 }\n", &diagonal);
+        }
+        text
+    }
+}
+
+/// What a compliance is of, if the term is one.
+fn owner(found: &FoundTerm) -> Option<Owner> {
+    match found.term.place {
+        _ if !found.term.basis.is_elastic() => None,
+        Place::Frame(frame, _) => Some(Some(frame)),
+        Place::Base(_) => Some(None),
+        _ => None,
+    }
+}
+
+/// Row and column of a term of a compliance.
+fn entry(found: &FoundTerm) -> (usize, usize) {
+    let place = |component: Component| TURNS.iter().position(|turn| *turn == component).unwrap_or_default();
+    let row = match found.term.place {
+        Place::Frame(_, component) | Place::Base(component) => place(component),
+        _ => 0,
+    };
+    let column = match found.term.basis {
+        Basis::Coupled(other) => place(other),
+        _ => row,
+    };
+    (row, column)
+}
+
+/// Sylvester: no principal minor is negative. Digits that are not written may not decide.
+fn is_semidefinite(c: &[[f64; 3]; 3]) -> bool {
+    let diagonal = (0..3).all(|i| c[i][i] >= 0.0);
+    let minor = |i: usize, j: usize| (1.0 - 1e-6) * c[i][i] * c[j][j] - c[i][j] * c[i][j];
+    let pairs = [(0, 1), (0, 2), (1, 2)].into_iter().all(|(i, j)| minor(i, j) >= 0.0);
+    let product = c[0][0] * c[1][1] * c[2][2];
+    let determinant = product + 2.0 * c[0][1] * c[1][2] * c[0][2]
+        - c[0][0] * c[1][2].powi(2)
+        - c[1][1] * c[0][2].powi(2)
+        - c[2][2] * c[0][1].powi(2);
+    diagonal && pairs && determinant >= 1e-6 * product
+}
+
+/// What every diagonal entry lacks of the sum of its row's others.
+fn deficits(c: &[[f64; 3]; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| {
+        let others: f64 = (0..3).filter(|j| *j != i).map(|j| c[i][j].abs()).sum();
+        // A little more than the last digit that is written.
+        (others * (1.0 + 1e-6) - c[i][i]).max(0.0)
+    })
+}
+
+/// As the six rows of a spec, in the order of e_x e_y e_z e_s e_r e_p.
+fn written(spec: &Spec, matrix: &[[f64; 3]; 3]) -> String {
+    let unit = Basis::Moment.text(spec);
+    let turn = |component: Component| TURNS.iter().position(|turn| *turn == component);
+    let entry = |row: Component, column: Component| match (turn(row), turn(column)) {
+        (Some(i), Some(j)) if matrix[i][j] != 0.0 => format!("\"{} * {unit}\"", number(matrix[i][j])),
+        _ => "0".to_owned(),
+    };
+    let row = |row: Component| format!("[{}]", Component::ALL.map(|column| entry(row, column)).join(", "));
+    format!("[{}]", Component::ALL.map(row).join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{deficits, is_semidefinite};
+
+    #[test]
+    fn what_is_no_compliance_is_one_with_its_deficits() {
+        let good = [[2.0, 1.0, 0.0], [1.0, 2.0, -0.5], [0.0, -0.5, 1.0]];
+        assert!(is_semidefinite(&good));
+        for bad in [
+            [[0.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 0.0, 1.0]],
+            [[1.0, 0.9, 0.9], [0.9, 1.0, -0.9], [0.9, -0.9, 1.0]],
+            [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        ] {
+            assert!(!is_semidefinite(&bad), "{bad:?}");
+            let (off, mut sum) = (deficits(&bad), bad);
+            (0..3).for_each(|i| sum[i][i] += off[i]);
+            assert!(is_semidefinite(&sum) && off.iter().all(|d| *d >= 0.0), "{sum:?}");
+        }
+    }
+}
