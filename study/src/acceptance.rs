@@ -69,6 +69,12 @@ impl Acceptance {
         document.finish(Some(Self { limits }))
     }
 
+    /// The limit of the largest error, or without that of the figure that is nearest to it.
+    pub fn largest(&self) -> Option<f64> {
+        let limit = |figure: &str| self.limits.iter().find(|(name, _)| *name == figure);
+        FIGURES.iter().rev().find_map(|figure| limit(figure)).map(|(_, limit)| *limit)
+    }
+
     /// The verdict; none without limits.
     pub fn judge(&self, rows: &'static str, sizes: &Sizes) -> Option<Accepted> {
         let limit = |(figure, limit): &(&'static str, f64)| {

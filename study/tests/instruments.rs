@@ -193,6 +193,8 @@ fn ranks_are_those_of_theory() {
         // Its zero is one more, and told: the lengths differ.
         ("wire", distance("\"unknown\"", ""), 25),
         ("sphere", sphere("\"200 mm\""), 24),
+        // One more to tell, and one less that is told: how large all is.
+        ("sphere of unknown radius", sphere("\"unknown\"\nnominal_radius = \"200 mm\""), 24),
         // Four places, of which twelve coordinates; three turns of the base and the size cannot be told.
         ("contacts", contacts(), 27 - 6 + 12 - 1),
         ("planes", planes(), 27 - 6 + 9 - 1),

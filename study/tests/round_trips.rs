@@ -128,9 +128,13 @@ fn measured(map: &Map, samples: usize, seed: u64) -> Data {
 }
 
 fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
+    job(map, data, test).run(&mut ()).unwrap()
+}
+
+fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
     let settings =
         Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 10, time: None, points: false };
-    let job = Identify {
+    Identify {
         machine: ur5(),
         map: map.clone(),
         data,
@@ -139,8 +143,7 @@ fn identify(map: &Map, data: Data, test: Option<Data>) -> Report {
         harmonics: Vec::new(),
         settings,
         accept: Acceptance::default(),
-    };
-    job.run(&mut ()).unwrap()
+    }
 }
 
 /// The spec and the map that are written.
@@ -239,7 +242,17 @@ fn of_two_stations() {
     assert_eq!(names, ["door", "wall"]);
     assert!(report.parameters.iter().any(|parameter| parameter.name == "e_x0 wall"));
     let (found, map) = written(&report, &guess);
-    alike(left(found, map, unseen), [test.after.mean, test.after.max], 0.01);
+    alike(left(found, map, unseen.clone()), [test.after.mean, test.after.max], 0.01);
+
+    // Rows of a station that nothing is known of are refused.
+    let elsewhere = Data { stations: vec!["roof".to_owned(), "wall".to_owned()], ..unseen };
+    let refused = job(&guess, measured(&truth, 60, 1), Some(elsewhere.clone())).run(&mut ()).unwrap_err();
+    assert!(refused.to_string().contains("rows of station `roof`, where none of the data was measured"), "{refused}");
+    let job = Measure { machine: ur5(), map: truth, data: elsewhere, accept: Acceptance::default() };
+    let refused = job.run(&mut ()).unwrap_err().to_string();
+    for said in ["station `roof`", "the map does not say where it is", "`door`, `wall`", "--station new"] {
+        assert!(refused.contains(said), "{said}: {refused}");
+    }
 }
 
 /// How many combinations a plan says so many samples determine.

@@ -1,6 +1,8 @@
 //! Machines whose errors are known, simulated and identified: magnitudes of sources of the spec, joints' zeros in words,
 //! backlash and gears in terms that a spec says.
 
+use std::time::Duration;
+
 use abbe_codegen::spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Harmonics, Identify, Prior, Report, Settings};
@@ -308,4 +310,67 @@ fn full_compliances_are_found_and_written() {
         let rms = report.fit.after.rms;
         assert!((left - rms).abs() < 0.01 * rms, "{off}: {left} {rms}\n{found}");
     }
+}
+
+/// What the spec's random sources say of an error holds it: one of 1 µm cannot be 0.3 mm, whatever the data say.
+#[test]
+fn priors_of_the_spec_hold_what_they_are_of() {
+    let tight = "[[source]]\nname = \"elbow as made\"\nclass = \"random\"\ndistribution = \"normal\"\nframe = \"elbow\"\ne_x = \"1 um\"\n";
+    let data = measured(&ur5(BENT), "exact", POINT, 150, 6);
+    let found = |prior| {
+        let mut job = job(&ur5(tight), "exact", POINT, &data);
+        job.settings.prior = prior;
+        job.run(&mut ()).expect("it is identified")
+    };
+    let length = |report: &Report| {
+        let of_elbow = report.parameters.iter().find(|one| one.name == "e_x3");
+        of_elbow.map_or(0.0, |one| one.value)
+    };
+    let (free, held) = (found(Prior::Share(0.01)), found(Prior::Spec));
+    assert!((length(&free) - 0.3).abs() < 0.05, "{:?}", free.parameters);
+    assert!(length(&held).abs() < 0.02, "{:?}", held.parameters);
+    assert!(held.uncertainty_factor > 1.5 * free.uncertainty_factor, "{}", held.uncertainty_factor);
+    // Of the other error nothing is stated there: it is as free as before.
+    let spin = |report: &Report| report.parameters.iter().any(|one| one.frame == Some(3) && one.unit == "rad");
+    assert!(spin(&free) && spin(&held));
+}
+
+/// The scale that rows left out in turn choose is said, and is no worse on others than the one that is not chosen.
+#[test]
+fn a_prior_that_is_chosen_is_said_and_no_worse() {
+    let small = BENT.replace("0.8 mrad", "0.1 mrad").replace("0.3 mm", "0.04 mm");
+    let (data, unseen) =
+        (measured(&ur5(&small), "exact", POINT, 16, 6), measured(&ur5(&small), "exact", POINT, 100, 7));
+    let found = |prior| {
+        let mut job = job(&ur5(""), "exact", POINT, &data);
+        (job.settings.prior, job.test) = (prior, Some(unseen.clone()));
+        job.run(&mut ()).expect("it is identified")
+    };
+    let (stated, chosen) = (found(Prior::Share(0.01)), found(Prior::Auto));
+    let note = chosen.notes.iter().find(|note| note.contains("errors are expected to be"));
+    let note = note.expect("it is said");
+    let share: f64 = note.split("to be ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
+    assert!([3.0, 1.0, 0.3, 0.1, 0.03, 0.01].contains(&share), "{note}");
+    let mean = |report: &Report| report.test.as_ref().unwrap().after.mean;
+    println!("{share} %: {} by {}", mean(&chosen), mean(&stated));
+    assert!(mean(&chosen) <= 1.02 * mean(&stated), "{note} {} {}", mean(&chosen), mean(&stated));
+}
+
+/// When the time is over, no more terms are tried, and that is said; with time enough it makes no difference.
+#[test]
+fn time_ends_the_search_for_terms() {
+    let wave = "[[source]]\nname = \"gear\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"1 mrad * sin(q2)\"\n";
+    let data = measured(&ur5(wave), "exact", POINT, 100, 3);
+    let found = |time| {
+        let mut job = job(&ur5(""), "exact", POINT, &data);
+        (job.settings.time, job.terms) = (time, vec![Family::Joint, Family::Product]);
+        job.run(&mut ()).expect("it is identified")
+    };
+    let over = found(Some(Duration::ZERO));
+    assert!(over.tried == 0 && over.terms.is_empty());
+    assert!(over.notes.iter().any(|note| note.contains("the time was over before")), "{:?}", over.notes);
+    let (long, any) = (found(Some(Duration::from_secs(3600))), found(None));
+    let names = |report: &Report| report.terms.iter().map(|term| term.name.clone()).collect::<Vec<_>>();
+    assert!(names(&any).iter().any(|name| name.contains("once per turn of q2")), "{:?}", names(&any));
+    assert_eq!((names(&long), long.tried), (names(&any), any.tried));
 }

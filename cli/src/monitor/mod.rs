@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
         arguments.tolerance.as_ref().map(|text| length("--tolerance", text, &machine.spec)).transpose()?;
     let settings = Settings {
         checks_per_false_alarm: f64::from(arguments.false_alarm),
-        tolerance,
+        tolerance: tolerance.or(map.accept.largest()),
         ..Settings::default()
     };
     let job = Monitor { machine, map, checks, settings };

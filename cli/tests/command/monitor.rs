@@ -7,7 +7,7 @@ use tempfile::{TempDir, tempdir};
 
 use crate::documents::blocks;
 use crate::report::is_alone;
-use crate::running::{abbe, command, json, narrow, prints};
+use crate::running::{abbe, command, json, narrow, prints, write};
 
 /// The files of the chapter, and checks of the machine until a day.
 fn chapter() -> TempDir {
@@ -70,6 +70,13 @@ fn the_elbow_of_the_chapter_is_found() {
     let alarm = report["alarm"]["check"].as_u64().unwrap();
     // 0.002 mrad at some 560 mm is about 1 µm a day.
     assert!((60..80).contains(&alarm), "{alarm}");
+
+    // The map may have the tolerance: the limit of the largest error.
+    let limits = fs::read_to_string(&map).unwrap() + "\n[accept]\nmean = \"0.01 mm\"\nmax = \"0.1 mm\"\n";
+    let limited = write(folder.path(), "limited.toml", &limits);
+    let limited = limited.to_str().unwrap();
+    let of_map = json(&["monitor", &spec, &checks, "--map", limited, "--disable", "wear", "--json"]);
+    assert_eq!((&of_map["tolerance"], &of_map["finding"]), (&0.1.into(), &report["finding"]));
 
     assert_eq!(call(&["--check"]).status, 1);
     assert_eq!(call(&[]).status, 0);

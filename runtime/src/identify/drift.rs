@@ -253,4 +253,13 @@ mod tests {
         assert!((drifting.change - 2.0).abs() < 0.8);
         assert!(rows(3, 15, 1, |_, _| [0.0; 3]).is_none());
     }
+
+    /// A swing of variance 4.5 in noise of variance 1: neighbours correlate by about 0.8, less what the joints explain of it.
+    #[test]
+    fn neighbours_tell_what_no_line_and_no_settling_does() {
+        let swinging = rows(4, 300, 1, |t, _| [3.0 * (6.0 * t).sin(); 3]).unwrap();
+        assert!(swinging.lag_1 > 0.5 && swinging.p_of_lag_1 <= 0.01, "{swinging:?}");
+        let still = rows(4, 300, 1, |_, _| [0.0; 3]).unwrap();
+        assert!(still.lag_1.abs() < 0.2, "{still:?}");
+    }
 }

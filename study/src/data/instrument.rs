@@ -77,8 +77,10 @@ pub(super) struct Look {
     pub(super) direction: [f64; 3],
     /// The normal of a mirror, in the frame of the tool.
     pub(super) mirror: [f64; 3],
-    /// What the instrument adds; unknown if none.
-    pub(super) zero: Option<f64>,
+    /// What the instrument adds, or about what.
+    pub(super) zero: f64,
+    /// Whether that is known.
+    pub(super) zero_known: bool,
     /// One standard deviation, or what stands for one that is unknown.
     pub(super) uncertainty: f64,
 }
@@ -123,7 +125,7 @@ impl Instruments {
         let first = self.readings.len();
         let (zero, zero_known) = match kind {
             Kind::Point | Kind::Contact => (0.0, true),
-            Kind::Distance | Kind::Between | Kind::Sphere => (look.zero.unwrap_or(0.0), look.zero.is_some()),
+            Kind::Distance | Kind::Between | Kind::Sphere => (look.zero, look.zero_known),
             Kind::Plane | Kind::Indicator | Kind::Angle => (0.0, false),
         };
         self.readings.extend(gauges.into_iter().map(|gauge| Reading {

@@ -11,7 +11,7 @@ abbe_codegen::tables! {
     POINT: ["[point]"], ["columns", "unit"];
     DIFFERENCE: ["[difference]"], ["target", "difference", "unit"];
     TARGET: ["[[target]]"], ["name", "columns", "unit", "position"];
-    INSTRUMENT: ["[[instrument]]"], ["name", "kind", "column", "columns", "unit", "target", "targets", "at", "direction", "mirror", "zero", "radius", "range", "setup", "uncertainty"];
+    INSTRUMENT: ["[[instrument]]"], ["name", "kind", "column", "columns", "unit", "target", "targets", "at", "direction", "mirror", "zero", "radius", "nominal_radius", "range", "setup", "uncertainty"];
     POSE: ["[pose]"], ["position", "unit"];
     TURN: ["[pose]"], ["quaternion", "matrix", "euler"];
     QUATERNION: ["[pose.quaternion]"], ["columns", "order"];

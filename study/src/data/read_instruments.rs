@@ -111,6 +111,7 @@ fn instrument(
     };
     // What stands for one that is unknown: 10 µm, or 10 µrad.
     let some = if angle { 1e-5 } else { 1e-5 / spec.length.in_metres() };
+    let (zero, zero_known) = zero(section, kind, document, spec)?;
     let look = Look {
         targets: looked_at(section, kind, targets, document)?,
         at: optional(section, "at", needs_place(kind), document, spec, Dimension::LENGTH)?,
@@ -122,7 +123,8 @@ fn instrument(
             spec,
         )?,
         mirror: unit_vector(direction(section, "mirror", angle, document, spec)?),
-        zero: zero(section, kind, document, spec)?,
+        zero,
+        zero_known,
         uncertainty: uncertainty?.unwrap_or(some),
     };
     let setup = setup(section, all, document, spec)?;
@@ -166,7 +168,7 @@ fn keys_of(kind: Kind) -> Keys {
         }
         Kind::Contact => &["name", "kind", "target", "at", "setup", "uncertainty"],
         Kind::Plane => &["name", "kind", "target", "at", "direction", "setup", "uncertainty"],
-        Kind::Sphere => &["name", "kind", "target", "at", "radius", "setup", "uncertainty"],
+        Kind::Sphere => &["name", "kind", "target", "at", "radius", "nominal_radius", "setup", "uncertainty"],
         Kind::Indicator => {
             &["name", "kind", "column", "unit", "target", "at", "direction", "range", "setup", "uncertainty"]
         }
@@ -224,8 +226,8 @@ fn setup(
     constant(&item, document, spec, Dimension::NONE).map(Some)
 }
 
-/// What the instrument adds to a distance: its stated zero, of a sphere minus the radius; none if that is unknown.
-fn zero(section: &Section<'_>, kind: Kind, document: &mut Document, spec: &Spec) -> Option<Option<f64>> {
+/// What the instrument adds to a distance, and whether that is known: its zero, of a sphere minus the radius.
+fn zero(section: &Section<'_>, kind: Kind, document: &mut Document, spec: &Spec) -> Option<(f64, bool)> {
     let (key, sign) = match kind {
         Kind::Sphere => ("radius", -1.0),
         _ => ("zero", 1.0),
@@ -234,10 +236,22 @@ fn zero(section: &Section<'_>, kind: Kind, document: &mut Document, spec: &Spec)
         Kind::Sphere => Some(section.required(key, document)?),
         _ => section.get(key),
     };
-    match item {
-        None => Some(Some(0.0)),
-        Some(item) if is_unknown(&item, document) => Some(None),
-        Some(item) => constant(&item, document, spec, Dimension::LENGTH).map(|value| Some(sign * value)),
+    let nominal = section.get("nominal_radius");
+    match (item, nominal) {
+        (None, _) => Some((0.0, true)),
+        (Some(item), nominal) if is_unknown(&item, document) => {
+            let about = nominal.map(|item| constant(&item, document, spec, Dimension::LENGTH));
+            Some((about.map_or(Some(0.0), |about| about.map(|about| sign * about))?, false))
+        }
+        (Some(_), Some(nominal)) => {
+            let message = "`nominal_radius` is about how large a radius is that is unknown; this one is known";
+            let help = "leave it out, or write `radius = \"unknown\"`";
+            document.mistake(Diagnostic::new(nominal.key_span.clone(), message).help(help));
+            None
+        }
+        (Some(item), None) => {
+            constant(&item, document, spec, Dimension::LENGTH).map(|value| (sign * value, true))
+        }
     }
 }
 

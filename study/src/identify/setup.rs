@@ -45,6 +45,9 @@ impl<'a> Setup<'a> {
         let stations = names.iter().enumerate().map(|(i, name)| {
             let pose = match (map.stations.pose(name), map.base) {
                 (Some(pose), _) => pose,
+                (None, Base::Known | Base::Exact) if !map.stations.stated.is_empty() => {
+                    return Err(unstated(map, data, name));
+                }
                 (None, Base::Known | Base::Exact) => Pose::IDENTITY,
                 (None, Base::Unknown) => registered(&setup.real, &data.observations, i)
                     .map_err(|failure| mistake::whole(&data.file, failure))?
@@ -315,6 +318,21 @@ pub(super) fn registered(
         }
     }
     Ok(register(&from, &to).filter(|found| found.breadth > 1e-6).map(|found| found.pose))
+}
+
+/// The map says where some stations are, and nothing of this one.
+fn unstated(map: &Map, data: &Data, name: &str) -> Diagnostics {
+    let stated = map.stations.stated.iter().map(|station| format!("`{}`", station.name.escape_debug()));
+    let stated = stated.collect::<Vec<_>>().join(", ");
+    let message = match name {
+        "" => format!("rows without a station, and the map says where {stated} stand"),
+        name => format!("rows of station `{}`: the map does not say where it is", name.escape_debug()),
+    };
+    let help = format!(
+        "the map states {stated}: add a [[station]], or let these rows tell it by `base = \"unknown\"`, with `abbe measure` by \
+         `--station new`"
+    );
+    mistake::with_help(&data.file, message, help)
 }
 
 fn in_line(data: &Data, name: &str) -> Diagnostics {
