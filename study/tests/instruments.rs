@@ -347,3 +347,51 @@ fn every_setup_is_measured_all_around() {
     // Three squarenesses are all that constant errors of such a machine are.
     assert_eq!((report.rank, report.machine.rank), (9, 3));
 }
+
+/// A laser between two poses, the second of one pair not the first of the next: it finds all that moves points against each other.
+#[test]
+fn displacements_between_two_poses_find_the_machine() {
+    let laser = "[[instrument]]\nname = \"laser\"\nkind = \"displacement\"\ncolumn = \"travelled\"\nunit = \"um\"\nuncertainty = \"10 um\"\n";
+    let map = map(laser);
+    let job = |samples, seed| Simulate {
+        machine: real(),
+        map: map.clone(),
+        at: Places::Samples(samples),
+        noise: None,
+        outliers: 0.0,
+        random: false,
+        seed,
+    };
+    // Every second cell is empty: rows to begin from.
+    let read = |samples, seed| {
+        let mut table = job(samples, seed).run(&mut ()).unwrap_or_else(|mistake| panic!("{mistake}")).table;
+        let column = table.heading.iter().position(|name| name == "travelled").unwrap();
+        assert!(table.rows[0][column].is_none() && table.rows[1][column].is_some());
+        table.rows.iter_mut().step_by(2).for_each(|row| row[column] = None);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("data.csv");
+        std::fs::write(&path, table.csv()).unwrap();
+        Data::read(&path, &map).unwrap_or_else(|mistake| panic!("{mistake}"))
+    };
+    let (data, unseen) = (read(480, 3), read(200, 5));
+    assert_eq!((data.observations.len(), data.unusable.len()), (240, 0));
+    let report = identified_with(&map, data, Some(unseen.clone()), 0.002);
+    // 27 of a tracker, less the six of where it stands.
+    assert_eq!(report.rank, 21);
+    let far: Vec<_> = z_scores(&report).into_iter().filter(|(_, z)| z.abs() > 4.0).collect();
+    assert!(far.is_empty(), "{far:?}");
+    assert!((0.8..1.2).contains(&report.uncertainty_factor), "{}", report.uncertainty_factor);
+    let test = report.test.unwrap();
+    assert!(test.before.rms > 10.0 * test.after.rms && test.after.rms < 0.013, "{test:?}");
+    let measured = Measure { machine: real(), map: map.clone(), data: unseen, accept: Acceptance::default() };
+    let laser = &measured.run(&mut ()).unwrap().instruments[0];
+    assert!(laser.unit == "um" && (8.5..11.5).contains(&laser.left.rms), "{laser:?}");
+    // A displacement in the first row is from nowhere.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("data.csv");
+    let heading = "setup,j1,j2,j3,j4,j5,j6,travelled";
+    std::fs::write(&path, format!("{heading}\n1,0,0,0,0,0,0,5\n1,10,0,0,0,0,0,5\n")).unwrap();
+    let data = Data::read(&path, &map).unwrap();
+    assert_eq!(data.observations.len(), 1);
+    assert!(data.unusable[0].reason.contains("no row before it"), "{:?}", data.unusable);
+}

@@ -335,15 +335,14 @@ fn priors_of_the_spec_hold_what_they_are_of() {
     assert!(spin(&free) && spin(&held));
 }
 
-/// The scale that rows left out in turn choose is said, and is no worse on others than the one that is not chosen.
+/// The scale that is chosen is said, and rows left out in turn fit no worse with it than with the usual one.
 #[test]
 fn a_prior_that_is_chosen_is_said_and_no_worse() {
     let small = BENT.replace("0.8 mrad", "0.1 mrad").replace("0.3 mm", "0.04 mm");
-    let (data, unseen) =
-        (measured(&ur5(&small), "exact", POINT, 16, 6), measured(&ur5(&small), "exact", POINT, 100, 7));
+    let data = measured(&ur5(&small), "exact", POINT, 16, 6);
     let found = |prior| {
         let mut job = job(&ur5(""), "exact", POINT, &data);
-        (job.settings.prior, job.test) = (prior, Some(unseen.clone()));
+        job.settings.prior = prior;
         job.run(&mut ()).expect("it is identified")
     };
     let (stated, chosen) = (found(Prior::Share(0.01)), found(Prior::Auto));
@@ -351,9 +350,10 @@ fn a_prior_that_is_chosen_is_said_and_no_worse() {
     let note = note.expect("it is said");
     let share: f64 = note.split("to be ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
     assert!([3.0, 1.0, 0.3, 0.1, 0.03, 0.01].contains(&share), "{note}");
-    let mean = |report: &Report| report.test.as_ref().unwrap().after.mean;
-    println!("{share} %: {} by {}", mean(&chosen), mean(&stated));
-    assert!(mean(&chosen) <= 1.02 * mean(&stated), "{note} {} {}", mean(&chosen), mean(&stated));
+    // Another one is better if it is by more than 1 %; of so few rows this one is.
+    let rms = |report: &Report| report.cross_validation.after.rms;
+    println!("{share} %: {} by {}", rms(&chosen), rms(&stated));
+    assert!(rms(&chosen) < 0.99 * rms(&stated) && share < 1.0, "{note} {} {}", rms(&chosen), rms(&stated));
 }
 
 /// When the time is over, no more terms are tried, and that is said; with time enough it makes no difference.

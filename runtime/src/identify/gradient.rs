@@ -52,6 +52,13 @@ impl Model<'_> {
                 let apart = difference(target(j), target(k));
                 (dot(apart, apart).sqrt(), unit(apart), target(j))
             }
+            Gauge::Moved { target: j } => {
+                let apart = room.start.as_ref().map_or([0.0; 3], |start| {
+                    let there = start.frames[0].after.inverse().then(&start.frames[start.errors.len() + 1].after);
+                    difference(target(j), there.apply(start.targets[j]))
+                });
+                (dot(apart, apart).sqrt(), unit(apart), target(j))
+            }
             Gauge::Lean { mirror, direction } => {
                 // d asin(n · m) = (m × n) · dω / √(1 − (n · m)²).
                 let (m, n) = (in_f0.turn(mirror), fixture(direction));
@@ -79,7 +86,7 @@ impl Model<'_> {
                     let sine = dot(n, seen).clamp(-1.0, 1.0);
                     dot(seen, tilt) / (1.0 - sine * sine).sqrt().max(f64::MIN_POSITIVE)
                 }
-                Gauge::Coordinate { .. } | Gauge::Between { .. } => 0.0,
+                Gauge::Coordinate { .. } | Gauge::Between { .. } | Gauge::Moved { .. } => 0.0,
             },
             Unknown::Fixture(..) => 0.0,
             Unknown::Base(..) if !matches!(gauge, Gauge::Coordinate { .. }) => 0.0,
@@ -90,6 +97,10 @@ impl Model<'_> {
                 | Gauge::Along { target, .. } => dot(along, self.point_moves(room, k, target)),
                 Gauge::Between { targets: [a, b] } => {
                     dot(along, self.point_moves(room, k, a)) - dot(along, self.point_moves(room, k, b))
+                }
+                Gauge::Moved { target } => {
+                    let there = room.start.as_ref().map_or([0.0; 3], |start| self.point_moves(start, k, target));
+                    dot(along, self.point_moves(room, k, target)) - dot(along, there)
                 }
                 Gauge::Lean { .. } => dot(along, self.turn(room, k)),
             },

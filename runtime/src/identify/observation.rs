@@ -31,6 +31,8 @@ pub struct Observation {
     pub direction: usize,
     /// When it was measured, if that is known; rows are in the order of time otherwise.
     pub time: Option<f64>,
+    /// Where the machine was before, for readings of how far it moved since: what was measured there does not matter.
+    pub from: Option<Box<Observation>>,
     /// What was measured.
     pub measured: Measurement,
     /// Its weight in sums of squares: 1 where the instrument is as good as stated, ¼ where its standard deviation is twice
@@ -50,6 +52,7 @@ impl Observation {
             configuration: line as usize,
             direction: 0,
             time: None,
+            from: None,
             measured,
             weight: 1.0,
         }

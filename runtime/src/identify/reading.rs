@@ -61,6 +61,11 @@ pub enum Gauge {
         /// The targets, by index.
         targets: [usize; 2],
     },
+    /// `|p − p_0|`: from where a target was in the row before, a laser's or a scale's displacement.
+    Moved {
+        /// The target, by index.
+        target: usize,
+    },
     /// `asin(n · R m)`: by how much the normal of a mirror on the tool leans towards a direction; rad.
     Lean {
         /// The normal `m` in the frame of the tool, of length 1.
@@ -98,7 +103,7 @@ impl Gauge {
     /// The fixture that it looks at, by index.
     pub fn fixture(&self) -> Option<usize> {
         match self {
-            Self::Coordinate { .. } | Self::Between { .. } => None,
+            Self::Coordinate { .. } | Self::Between { .. } | Self::Moved { .. } => None,
             Self::Distance { from, .. } | Self::Apart { from, .. } => Some(*from),
             Self::Along { direction, .. } | Self::Lean { direction, .. } => Some(*direction),
         }

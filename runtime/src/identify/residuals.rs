@@ -25,6 +25,8 @@ pub struct Room {
     station: usize,
     base: [f64; 6],
     tool: [f64; 6],
+    /// The same where the machine was before, if it matters.
+    pub(super) start: Option<Box<Room>>,
 }
 
 impl Model<'_> {
@@ -94,6 +96,13 @@ impl Model<'_> {
         let last = room.errors.len();
         let tool = frames[last].after.then(&transforms[last]);
         frames.push(Frame::new(&tool.then(&self.mounting), displaced[last + 1].by(&room.tool)));
+        if let Some(from) = &observation.from {
+            let mut start = room.start.take().unwrap_or_else(|| Box::new(self.room()));
+            self.chain(&mut start, from, x)?;
+            room.start = Some(start);
+        } else {
+            room.start = None;
+        }
         Ok(())
     }
 
@@ -126,6 +135,7 @@ impl Model<'_> {
             zeros: vec![0.0; self.readings.len()],
             base: [0.0; 6],
             tool: [0.0; 6],
+            start: None,
         }
     }
 

@@ -21,9 +21,14 @@ pub enum Kind {
     Indicator,
     /// How far two targets are apart.
     Between,
+    /// How far a target has moved since the row before: a laser interferometer, a scale.
+    Displacement,
     /// By how much a mirror on the tool leans towards a direction: an autocollimator.
     Angle,
 }
+
+/// What is said of a row in which no instrument was read.
+pub(super) const NOTHING_READ: &str = "nothing was read";
 
 /// One instrument of a map.
 #[derive(Clone, Debug)]
@@ -108,7 +113,7 @@ impl Instruments {
         let place = match kind {
             Kind::Distance | Kind::Contact | Kind::Sphere => Some(Place::Point(look.at)),
             Kind::Plane | Kind::Indicator | Kind::Angle => Some(Place::Direction(look.direction)),
-            Kind::Point | Kind::Between => None,
+            Kind::Point | Kind::Between | Kind::Displacement => None,
         };
         self.fixtures.extend(place.map(|place| Fixture { name: name.to_owned(), place }));
         let target = look.targets[0];
@@ -120,11 +125,12 @@ impl Instruments {
                 vec![Gauge::Along { target, about: look.at, direction: fixture }]
             }
             Kind::Between => vec![Gauge::Between { targets: [target, *look.targets.last().unwrap_or(&0)] }],
+            Kind::Displacement => vec![Gauge::Moved { target }],
             Kind::Angle => vec![Gauge::Lean { mirror: look.mirror, direction: fixture }],
         };
         let first = self.readings.len();
         let (zero, zero_known) = match kind {
-            Kind::Point | Kind::Contact => (0.0, true),
+            Kind::Point | Kind::Contact | Kind::Displacement => (0.0, true),
             Kind::Distance | Kind::Between | Kind::Sphere => (look.zero, look.zero_known),
             Kind::Plane | Kind::Indicator | Kind::Angle => (0.0, false),
         };
@@ -157,6 +163,18 @@ impl Instruments {
     /// Whether any of them sees where `F_0` is: the fixtures of all others stand in `F_0`.
     pub(super) fn see_the_base(&self) -> bool {
         self.list.iter().any(|instrument| instrument.kind == Kind::Point)
+    }
+
+    /// Whether any of them tells how far a target has moved since the row before.
+    pub(crate) fn count_from_before(&self) -> bool {
+        self.list.iter().any(|instrument| instrument.kind == Kind::Displacement)
+    }
+
+    /// The readings of a row before which there is none: nothing has moved yet.
+    pub(super) fn at_first(&self, mut readings: Vec<Option<f64>>) -> Vec<Option<f64>> {
+        let moved = self.list.iter().filter(|instrument| instrument.kind == Kind::Displacement);
+        moved.for_each(|instrument| readings[instrument.readings.clone()].fill(None));
+        readings
     }
 
     /// One standard deviation of the first that tells lengths.
@@ -224,7 +242,7 @@ impl Instruments {
             }
         }
         if readings.iter().all(Option::is_none) {
-            return Err("nothing was read".to_owned());
+            return Err(NOTHING_READ.to_owned());
         }
         Ok(readings)
     }

@@ -200,6 +200,20 @@ impl Map {
         Observation::new(line, q, u, self.unmeasured(None))
     }
 
+    /// Rows in their order, each with the one before it if an instrument tells how far a target has moved since.
+    pub(crate) fn in_sequence(&self, mut rows: Vec<Observation>) -> Vec<Observation> {
+        let Some(all) = self.instruments().filter(|all| all.count_from_before()) else { return rows };
+        let mut before: Option<Observation> = None;
+        for row in &mut rows {
+            let here = Observation { from: None, ..row.clone() };
+            row.from = before.replace(here).map(Box::new);
+            if let (None, Measurement::Readings(readings)) = (&row.from, &mut row.measured) {
+                *readings = all.at_first(std::mem::take(readings));
+            }
+        }
+        rows
+    }
+
     /// What stands for a measurement before there is one, in a setup if the map has a column for those.
     pub(super) fn unmeasured(&self, setup: Option<f64>) -> Measurement {
         match &self.layout {

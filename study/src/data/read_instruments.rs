@@ -10,7 +10,7 @@ use super::column::Column;
 use super::instrument::{Instrument, Instruments, Kind, Look, norm};
 use super::read_values::{column, columns, constant, positive, unit};
 
-const KINDS: [(&str, Kind); 8] = [
+const KINDS: [(&str, Kind); 9] = [
     ("point", Kind::Point),
     ("distance", Kind::Distance),
     ("contact", Kind::Contact),
@@ -18,6 +18,7 @@ const KINDS: [(&str, Kind); 8] = [
     ("sphere", Kind::Sphere),
     ("indicator", Kind::Indicator),
     ("between", Kind::Between),
+    ("displacement", Kind::Displacement),
     ("angle", Kind::Angle),
 ];
 
@@ -173,13 +174,14 @@ fn keys_of(kind: Kind) -> Keys {
             &["name", "kind", "column", "unit", "target", "at", "direction", "range", "setup", "uncertainty"]
         }
         Kind::Between => &["name", "kind", "column", "unit", "targets", "zero", "setup", "uncertainty"],
+        Kind::Displacement => &["name", "kind", "column", "unit", "target", "setup", "uncertainty"],
         Kind::Angle => &["name", "kind", "column", "unit", "direction", "mirror", "setup", "uncertainty"],
     };
     Keys { tables: &["[[instrument]]"], keys }
 }
 
 fn needs_place(kind: Kind) -> bool {
-    !matches!(kind, Kind::Point | Kind::Between | Kind::Angle)
+    !matches!(kind, Kind::Point | Kind::Between | Kind::Displacement | Kind::Angle)
 }
 
 /// Whether the data are to tell a number.

@@ -4,13 +4,14 @@ use std::collections::HashMap;
 use std::hash::{BuildHasher, RandomState};
 use std::path::{Path, PathBuf};
 
-use abbe::identify::{Configurations, Observation};
+use abbe::identify::{Configurations, Measurement, Observation};
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use super::column::{Channel, Column};
 use super::configurations::number_configurations;
 use super::file::{File, Record};
+use super::instrument::{Instruments, NOTHING_READ};
 use super::map::{Layout, Map};
 use crate::mistake;
 
@@ -110,9 +111,13 @@ impl Data {
         // By a hash of their digits, the place of the first row that has it.
         let mut known: HashMap<u64, usize> = HashMap::new();
         let digits = RandomState::new();
+        // Where the machine was before, for instruments that tell how far it moved since.
+        let from_before = map.instruments().is_some_and(Instruments::count_from_before);
+        let mut before: Option<Observation> = None;
         for record in table.records() {
             let record = record?;
             let measured = (columns == Columns::Measured).then_some(&measured[..]);
+            let here = from_before.then(|| row(&record, &commanded, None, map).ok()).flatten();
             let row = row(&record, &commanded, measured, map).and_then(|(bits, row)| {
                 let hash = digits.hash_one(bits);
                 let before = known.get(&hash).map(|place| &data.observations[*place]);
@@ -121,17 +126,25 @@ impl Data {
                 }
                 Ok((hash, row))
             });
+            let row = row.and_then(|(hash, row)| match moved_from_nowhere(&row, before.as_ref(), map) {
+                true => Err("how far it moved was read, and there is no row before it".to_owned()),
+                false => Ok((hash, row)),
+            });
             let row = row.and_then(|row| Ok((row, time.map(|place| record.time(place)).transpose()?)));
             match row {
                 Ok(((hash, observation), time)) => {
                     known.entry(hash).or_insert(data.observations.len());
                     let station = station.map_or(0, |place| data.station(record.text(place)));
-                    data.observations.push(Observation { time, station, ..observation });
+                    let from = before.take().map(|from| Box::new(Observation { station, ..from }));
+                    data.observations.push(Observation { time, station, from, ..observation });
                     groups.extend(group.map(|place| record.text(place).to_owned()));
                     directions.extend(direction.map(|place| record.text(place).to_owned()));
                 }
+                // A place to begin from.
+                Err(reason) if from_before && reason == NOTHING_READ => {}
                 Err(reason) => data.unusable.push(Unusable { line: record.line, reason }),
             }
+            before = here.map(|(_, here)| here);
         }
         let directions = Configurations::from_keys(directions).number;
         data.observations.iter_mut().zip(directions).for_each(|(row, number)| row.direction = number);
@@ -284,4 +297,12 @@ fn measured_numbers(record: &Record, places: &[usize], map: &Map) -> Result<Vec<
         return Err("no target was seen".to_owned());
     }
     Ok(numbers)
+}
+
+/// Whether a row says how far a target has moved since the one before, and there is none.
+fn moved_from_nowhere(row: &Observation, before: Option<&Observation>, map: &Map) -> bool {
+    match (map.instruments(), &row.measured, before) {
+        (Some(all), Measurement::Readings(readings), None) => all.at_first(readings.clone()) != *readings,
+        _ => false,
+    }
 }

@@ -172,7 +172,7 @@ fn elastic(spec: &Spec) -> Vec<Vec<Term>> {
 
 /// What full compliances have off their diagonals, of base and frames: pair by pair, and all three of a place at once.
 fn coupled(spec: &Spec) -> Vec<Vec<Term>> {
-    let of_place = |[spin, roll, pitch]: [Place; 3]| {
+    let of_place = |[spin, roll, _]: [Place; 3]| {
         let pair = |place: Place, other| Term { place, basis: Basis::Coupled(other) };
         let three =
             [pair(spin, Component::Roll), pair(spin, Component::Pitch), pair(roll, Component::Pitch)];

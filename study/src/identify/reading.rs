@@ -45,6 +45,9 @@ impl Change {
             Self::Turned(other) => row.measured = turned(row.measured, map, other),
             Self::Inverse => row.measured = inverse(row.measured),
         }
+        if let Some(from) = row.from.take() {
+            row.from = Some(Box::new(self.apply(*from, setup, map)));
+        }
         row
     }
 

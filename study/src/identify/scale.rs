@@ -32,7 +32,7 @@ fn scale_uncertainty(ideal: &Model, rows: &[Observation], moved: &[usize]) -> Re
         let told = match reading.gauge {
             Gauge::Lean { .. } | Gauge::Apart { .. } => continue,
             _ if reading.touched && !reading.zero_known => continue,
-            Gauge::Distance { .. } | Gauge::Between { .. } if reading.zero_known => 0.0,
+            Gauge::Distance { .. } | Gauge::Between { .. } | Gauge::Moved { .. } if reading.zero_known => 0.0,
             _ => mean,
         };
         information += values.iter().map(|v| ((v - told) / reading.uncertainty).powi(2)).sum::<f64>();

@@ -13,7 +13,7 @@ use abbe::{Description, Manipulator};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
 
-use crate::data::Map;
+use crate::data::{Instruments, Map};
 use crate::identify::{Counts, NotKnown, Setup, aimed, alikes, scale_note, unaimed};
 use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, mistake};
@@ -163,13 +163,18 @@ impl Plan {
                     let u = asked.u.clone();
                     Observation { u, ..self.map.planned(line, asked) }
                 });
-                let rows = self.aimed(setup, rows.collect())?;
+                let rows = self.map.in_sequence(self.aimed(setup, rows.collect())?);
                 let rows = seen_nominally(model, rows.into_iter()).map_err(fail)?;
                 let identifiable = determined(model, &rows).map_err(fail)?;
                 let design = whole(model, &rows, &identifiable, &objective).map_err(fail)?;
                 Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
             }
             Choice::Optimal { criterion, count, candidates } => {
+                if self.map.instruments().is_some_and(Instruments::count_from_before) {
+                    let message = "what is read as a displacement depends on the row before: single configurations cannot be chosen";
+                    let help = "plan rows in an order of your own with `--sets`";
+                    return Err(mistake::with_help(self.map.path(), message, help));
+                }
                 let moved: Vec<usize> = self.map.moved().collect();
                 let inputs = self.map.moved_inputs(&self.machine);
                 let samples = match self.seed {

@@ -87,7 +87,16 @@ impl Simulate {
             }
             failure => mistake::whole(&list.file, failure),
         };
-        let observations = simulate(&setup.real, &list.observations, &chance).map_err(fail)?;
+        if let Some(all) = map.instruments()
+            && all.count_from_before()
+            && all.list.iter().any(|instrument| instrument.kind.is_touched())
+        {
+            let message = "displacements from row to row cannot be simulated beside instruments that are touched";
+            let help = "simulate them in a map of their own";
+            return Err(mistake::with_help(map.path(), message, help));
+        }
+        let asked = map.in_sequence(list.observations.clone());
+        let observations = simulate(&setup.real, &asked, &chance).map_err(fail)?;
         let mut room = setup.ideal.room();
         let row = |observation: &Observation| {
             let ideal = setup.ideal.pose(&mut room, observation, &[])?.position();

@@ -55,6 +55,7 @@ fn every_gauge(robot: &dyn Manipulator) -> Model<'_> {
         Gauge::Along { target: 0, about: [800.0, -150.0, 300.0], direction: 1 },
         Gauge::Between { targets: [0, 1] },
         Gauge::Lean { mirror: [0.6, 0.0, 0.8], direction: 1 },
+        Gauge::Moved { target: 1 },
     ];
     let fixture = |name: &str, place| Fixture { name: name.to_owned(), place };
     let reading = |(i, gauge)| Reading {
@@ -83,10 +84,12 @@ fn derivatives_of_readings_are_exact() {
     let sources = model.repeatable().into_iter().map(Unknown::Magnitude);
     let all = model.constants(false).into_iter().chain(sources);
     let model = model.with(all.chain(Component::ALL.map(Unknown::Tool)).collect());
-    let seen = Observation { measured: Measurement::Readings(vec![Some(0.0); 6]), ..observation(&q, 1) };
+    let from = Some(Box::new(observation(&[700.0, 100.0, 350.0, -0.4, 0.02, 0.05], 0)));
+    let measured = Measurement::Readings(vec![Some(0.0); 7]);
+    let seen = Observation { from, measured, ..observation(&q, 1) };
     differences(&model, &seen);
-    assert_eq!(seen.count(), 6);
-    let hidden = Measurement::Readings(vec![None, Some(1.0), None, None, Some(2.0), None]);
+    assert_eq!(seen.count(), 7);
+    let hidden = Measurement::Readings(vec![None, Some(1.0), None, None, Some(2.0), None, None]);
     let part = Observation { measured: hidden, ..seen.clone() };
     let zero = vec![0.0; model.unknowns.len()];
     let (all, rows) = residuals(&model, &seen, &zero);
