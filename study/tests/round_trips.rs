@@ -247,7 +247,10 @@ fn of_two_stations() {
     // Rows of a station that nothing is known of are refused.
     let elsewhere = Data { stations: vec!["roof".to_owned(), "wall".to_owned()], ..unseen };
     let refused = job(&guess, measured(&truth, 60, 1), Some(elsewhere.clone())).run(&mut ()).unwrap_err();
-    assert!(refused.to_string().contains("rows of station `roof`, where none of the data was measured"), "{refused}");
+    assert!(
+        refused.to_string().contains("rows of station `roof`, where none of the data was measured"),
+        "{refused}"
+    );
     let job = Measure { machine: ur5(), map: truth, data: elsewhere, accept: Acceptance::default() };
     let refused = job.run(&mut ()).unwrap_err().to_string();
     for said in ["station `roof`", "the map does not say where it is", "`door`, `wall`", "--station new"] {

@@ -331,7 +331,8 @@ fn priors_of_the_spec_hold_what_they_are_of() {
     assert!(length(&held).abs() < 0.02, "{:?}", held.parameters);
     assert!(held.uncertainty_factor > 1.5 * free.uncertainty_factor, "{}", held.uncertainty_factor);
     // Of the other error nothing is stated there: it is as free as before.
-    let spin = |report: &Report| report.parameters.iter().any(|one| one.frame == Some(3) && one.unit == "rad");
+    let spin =
+        |report: &Report| report.parameters.iter().any(|one| one.frame == Some(3) && one.unit == "rad");
     assert!(spin(&free) && spin(&held));
 }
 
@@ -348,7 +349,8 @@ fn a_prior_that_is_chosen_is_said_and_no_worse() {
     let (stated, chosen) = (found(Prior::Share(0.01)), found(Prior::Auto));
     let note = chosen.notes.iter().find(|note| note.contains("errors are expected to be"));
     let note = note.expect("it is said");
-    let share: f64 = note.split("to be ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
+    let share: f64 =
+        note.split("to be ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap();
     assert!([3.0, 1.0, 0.3, 0.1, 0.03, 0.01].contains(&share), "{note}");
     // Another one is better if it is by more than 1 %; of so few rows this one is.
     let rms = |report: &Report| report.cross_validation.after.rms;
@@ -359,7 +361,8 @@ fn a_prior_that_is_chosen_is_said_and_no_worse() {
 /// When the time is over, no more terms are tried, and that is said; with time enough it makes no difference.
 #[test]
 fn time_ends_the_search_for_terms() {
-    let wave = "[[source]]\nname = \"gear\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"1 mrad * sin(q2)\"\n";
+    let wave =
+        "[[source]]\nname = \"gear\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"1 mrad * sin(q2)\"\n";
     let data = measured(&ur5(wave), "exact", POINT, 100, 3);
     let found = |time| {
         let mut job = job(&ur5(""), "exact", POINT, &data);

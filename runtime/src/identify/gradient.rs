@@ -54,7 +54,8 @@ impl Model<'_> {
             }
             Gauge::Moved { target: j } => {
                 let apart = room.start.as_ref().map_or([0.0; 3], |start| {
-                    let there = start.frames[0].after.inverse().then(&start.frames[start.errors.len() + 1].after);
+                    let there =
+                        start.frames[0].after.inverse().then(&start.frames[start.errors.len() + 1].after);
                     difference(target(j), there.apply(start.targets[j]))
                 });
                 (dot(apart, apart).sqrt(), unit(apart), target(j))
@@ -99,7 +100,8 @@ impl Model<'_> {
                     dot(along, self.point_moves(room, k, a)) - dot(along, self.point_moves(room, k, b))
                 }
                 Gauge::Moved { target } => {
-                    let there = room.start.as_ref().map_or([0.0; 3], |start| self.point_moves(start, k, target));
+                    let there =
+                        room.start.as_ref().map_or([0.0; 3], |start| self.point_moves(start, k, target));
                     dot(along, self.point_moves(room, k, target)) - dot(along, there)
                 }
                 Gauge::Lean { .. } => dot(along, self.turn(room, k)),

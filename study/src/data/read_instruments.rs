@@ -246,7 +246,8 @@ fn zero(section: &Section<'_>, kind: Kind, document: &mut Document, spec: &Spec)
             Some((about.map_or(Some(0.0), |about| about.map(|about| sign * about))?, false))
         }
         (Some(_), Some(nominal)) => {
-            let message = "`nominal_radius` is about how large a radius is that is unknown; this one is known";
+            let message =
+                "`nominal_radius` is about how large a radius is that is unknown; this one is known";
             let help = "leave it out, or write `radius = \"unknown\"`";
             document.mistake(Diagnostic::new(nominal.key_span.clone(), message).help(help));
             None

@@ -174,8 +174,7 @@ fn elastic(spec: &Spec) -> Vec<Vec<Term>> {
 fn coupled(spec: &Spec) -> Vec<Vec<Term>> {
     let of_place = |[spin, roll, _]: [Place; 3]| {
         let pair = |place: Place, other| Term { place, basis: Basis::Coupled(other) };
-        let three =
-            [pair(spin, Component::Roll), pair(spin, Component::Pitch), pair(roll, Component::Pitch)];
+        let three = [pair(spin, Component::Roll), pair(spin, Component::Pitch), pair(roll, Component::Pitch)];
         three.map(|term| vec![term]).into_iter().chain([three.to_vec()])
     };
     turns(spec).into_iter().flat_map(of_place).collect()

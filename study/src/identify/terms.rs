@@ -196,7 +196,9 @@ impl Term {
                 _ => format!("{error} of {owner}"),
             },
             Basis::Moment => format!("{owner}: gives way under weight, {error}"),
-            Basis::Coupled(other) => format!("{owner}: gives way under weight, {error} with {}", other.name()),
+            Basis::Coupled(other) => {
+                format!("{owner}: gives way under weight, {error} with {}", other.name())
+            }
             Basis::Input(input) => format!("{owner}: {error} with {}", spec.inputs[input].name),
             Basis::Wave(Wave::Power { variable, exponent }) => {
                 format!("{owner}: {error} with {}^{exponent}", spec.variables[variable].name)

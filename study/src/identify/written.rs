@@ -204,7 +204,9 @@ fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
             }
             Basis::Coupled(other) => {
                 let (one, other) = (component.name(), other.name());
-                format!("compliance: {one} and {other} by the moments about each other: \"{factor} * {basis}\"")
+                format!(
+                    "compliance: {one} and {other} by the moments about each other: \"{factor} * {basis}\""
+                )
             }
             _ => format!("{} = {error}", component.name()),
         };

@@ -65,7 +65,8 @@ impl FoundModel {
         let what = format!("Standard deviations, as shares of the entries: {}", deviations.join(", "));
         let mut text = source(&name, &what, "", &matrix);
         if off != [0.0; 3] {
-            let diagonal = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { off[i] } else { 0.0 }));
+            let diagonal =
+                std::array::from_fn(|i| std::array::from_fn(|j| if i == j { off[i] } else { 0.0 }));
             let what = "Taken off again: by itself what was found is no compliance, it stands for something else as well";
             text += &source(&format!("{name}, less"), what, "magnitude = { value = -1 }\n", &diagonal);
         }

@@ -91,7 +91,8 @@ impl Simulate {
             && all.count_from_before()
             && all.list.iter().any(|instrument| instrument.kind.is_touched())
         {
-            let message = "displacements from row to row cannot be simulated beside instruments that are touched";
+            let message =
+                "displacements from row to row cannot be simulated beside instruments that are touched";
             let help = "simulate them in a map of their own";
             return Err(mistake::with_help(map.path(), message, help));
         }
