@@ -141,10 +141,10 @@ fn copies_of_rows_say_nothing_new() {
         let (_, once) = drawn(&model, &planned(&model, 30, visits), [0.1, 0.02], &mut random);
         let ten_times: Vec<Observation> = (0..10).flat_map(|_| once.clone()).collect();
         let deviations = |data: &[Observation]| {
-            // The machine is five times as bad as its instrument: what it tells is judged by that.
-            let options = Options { noise: 5.0, ..options(&model, Loss::Squares) };
-            let found = fit(&model, data, &options).unwrap();
+            // Nothing is held that is hardly told: along bent valleys that took 140 to 310 steps without a bend.
+            let found = fit(&model, data, &Options::default()).unwrap();
             assert_eq!(found.configurations, 30);
+            assert!(found.steps <= 30, "{targets} {visits}: {} steps", found.steps);
             found.standard_deviations()
         };
         for (once, ten_times) in deviations(&once).iter().zip(deviations(&ten_times)) {

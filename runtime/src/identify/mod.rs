@@ -63,6 +63,7 @@
 //! # }
 //! ```
 
+mod acceleration;
 mod clustered;
 mod columns;
 mod configurations;

@@ -98,17 +98,19 @@ impl<'a> Solver<'a> {
         if !self.linearized {
             self.linearize_here()?;
         }
-        let mut damping = 1e-9;
+        // Derivatives alone lead astray from the first step on that fails.
+        let (mut damping, mut curved, mut still) = (1e-9, false, 0);
         for _ in 0..most {
             // A millionth of what a single number of the data explains by chance.
             let nothing = 1e-6 * self.cost / self.data.len().max(1) as f64;
             if self.problem.promise() <= nothing {
                 return Ok(true);
             }
-            let Some(trial) = self.trial(damping) else {
+            let Some(step) = self.problem.solve(damping) else {
                 damping = f64::max(damping * 10.0, 1e-12);
                 continue;
             };
+            let trial = self.within(&self.x + if curved { self.accelerated(step, damping)? } else { step });
             let share = (&trial - &self.x).component_mul(&self.scale()).norm();
             // Far below what a single measurement changes.
             let small = share < 1e-7 * (1.0 + self.cost.sqrt());
@@ -118,13 +120,16 @@ impl<'a> Solver<'a> {
                 let gained = self.cost - cost;
                 (self.x, self.data_alone, self.problem, self.cost) = (trial, data_alone, problem, cost);
                 damping = f64::max(damping * 0.1, 1e-15);
-                if small || gained <= nothing {
+                // In a valley a single step may gain nothing by chance.
+                still = if small || gained <= nothing { still + 1 } else { 0 };
+                if still > usize::from(curved) {
                     return Ok(true);
                 }
             } else if small {
                 return Ok(true);
             } else {
                 damping = f64::max(damping * 10.0, 1e-6);
+                curved = true;
             }
         }
         Ok(false)

@@ -87,23 +87,36 @@ impl Problem {
 
     /// `min ‖A x − b‖² + λ ‖D x‖²` with `D` the lengths of the columns; none if it is singular.
     pub(super) fn solve(&self, damping: f64) -> Option<DVector<f64>> {
-        let p = self.a.ncols();
-        let rows = self.a.nrows();
-        let scale = self.lengths();
-        let mut stack = DMatrix::zeros(rows + p, p);
+        let (p, rows) = (self.a.ncols(), self.a.nrows());
         let mut right = DVector::zeros(rows + p);
         right.rows_mut(0, rows).copy_from(&self.b);
+        let scale = self.lengths();
+        let qr = self.damped(&scale, damping).qr();
+        qr.q_tr_mul(&mut right);
+        let solution = qr.r().solve_upper_triangular(&right.rows(0, p))?;
+        unscaled(&solution, &scale)
+    }
+
+    /// `(AᵀA + λ D²) x = g`; none if it is singular.
+    pub(super) fn solve_normal(&self, g: &DVector<f64>, damping: f64) -> Option<DVector<f64>> {
+        let scale = self.lengths();
+        let r = self.damped(&scale, damping).qr().unpack_r();
+        let right = DVector::from_fn(g.len(), |j, _| g[j] / scale[j]);
+        let solution = r.solve_upper_triangular(&r.tr_solve_upper_triangular(&right)?)?;
+        unscaled(&solution, &scale)
+    }
+
+    /// `A D⁻¹` above `√λ`.
+    fn damped(&self, scale: &[f64], damping: f64) -> DMatrix<f64> {
+        let (p, rows) = (self.a.ncols(), self.a.nrows());
+        let mut stack = DMatrix::zeros(rows + p, p);
         for j in 0..p {
             for i in 0..rows {
                 stack[(i, j)] = self.a[(i, j)] / scale[j];
             }
             stack[(rows + j, j)] = damping.sqrt();
         }
-        let qr = stack.qr();
-        qr.q_tr_mul(&mut right);
-        let solution = qr.r().solve_upper_triangular(&right.rows(0, p))?;
-        let x = DVector::from_fn(p, |j, _| solution[j] / scale[j]);
-        x.iter().all(|value| value.is_finite()).then_some(x)
+        stack
     }
 
     /// The lengths of the columns; 1 where there is nothing.
@@ -111,6 +124,12 @@ impl Problem {
         let length = |column: nalgebra::DVectorView<'_, f64>| column.norm();
         self.a.column_iter().map(|c| Some(length(c)).filter(|l| *l > 0.0).unwrap_or(1.0)).collect()
     }
+}
+
+/// `D⁻¹ x`, if it is finite.
+fn unscaled(solution: &DVector<f64>, scale: &[f64]) -> Option<DVector<f64>> {
+    let x = DVector::from_fn(solution.len(), |j, _| solution[j] / scale[j]);
+    x.iter().all(|value| value.is_finite()).then_some(x)
 }
 
 #[cfg(test)]
@@ -138,6 +157,9 @@ mod tests {
         let expected = (a.transpose() * &a).cholesky().unwrap().solve(&(a.transpose() * &b));
         assert!((&x - expected).norm() < 1e-12);
         let problem = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]);
+        // The same of the normal equations, damped.
+        let g = problem.a.tr_mul(&problem.b);
+        assert!((problem.solve_normal(&g, 0.1).unwrap() - problem.solve(0.1).unwrap()).norm() < 1e-12);
         assert!(((&problem.a * &x - &problem.b).norm_squared() - (a * x - b).norm_squared()).abs() < 1e-9);
     }
 }
