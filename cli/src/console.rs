@@ -50,8 +50,9 @@ impl Notes for Console {
         }
         let bar = self.bar.get_or_insert_with(|| {
             let bar = ProgressBar::new(total as u64).with_elapsed(begun.elapsed());
-            let style =
-                ProgressStyle::with_template("{bar:40} {percent} % of {len} configurations, {eta} left");
+            let style = ProgressStyle::with_template(
+                "{bar:30} {pos} of {len} configurations, {eta} left, Ctrl-C ends it",
+            );
             style.map_or(bar.clone(), |style| bar.with_style(style))
         });
         bar.set_position(done as u64);

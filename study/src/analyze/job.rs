@@ -102,6 +102,7 @@ impl Analyze {
         let workspace = study.region.workspace(manipulator, self.seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, error))?;
         let gathering = self.figures.then(|| Gathering::new(study, description));
+        notes.progress(0, workspace.len());
         let mut watching = Watching { rows, gathering, notes, total: workspace.len() };
         let residuals = study.compensation.as_ref().map(|left| left.of(description));
         let tolerances = [study.tolerance, study.orientation_tolerance];
