@@ -65,6 +65,7 @@ mod changes;
 mod extrapolated;
 mod listing;
 mod machine;
+mod named;
 mod notes;
 mod reads;
 

@@ -7,14 +7,14 @@ use std::sync::Arc;
 
 use abbe::analysis::Sweepable;
 use abbe::{Class, Distribution};
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, nearest_file};
+use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::Document;
-use abbe_codegen::expr::find_name;
 use abbe_codegen::spec::{Magnitude, Source, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, Shipped};
 
 use crate::changes::Changes;
+use crate::named;
 
 /// A spec, and what was shipped with it.
 #[derive(Clone)]
@@ -40,11 +40,13 @@ impl Machine {
     pub fn find(argument: impl AsRef<OsStr>) -> Result<Self, Diagnostics> {
         let path = Path::new(&argument);
         let name = path.to_string_lossy();
-        let is_path = name.contains(std::path::is_separator) || name.ends_with(".toml") || path.is_file();
         let shipped = SHIPPED.iter().find(|shipped| shipped.name == name);
         match shipped {
-            Some(shipped) if !is_path => Self::shipped(shipped),
-            None if !is_path && !path.exists() => Err(unknown(&name)),
+            Some(shipped) if !named::is_path(path) => Self::shipped(shipped),
+            None if !named::is_path(path) => {
+                let names = SHIPPED.iter().map(|shipped| shipped.name).collect::<Vec<_>>();
+                Err(named::unknown("SPEC", &name, &names, "shipped manipulator"))
+            },
             _ => {
                 let file = Some(path.to_owned());
                 Ok(Self { file, ..Self::new(Spec::read(path)?, &name, None) })
@@ -156,20 +158,4 @@ fn magnitude_error(source: &Source) -> Option<Source> {
 /// No random source of a file has a magnitude.
 fn is_magnitude_error(source: &Source) -> bool {
     source.class != Class::Repeatable && source.magnitude.is_some()
-}
-
-fn unknown(argument: &str) -> Diagnostics {
-    let mut document = Document::new("SPEC", argument);
-    let names = SHIPPED.iter().map(|shipped| shipped.name).collect::<Vec<_>>();
-    find_name(&mut document, 0..argument.len(), argument, &names, "shipped manipulator");
-    let Document { path, text, found, .. } = document;
-    // `arm` where there is `arm.toml`.
-    let near = [argument.to_owned() + ".toml", argument.to_owned()].into_iter();
-    let near = near.filter(|_| !argument.is_empty()).find_map(|name| nearest_file(Path::new(&name)));
-    let label = |mistake: Diagnostic| match &near {
-        Some(file) => mistake.label(format!("and no such file; there is `{}`", file.display())),
-        None => mistake.label("and no such file"),
-    };
-    let list = found.into_iter().map(label).collect();
-    Diagnostics { path, text, list }
 }

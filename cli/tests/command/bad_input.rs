@@ -159,6 +159,9 @@ fn what_is_nearest() {
         (&["check", "pumma560"], "did you mean `puma560`?"),
         (&["check", "arm"], "there is `arm.toml`"),
         (&["check", "amr"], "there is `arm.toml`"),
+        (&["measure", "ur5", "arm.csv", "--map", "ur6"], "did you mean `ur5`?"),
+        (&["measure", "ur5", "arm.csv", "--map", "arn"], "there is `arm.toml`"),
+        (&["plan", "pps", "--map", "pps", "--sets", "pss"], "did you mean `pps`?"),
     ] {
         let output = crate::running::command(words).current_dir(folder.path()).output().unwrap();
         let stderr = String::from_utf8(output.stderr).unwrap();

@@ -18,19 +18,14 @@ use super::read_instruments::instruments;
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
 use super::turn::{Order, Turn};
+use crate::named;
 use crate::acceptance::{Acceptance, FIGURES};
 
 impl Map {
     /// The map in a file, or the one shipped under that name.
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
-        let name = argument.to_string_lossy();
-        let shipped = abbe_manipulators::MAPS.iter().find(|(shipped, _)| *shipped == name);
-        match shipped {
-            Some((name, text)) if !argument.exists() => {
-                Self::from_document(Document::new(format!("maps/{name}.toml"), *text), spec)
-            }
-            _ => Self::from_document(Document::read(argument)?, spec),
-        }
+        let document = named::document("--map", argument, abbe_manipulators::MAPS, "maps", "shipped map")?;
+        Self::from_document(document, spec)
     }
 
     /// The map that a text is; `path` is what mistakes are shown under.

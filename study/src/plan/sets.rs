@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::keys;
 use crate::workspace::{Candidates, Region, count, read_region};
-use crate::{Notes, mistake};
+use crate::{Notes, mistake, named};
 
 /// A plan, read and checked.
 #[derive(Clone, Debug)]
@@ -52,12 +52,7 @@ pub struct Counted {
 impl Sets {
     /// The plan in a file, or the one shipped under that name.
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
-        let name = argument.to_string_lossy();
-        let shipped = abbe_manipulators::PLANS.iter().find(|(shipped, _)| *shipped == name);
-        let mut document = match shipped {
-            Some((name, text)) if !argument.exists() => Document::new(format!("plans/{name}.toml"), *text),
-            _ => Document::read(argument)?,
-        };
+        let mut document = named::document("--sets", argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
         let sets = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));

@@ -1,0 +1,49 @@
+//! What an argument names: a file, or something shipped.
+
+use std::path::Path;
+
+use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, nearest_file};
+use abbe_codegen::document::Document;
+use abbe_codegen::expr::find_name;
+
+/// Whether it can be a path only: it is there, or looks like one.
+pub(crate) fn is_path(argument: &Path) -> bool {
+    let name = argument.to_string_lossy();
+    name.contains(std::path::is_separator) || name.ends_with(".toml") || (argument.exists() && !argument.is_dir())
+}
+
+/// A file, or the shipped one of that name; `folder` is where it is shipped, `what` what it is.
+pub(crate) fn document(
+    option: &str,
+    argument: &Path,
+    shipped: &[(&str, &str)],
+    folder: &str,
+    what: &str,
+) -> Result<Document, Diagnostics> {
+    let name = argument.to_string_lossy();
+    if is_path(argument) {
+        return Document::read(argument);
+    }
+    match shipped.iter().find(|(shipped, _)| *shipped == name) {
+        Some((name, text)) => Ok(Document::new(format!("{folder}/{name}.toml"), *text)),
+        None => {
+            let names = shipped.iter().map(|(name, _)| *name).collect::<Vec<_>>();
+            Err(unknown(option, &name, &names, what))
+        }
+    }
+}
+
+/// Neither shipped nor a file: the nearest of both.
+pub(crate) fn unknown(option: &str, argument: &str, names: &[&str], what: &str) -> Diagnostics {
+    let mut document = Document::new(option, argument);
+    find_name(&mut document, 0..argument.len(), argument, names, what);
+    let Document { path, text, found, .. } = document;
+    // `arm` where there is `arm.toml`.
+    let near = [argument.to_owned() + ".toml", argument.to_owned()].into_iter();
+    let near = near.filter(|_| !argument.is_empty()).find_map(|name| nearest_file(Path::new(&name)));
+    let label = |mistake: Diagnostic| match &near {
+        Some(file) => mistake.label(format!("and no such file; there is `{}`", file.display())),
+        None => mistake.label("and no such file"),
+    };
+    Diagnostics { path, text, list: found.into_iter().map(label).collect() }
+}
