@@ -46,7 +46,7 @@ impl Machine {
             None if !named::is_path(path) => {
                 let names = SHIPPED.iter().map(|shipped| shipped.name).collect::<Vec<_>>();
                 Err(named::unknown("SPEC", &name, &names, "shipped manipulator"))
-            },
+            }
             _ => {
                 let file = Some(path.to_owned());
                 Ok(Self { file, ..Self::new(Spec::read(path)?, &name, None) })

@@ -9,7 +9,9 @@ use abbe_codegen::expr::find_name;
 /// Whether it can be a path only: it is there, or looks like one.
 pub(crate) fn is_path(argument: &Path) -> bool {
     let name = argument.to_string_lossy();
-    name.contains(std::path::is_separator) || name.ends_with(".toml") || (argument.exists() && !argument.is_dir())
+    name.contains(std::path::is_separator)
+        || name.ends_with(".toml")
+        || (argument.exists() && !argument.is_dir())
 }
 
 /// A file, or the shipped one of that name; `folder` is where it is shipped, `what` what it is.

@@ -18,8 +18,8 @@ use super::read_instruments::instruments;
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
 use super::turn::{Order, Turn};
-use crate::named;
 use crate::acceptance::{Acceptance, FIGURES};
+use crate::named;
 
 impl Map {
     /// The map in a file, or the one shipped under that name.

@@ -52,7 +52,8 @@ pub struct Counted {
 impl Sets {
     /// The plan in a file, or the one shipped under that name.
     pub fn find(argument: &Path, spec: &Spec) -> Result<Self, Diagnostics> {
-        let mut document = named::document("--sets", argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
+        let mut document =
+            named::document("--sets", argument, abbe_manipulators::PLANS, "plans", "shipped plan")?;
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
         let sets = tables.and_then(|tables| read(&Section::root(&tables), &mut document, spec));
