@@ -41,7 +41,7 @@ fn norm(v: [f64; 3]) -> f64 {
 pub(super) fn over_all(figures: &mut Figures, residuals: &[Residual], name: &'static str, spec: &Spec) {
     let names = Names { before: "", after: name };
     vectors(figures, residuals, &names, spec);
-    over_rows_and_joints(figures, residuals, name, spec);
+    over_rows_and_joints(figures, residuals, &format!("{name}."), spec);
 }
 
 /// All pictures of a list of points.
