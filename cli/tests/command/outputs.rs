@@ -193,9 +193,15 @@ fn what_is_no_file_is_written_through() {
     }
     assert_eq!(abbe(&plan("/dev/null")).stdout, data);
     assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
-    let full = abbe(&plan("/dev/full"));
-    assert_eq!((full.status, &full.stdout[..]), (2, ""));
-    assert!(full.stderr.contains("/dev/full") && full.stderr.contains("No space left"), "{}", full.stderr);
+    if Path::new("/dev/full").exists() {
+        let full = abbe(&plan("/dev/full"));
+        assert_eq!((full.status, &full.stdout[..]), (2, ""));
+        assert!(
+            full.stderr.contains("/dev/full") && full.stderr.contains("No space left"),
+            "{}",
+            full.stderr
+        );
+    }
     // A pipe with a reader, and one whose reader has gone.
     let pipe = workshop.path("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
