@@ -14,7 +14,7 @@ pub(crate) struct Failure(Box<Diagnostics>);
 impl Failure {
     /// Something wrong with a file, a spec or an argument as a whole.
     pub(crate) fn of(subject: impl Display, message: impl Display) -> Self {
-        mistake::whole(subject, message).into()
+        mistake::with_help(subject, message, "`abbe COMMAND --help` says what can be given").into()
     }
 
     /// Says a way out.

@@ -1,7 +1,5 @@
 //! A TOML file with the place of everything in it: the cursor with which spec and study files are read.
 
-use std::fs;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,7 +7,8 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
-use crate::expr::{Dimension, Entry, Expression, Place, Scope, parse_expression};
+use crate::expr::{Dimension, LARGEST as LARGEST_NUMBER, Entry, Expression, Place, Scope, parse_expression};
+use crate::bounded::{Bounded, Unfit, not_text};
 use crate::keys::Keys;
 use crate::not_toml::not_toml;
 
@@ -51,25 +50,13 @@ impl Document {
         let name = path.display().to_string();
         let fail =
             |text: Arc<str>, diagnostic| Diagnostics { path: name.clone(), text, list: vec![diagnostic] };
-        let mut bytes = Vec::new();
-        let metadata = fs::metadata(path);
-        if metadata.as_ref().is_ok_and(fs::Metadata::is_dir) {
-            let mistake = Diagnostic::whole_file("this is a directory, not a file").help("name a file in it");
-            return Err(fail(Arc::from(""), mistake));
-        }
-        if let Err(error) =
-            fs::File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
-        {
-            let mistake = Diagnostic::whole_file(format!("cannot read this file: {error}"))
-                .help("give the path of a TOML file");
-            return Err(fail(Arc::from(""), mistake));
-        }
-        if bytes.len() as u64 > LARGEST {
-            let first: Arc<str> = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).into();
-            let mistake = Diagnostic::new(0..0, format!("this file is larger than {} MiB", LARGEST >> 20))
-                .label("no spec is that long")
-                .help("is this the file you meant?");
-            return Err(fail(first, mistake));
+        let unfit = |Unfit { message, help }: Unfit| {
+            fail(Arc::from(""), Diagnostic::whole_file(message).help(help))
+        };
+        let bytes = Bounded::read_all(path, LARGEST)
+            .map_err(|error| unfit(Unfit::from_error(&error, "give the path of a TOML file")))?;
+        if let Some(found) = not_text(&bytes) {
+            return Err(unfit(found));
         }
         let bytes = match String::from_utf8(bytes) {
             Ok(text) => {
@@ -214,6 +201,22 @@ impl Document {
         })
     }
 
+    /// Whether there are no more of something than can be worked with; if there are, that is a mistake.
+    pub fn at_most(
+        &mut self,
+        item: &Item<'_>,
+        count: usize,
+        most: usize,
+        what: &str,
+        help: &str,
+    ) -> Option<()> {
+        if count > most {
+            let message = format!("there are {count} {what}; {most} can be worked with");
+            self.mistake(Diagnostic::new(item.key_span.clone(), message).help(help));
+        }
+        (count <= most).then_some(())
+    }
+
     /// A string with its place in the file.
     pub(crate) fn text<'d>(&mut self, item: &Item<'d>) -> Option<(&'d str, Place)> {
         let DeValue::String(text) = item.value.get_ref() else {
@@ -253,9 +256,13 @@ impl Document {
             }
         };
         let value = match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Some(value),
+            Ok(value) if value.abs() <= LARGEST_NUMBER => Some(value),
             Ok(value) => {
-                let what = if value.is_nan() { "NaN" } else { "infinite, or too large for a number" };
+                let what = match value {
+                    _ if value.is_nan() => "NaN",
+                    _ if value.is_infinite() => "infinite, or too large for a number",
+                    _ => "so large: numbers go up to 1e150",
+                };
                 self.mistake(
                     Diagnostic::new(span.clone(), format!("{} cannot be {what}", entry.what))
                         .label("expected a finite number")

@@ -13,12 +13,14 @@
 //! The path of a spec through this crate: `spec` reads and checks it (with `expr`, and `diagnostic` for what is
 //! wrong), `chain` builds the nodes of a `graph`, `program` puts them in order, `print` writes Rust or another language.
 
+pub mod bounded;
 pub mod cell;
 pub mod chain;
 pub mod diagnostic;
 pub mod document;
 pub mod expr;
 pub mod graph;
+
 pub mod keys;
 pub mod print;
 pub mod program;

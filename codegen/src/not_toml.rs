@@ -21,6 +21,8 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
             "a table of data",
             "data are the argument after the spec, with a map: `abbe measure SPEC DATA --map MAP`",
         )
+    } else if let Some(language) = language(start) {
+        (language, "the files of abbe are TOML; code is made from them: `abbe generate SPEC --out FILE`")
     } else if lines()
         .take(3)
         .all(|line| line.split_once(':').is_some_and(|(key, _)| !key.contains(['=', '"'])))
@@ -34,4 +36,15 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
     let message = format!("this file is not TOML; it seems to be {what}");
     let mistake = Diagnostic { message, ..first.clone() }.label("here it is not TOML").help(help);
     Some(mistake)
+}
+
+/// The language of a program, by its first line that is no comment of TOML.
+fn language(start: &str) -> Option<&'static str> {
+    const BEGINS: [(&str, &[&str]); 3] = [
+        ("Rust", &["//!", "///", "use ", "pub ", "fn ", "mod ", "impl ", "struct "]),
+        ("Python", &["import ", "from ", "def ", "class ", "\"\"\""]),
+        ("source code", &["//", "/*", "function ", "export ", "const ", "void ", "%"]),
+    ];
+    let begins = BEGINS.iter().find(|(_, begins)| begins.iter().any(|begin| start.starts_with(begin)));
+    begins.filter(|_| !start.contains('=') || start.starts_with('/')).map(|(language, _)| *language)
 }

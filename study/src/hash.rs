@@ -1,10 +1,10 @@
 //! By which a file is known again.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::bounded::{Bounded, Unfit};
 use sha2::{Digest, Sha256};
 
 use crate::mistake;
@@ -16,8 +16,12 @@ pub fn of_text(text: &str) -> String {
 
 /// The SHA-256 of a file, as `sha256sum` says it.
 pub fn of_file(file: &Path) -> Result<String, Diagnostics> {
-    let hash = File::open(file).and_then(of_reader);
-    hash.map_err(|error| mistake::whole(file.display(), format!("cannot read this: {error}")))
+    let fail = |error: io::Error| {
+        let Unfit { message, help } = Unfit::from_error(&error, "give the path of a file");
+        mistake::with_help(file.display(), message, help)
+    };
+    let file = Bounded::open(file, u64::MAX).map_err(fail)?;
+    of_reader(file).map_err(fail)
 }
 
 /// The SHA-256 of all that is read.

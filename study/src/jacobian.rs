@@ -11,6 +11,7 @@ use abbe_codegen::spec::{Spec, Variable, VariableKind};
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
+use crate::finite::finite;
 use crate::machine::Machine;
 use crate::mistake;
 use crate::notes::Notes;
@@ -70,9 +71,9 @@ impl Jacobian {
             .and_then(|pose| interpreter.generalized_errors(&q, &s, &u, &mut errors).map(|()| pose))
             .map_err(|error| {
                 let error = first_effect(&interpreter, [&q, &s, &u], error);
-                mistake::not_evaluated(&self.machine.origin, "this configuration", &error, description)
+                mistake::not_evaluated(&self.machine.origin, &number::variables(&q, spec), &error, description)
             })?;
-        Ok(Report::new(description, Arc::clone(spec), q, &pose, &columns, &errors))
+        finite(&self.machine.origin, Report::new(description, Arc::clone(spec), q, &pose, &columns, &errors))
     }
 }
 

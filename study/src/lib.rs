@@ -12,7 +12,7 @@
 //!   question has the command's name ([`Machine`] first, then what else is asked); its report is one struct that
 //!   derives `Serialize`, owns everything in it and borrows nothing. Serialized it is what `--json` prints. What only a
 //!   text or a page needs stands in the same report, marked `#[serde(skip)]`.
-//! - **A mistake in what is asked is `Diagnostics`**, with the file or option and the place: [`mistake::whole`] makes one
+//! - **A mistake in what is asked is `Diagnostics`**, with the file or option and the place: [`mistake::with_help`] makes one
 //!   without a place, [`mistake::not_evaluated`] that of a configuration without a finite result.
 //! - **What is said on the way goes to [`Notes`]**: a note, a warning, how far the work is; and a job that takes long
 //!   asks it whether to stop. Nothing here prints, exits, or knows arguments. `&mut ()` hears nothing.
@@ -63,6 +63,7 @@ pub mod workspace;
 mod acceptance;
 mod changes;
 mod extrapolated;
+mod finite;
 mod listing;
 mod machine;
 mod named;
@@ -72,6 +73,7 @@ mod reads;
 pub use acceptance::{Acceptance, Accepted, Limit};
 pub use changes::{Changes, find_symbol};
 pub use extrapolated::{Extrapolated, Known};
+pub use finite::finite;
 pub use listing::Listing;
 pub use machine::{Evaluator, Machine};
 pub use notes::Notes;

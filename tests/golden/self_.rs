@@ -19,7 +19,7 @@
 ///
 /// | source | is an error of |
 /// |---|---|
-/// | "quoted" \ name | frame x |
+/// | "quoted" \\ name | frame x |
 ///
 /// | function | operations |
 /// |---|---|

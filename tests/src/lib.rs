@@ -2,6 +2,7 @@
 //! it is checked in, so that it is compiled as users compile it, with warnings denied.
 #![deny(warnings, missing_docs, clippy::all)]
 
+pub mod abuse;
 pub mod chains;
 pub mod frame_loop;
 pub mod needs;

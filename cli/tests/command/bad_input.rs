@@ -43,7 +43,7 @@ fn values_of_joints() {
     q("0,0,0,90degg,0,0", &["`degg` is neither a unit nor a function", "did you mean `deg`?", "--q:1:9"]);
     q("0,0,,0,0,0", &["the value of `d3` is missing"]);
     q("nan,inf,0,0,0,0", &["`nan` is neither", "`inf` is neither"]);
-    q("1e999,1e308m,1/0,0,0,0", &["too large for a number", "`d2` is too large", "division by zero"]);
+    q("1e999,1e308m,1/0,0,0,0", &["too large for a number", "too large to compute with", "division by zero"]);
     q("d1,((0,0,0,0", &["5 are given"].map(|_| "joint variables are needed"));
     q("0,0,0,0,(0,0)", &["joint variables are needed"]);
     q("é,0,0,0,0,0°", &["`é` is neither", "--q:1:12"]);

@@ -3,6 +3,7 @@
 use super::function::FUNCTION_NAMES;
 use super::reach::reaches_beyond;
 use super::scope::Allowed;
+use super::value::LARGEST;
 use super::{Binary, Dimension, Entry, Expression, Function, Kind, Lookup, Scope, Term, UNIT_NAMES, Unit};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 
@@ -63,14 +64,9 @@ impl<'b> Builder<'b> {
         let bare = unit.is_none();
         let unit = unit.unwrap_or(Unit::NONE);
         let value = unit.convert(value, self.scope.length);
-        let term = Term {
-            kind: Kind::Number(value),
-            dimension: Some(unit.dimension),
-            value: Some(value),
-            span,
-            bare,
-        };
-        self.push(term)
+        let term = self.push_folded(Kind::Number(value), Some(unit.dimension), Some(value), span);
+        self.terms[term].bare = bare;
+        term
     }
 
     pub(super) fn name(&mut self, name: &str, span: Span) -> Result<usize, Diagnostic> {
@@ -274,7 +270,7 @@ impl<'b> Builder<'b> {
         value: Option<f64>,
         span: Span,
     ) -> usize {
-        if let Some(value) = value.filter(|value| !value.is_finite()) {
+        if let Some(value) = value.filter(|value| value.is_nan() || value.abs() > LARGEST) {
             let (what, help) = match (value.is_nan(), kind) {
                 (true, Kind::Call(Function::Asin | Function::Acos, _)) => {
                     ("has no real value", "the argument must be between -1 and 1")
@@ -283,7 +279,7 @@ impl<'b> Builder<'b> {
                     ("has no real value", "a logarithm needs more than zero")
                 }
                 (true, _) => ("has no real value", "roots and powers need a base that is not negative"),
-                (false, _) => ("is too large for a number", "the largest number is about 1.8e308"),
+                (false, _) => ("is too large to compute with", "numbers go up to 1e150; is the unit right?"),
             };
             self.found.push(Diagnostic::new(span.clone(), format!("this {what}")).help(help));
             return self.push(Term { kind, dimension: None, value: None, span, bare: false });

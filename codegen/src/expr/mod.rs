@@ -27,7 +27,7 @@ pub use scope::{Allowed, Entry, Name, Scope, Symbol};
 pub use table::{Interpolation, Outside, Table};
 pub use transform::{Elementary, Motion, motion};
 pub use unit::{UNIT_NAMES, Unit};
-pub use value::{find_name, parse_value};
+pub use value::{LARGEST, find_name, parse_value};
 
 pub(crate) use parse::{parse_expression, parse_unit};
 pub(crate) use tokens::Place;

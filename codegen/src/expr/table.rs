@@ -107,8 +107,8 @@ impl Table {
         format!("{}_TABLE", self.name.to_ascii_uppercase())
     }
 
-    /// What generated code says of it.
-    pub fn documentation(&self) -> String {
+    /// What generated code says of it, with its description as it can stand in a comment.
+    pub fn documentation(&self, description: &str) -> String {
         let kind = match self.interpolation {
             Interpolation::Linear => "straight lines",
             Interpolation::Cubic => "monotone cubics",
@@ -118,7 +118,7 @@ impl Table {
             Outside::Hold => "held beyond",
         };
         let ([first, last], count) = (self.ends(), self.points.len());
-        let description = self.description.trim_end_matches('.');
+        let description = description.trim_end_matches('.');
         let before = if description.is_empty() { String::new() } else { format!("{description}. ") };
         format!("{before}`{}`: {kind} through {count} points from {first} to {last}, {beyond}.", self.name)
     }

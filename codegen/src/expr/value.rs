@@ -7,6 +7,9 @@ use super::{Allowed, Dimension, Entry, LengthUnit, Scope, UNIT_NAMES};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::document::Document;
 
+/// The largest number that is computed with: its square is a number, too.
+pub const LARGEST: f64 = 1e150;
+
 /// The value of the number, or of the expression of numbers, at `span` of the document's text.
 ///
 /// It is in the coherent system with that length unit; a bare number is so already. `what` it is goes into

@@ -38,8 +38,13 @@ pub(super) fn body(
     while let Some(step) = steps.next() {
         if let Action::SinCos(angle) = step.action {
             let mut pairs = vec![(step.register, angle)];
+            // An angle may be the sine of another.
+            let is_written = |angle: &Operand| match angle {
+                Operand::Register(register) => writer.registers[*register].is_some(),
+                _ => true,
+            };
             while let Some(Step { register, action: Action::SinCos(angle), .. }) =
-                steps.next_if(|step| matches!(step.action, Action::SinCos(_)))
+                steps.next_if(|step| matches!(&step.action, Action::SinCos(angle) if is_written(angle)))
             {
                 pairs.push((*register, *angle));
             }

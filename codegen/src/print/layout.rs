@@ -1,6 +1,6 @@
 //! Lines, laid out as rustfmt does: what is narrow on one line, else one below the other.
 
-use super::text::wrapped;
+use super::text::{harmless, wrapped};
 
 /// How long a line may be.
 const LINE: usize = 100;
@@ -70,13 +70,12 @@ impl Writer {
 
     /// A line of documentation as it is; an empty one parts paragraphs.
     pub(super) fn documentation_line(&mut self, line: &str) {
-        let line = line.replace(char::is_control, " ").replace("*/", "* /");
-        self.lines(format!("{} {line}", self.comment).trim_end());
+        self.lines(format!("{} {}", self.comment, harmless(line)).trim_end());
     }
 
     /// A line beside the code, cut where it is too long.
     pub(super) fn comment(&mut self, text: &str) {
-        let line: String = format!("// {text}").chars().take(LINE - self.indent()).collect();
+        let line: String = format!("// {}", harmless(text)).chars().take(LINE - self.indent()).collect();
         self.lines(line.trim_end());
     }
 

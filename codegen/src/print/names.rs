@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use abbe::Function;
 
 use crate::expr::Symbol;
-use crate::program::{Action, Array, Operand, Program, Routine};
+use crate::program::{Action, Array, Operand, Program, Routine, Stage};
 use crate::spec::{Component, Spec};
 
 /// The names of one routine.
@@ -25,13 +25,19 @@ pub(super) struct Names<'s> {
 }
 
 impl<'s> Names<'s> {
-    /// No name is reserved, or that of an array.
+    /// No name is reserved, or that of an array, of a routine that is called, or of a table.
     pub(super) fn new(spec: &'s Spec, routine: &Routine, reserved: &str) -> Self {
         let signatures = Function::ALL.map(Function::signature);
         let arrays =
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
         let arrays = arrays.map(|array| array.name).chain(routine.arrays.iter().map(|array| array.name));
-        let used = reserved.split_whitespace().chain(arrays).map(str::to_owned).collect();
+        let called = routine.stages.iter().filter_map(|stage| match stage {
+            Stage::Call { routine, .. } => Some(*routine),
+            _ => None,
+        });
+        let tables = spec.tables.iter().map(|table| table.constant_name());
+        let taken = reserved.split_whitespace().chain(arrays).chain(called);
+        let used = taken.map(str::to_owned).chain(tables).collect();
         let (variables, parameters, inputs) = (vec![], vec![], vec![]);
         let (errors, magnitudes, locals) = (vec![], vec![], vec![]);
         let mut names =

@@ -224,8 +224,8 @@ impl Writer<'_> {
     }
 
     fn comment(&self, frame: usize) -> Statement {
-        let name = self.description.frames[frame].name.replace(char::is_control, " ");
-        Statement::Comment(format!("Frame {}: {}", frame + 1, name.trim()))
+        let name = self.description.frames[frame].name.trim();
+        Statement::Comment(format!("Frame {}: {name}", frame + 1))
     }
 
     /// The places that a block reads, the number of the first local symbol of each, and which of its numbers are used.

@@ -1,15 +1,22 @@
 //! A spec's free text as documentation.
 
-/// A text in which nothing is a link or a tag.
+/// A text in which nothing is a link, a tag or a block of code.
 pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {
-        if matches!(character, '[' | ']' | '<' | '>' | '|' | '`') {
+        if matches!(character, '[' | ']' | '<' | '>' | '|' | '`' | '~' | '\\') {
             escaped.push('\\');
         }
         escaped.push(character);
     }
     escaped
+}
+
+/// A text that can stand in a comment of any language: in one line, read in one direction, and it ends no comment.
+pub(super) fn harmless(text: &str) -> String {
+    let turns = |c: char| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let ends = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}');
+    text.replace(|c| turns(c) || ends(c), " ").replace("*/", "* /").replace("/*", "/ *")
 }
 
 /// A text in lines of bounded width.

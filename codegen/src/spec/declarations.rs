@@ -8,6 +8,9 @@ use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, LengthUnit, Name, Scope, Symbol};
 use crate::keys::Keys;
 
+/// The most parameters of a manipulator.
+const MOST_PARAMETERS: usize = 10_000;
+
 /// The names of a spec, and what was declared with them.
 pub(super) struct Declarations {
     pub(super) scope: Scope,
@@ -24,9 +27,12 @@ impl Declarations {
 
     /// `[parameters]`.
     pub(super) fn read_parameters(&mut self, root: &Section<'_>, document: &mut Document) {
-        let Some(section) = root.get("parameters").and_then(|item| document.section(&item)) else {
+        let Some(item) = root.get("parameters") else { return };
+        let Some(section) = document.section(&item) else { return };
+        let help = "numbers that are never set at run time can stand where they are used";
+        if document.at_most(&item, section.items().count(), MOST_PARAMETERS, "parameters", help).is_none() {
             return;
-        };
+        }
         for item in section.items() {
             let (value, table) = self.valued(&item, &keys::PARAMETER, "parameter", document);
             let symbol = Symbol::Parameter(self.parameters.len());

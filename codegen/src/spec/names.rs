@@ -45,13 +45,23 @@ pub(super) fn check_identifier(name: &str, at: crate::diagnostic::Span, document
     false
 }
 
-/// A free text that is a name: not empty, in one line.
+/// The longest free text that is a name, in bytes.
+const LONGEST_TITLE: usize = 200;
+
+/// A free text that is a name: not empty, in one line, and no page.
 pub(super) fn title_of(item: &Item<'_>, document: &mut Document) -> Option<String> {
     let name = document.string(item)?;
     if name.trim().is_empty() || name.contains(char::is_control) {
         document.mistake(
             Diagnostic::new(item.span(), "a name must be text in one line")
                 .help("give it a short, clear name"),
+        );
+        return None;
+    }
+    if name.len() > LONGEST_TITLE {
+        document.mistake(
+            Diagnostic::new(item.span(), format!("this name is longer than {LONGEST_TITLE} letters"))
+                .help("give it a short, clear name; what else there is to say is its `description`"),
         );
         return None;
     }

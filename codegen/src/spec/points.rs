@@ -1,12 +1,12 @@
 //! The points of a table: where they come from, and whether a function can go through them.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::PathBuf;
 
 use crate::cell::meant;
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::{Document, Item};
+use crate::expr::LARGEST as LARGEST_NUMBER;
+use crate::bounded::{Bounded, Unfit, not_text};
 
 /// The largest file of points that is read.
 const LARGEST: u64 = 16 << 20;
@@ -38,20 +38,27 @@ impl Columns {
             return None;
         };
         let path: PathBuf = folder.join(&file);
-        let mut bytes = Vec::new();
-        let read = File::open(&path).and_then(|opened| opened.take(LARGEST + 1).read_to_end(&mut bytes));
-        if let Err(error) = read {
-            let help = "the path is relative to the folder of the spec";
-            fail(document, format!("cannot read `{file}`: {error}"), help);
-            return None;
-        }
+        let read = Bounded::read_all(&path, LARGEST).map_err(|error| {
+            match Unfit::from_error(&error, "the path is relative to the folder of the spec") {
+                Unfit { help, .. } if error.raw_os_error().is_some() => {
+                    Unfit::new(format!("cannot read `{file}`: {error}"), help)
+                }
+                Unfit { message, help } => Unfit::new(format!("`{file}`: {message}"), help),
+            }
+        });
+        let text = read.and_then(|bytes| match not_text(&bytes) {
+            Some(Unfit { message, help }) => Err(Unfit::new(format!("`{file}`: {message}"), help)),
+            None => Ok(bytes),
+        });
+        let bytes = match text {
+            Ok(bytes) => bytes,
+            Err(Unfit { message, help }) => {
+                fail(document, message, &help);
+                return None;
+            }
+        };
         document.files.push(path.clone());
         document.beside.push((path, bytes.clone()));
-        if bytes.len() as u64 > LARGEST {
-            let message = format!("`{file}` is larger than {} MiB", LARGEST >> 20);
-            fail(document, message, "a table needs no more points than the machine has marks");
-            return None;
-        }
         let mut reader =
             csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(&bytes[..]);
         let result = reader
@@ -88,7 +95,13 @@ impl Columns {
         for (line, row) in &self.rows {
             let cell = row.get(index).unwrap_or_default();
             match cell.parse::<f64>() {
-                Ok(number) if number.is_finite() => numbers.push(number),
+                Ok(number) if number.abs() <= LARGEST_NUMBER => numbers.push(number),
+                Ok(number) if number.is_finite() => {
+                    let message = format!("line {line} of `{}`: `{name}` is too large to compute with", self.file);
+                    let mistake = Diagnostic::new(item.span(), message).label(format!("`{number:e}` stands there"));
+                    document.mistake(mistake.help("numbers go up to 1e150; leave rows out that were not measured"));
+                    return None;
+                }
                 _ => {
                     let message = format!("line {line} of `{}`: `{name}` is not a number", self.file);
                     let label = format!("`{}` stands there", cell.escape_debug());

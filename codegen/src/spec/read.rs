@@ -143,6 +143,9 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     })
 }
 
+/// The most frames of a manipulator.
+const MOST_FRAMES: usize = 2000;
+
 struct Head {
     name: String,
     title: String,
@@ -214,6 +217,7 @@ fn read_frames<'d>(
         );
         return None;
     }
+    document.at_most(&item, items.len(), MOST_FRAMES, "frames", "leave out frames that have no errors: products of transforms are one")?;
     let mut frames: Vec<RawFrame<'d>> = Vec::new();
     for (index, item) in items.iter().enumerate() {
         let Some(mut section) = document.section(item) else {

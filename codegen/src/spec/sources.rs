@@ -13,13 +13,18 @@ use crate::keys::Keys;
 /// What a source may say: of itself, and of what it does.
 const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION];
 
+/// The most sources of a manipulator.
+const MOST_SOURCES: usize = 10_000;
+
 /// Reads every source of a spec.
 pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut Document) -> Vec<Source> {
     let mut sources: Vec<Source> = Vec::new();
-    let Some(items) = root.get("source").and_then(|item| document.array(&item, "tables, each a [[source]]"))
-    else {
+    let Some(item) = root.get("source") else { return sources };
+    let Some(items) = document.array(&item, "tables, each a [[source]]") else { return sources };
+    let help = "what is known of many alike is one source with the root of the sum of their squares";
+    if document.at_most(&item, items.len(), MOST_SOURCES, "sources", help).is_none() {
         return sources;
-    };
+    }
     let mut spans: Vec<(String, crate::diagnostic::Span)> = Vec::new();
     for item in items {
         let Some(mut section) = document.section(&item) else {

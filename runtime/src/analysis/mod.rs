@@ -35,6 +35,7 @@
 //! ```
 
 mod budget;
+pub(crate) mod decompose;
 mod identifiable;
 mod measurand;
 mod normal;

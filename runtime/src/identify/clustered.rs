@@ -21,6 +21,7 @@ use super::linearize::{by_blocks, with_priors};
 use super::solver::Solver;
 use super::triangle::Triangle;
 use super::{Configurations, Failure};
+use crate::analysis::decompose::symmetric_eigen;
 
 /// What is counted as independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -243,7 +244,9 @@ fn root(g: DMatrix<f64>, v: &DVector<f64>) -> (DVector<f64>, f64, f64) {
         let squares = v.norm_squared() + v.dot(&once) + once.norm_squared();
         return (v + once * 0.5 + twice * 0.375, squares, 0.0);
     }
-    let eigen = g.symmetric_eigen();
+    let Some(eigen) = symmetric_eigen(g) else {
+        return (v * f64::NAN, f64::NAN, 0.0);
+    };
     let along = eigen.eigenvectors.tr_mul(v);
     let rest = eigen.eigenvalues.map(|value| 1.0 - value);
     let spent = rest.iter().filter(|rest| **rest < 1e-9).count() as f64;

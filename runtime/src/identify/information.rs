@@ -6,6 +6,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SMatrix};
 
 use super::linearize::by_blocks;
 use super::{Failure, Measurement, Model, Observation};
+use crate::analysis::decompose::symmetric_eigen;
 use crate::analysis::{in_order, sampling};
 
 /// What a choice of configurations is to make small or large.
@@ -93,7 +94,10 @@ impl Candidates {
 
     /// What is aimed at: `B`, of the scaled unknowns.
     pub(super) fn aim(&mut self, b: &DMatrix<f64>) {
-        let eigen = b.clone().symmetric_eigen();
+        let Some(eigen) = symmetric_eigen(b.clone()) else {
+            self.root = DMatrix::from_element(b.nrows(), 1, f64::NAN);
+            return;
+        };
         let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
         let kept: Vec<usize> =
             (0..b.nrows()).filter(|i| eigen.eigenvalues[*i] > 1e-14 * largest && largest > 0.0).collect();

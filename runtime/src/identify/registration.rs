@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::Pose;
+use crate::analysis::decompose::{svd3, symmetric_eigen};
 
 /// A motion and how well it fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +18,7 @@ pub struct Registration {
 
 /// Least squares over all rotations: with `H = Σ (from − mean)(to − mean)ᵀ = U Σ Vᵀ`, `R = V diag(1, 1, det) Uᵀ`.
 ///
-/// None for fewer than three pairs. Where the points are in line ([`Registration::breadth`] 0) the turn about that
+/// None for fewer than three pairs, and for places too far away to be squared. Where the points are in line ([`Registration::breadth`] 0) the turn about that
 /// line is arbitrary.
 pub fn register(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Registration> {
     let n = from.len().min(to.len());
@@ -34,10 +35,11 @@ pub fn register(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Registration> {
         h += p * (Vector3::from(*q) - b).transpose();
         spread += p * p.transpose();
     }
-    let mut sizes: Vec<f64> = spread.symmetric_eigenvalues().iter().map(|v| v.max(0.0).sqrt()).collect();
+    let spread = symmetric_eigen(spread)?.eigenvalues;
+    let mut sizes: Vec<f64> = spread.iter().map(|v| v.max(0.0).sqrt()).collect();
     sizes.sort_by(|a, b| b.total_cmp(a));
     let breadth = if sizes[0] > 0.0 { sizes[1] / sizes[0] } else { 0.0 };
-    let svd = h.svd(true, true);
+    let svd = svd3(h)?;
     let (u, v) = (svd.u?, svd.v_t?.transpose());
     // The last singular value is the smallest only if they are sorted: nalgebra sorts those of `svd`.
     let sign = (v * u.transpose()).determinant().signum();

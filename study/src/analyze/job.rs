@@ -17,6 +17,7 @@ use super::stated::Stated;
 use super::unreachable;
 use crate::changes::Changes;
 use crate::extrapolated::extrapolated;
+use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::reads::Reads;
@@ -176,7 +177,7 @@ impl Analyze {
         };
         report.warn_of_first_order(notes);
         self.warn_of_extrapolation(workspace, notes);
-        Ok(report)
+        finite(&machine.origin, report)
     }
 
     /// Looks at some configurations of a large workspace.
@@ -196,7 +197,8 @@ impl Analyze {
         }
         let reasons = unreachable::summary(&budget.unreachable, &self.machine.spec);
         let message = format!("no configuration of the workspace can be reached: {reasons}");
-        Err(mistake::whole(&self.machine.origin, message))
+        let help = "move or shrink the workspace of the study, or widen the limits of the joints";
+        Err(mistake::with_help(&self.machine.origin, message, help))
     }
 
     fn not_evaluated(

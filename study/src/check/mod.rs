@@ -20,6 +20,7 @@ use serde::Serialize;
 
 use crate::machine::Machine;
 use crate::notes::Notes;
+use crate::finite;
 
 pub use angles::Warning;
 pub use chain::{Chain, Dh, Link};
@@ -70,7 +71,7 @@ impl Check {
         let identifiable = identifiable::count(spec);
         notes.go_on()?;
         let configurations = laws::configurations(spec);
-        Ok(Report {
+        let report = Report {
             facts,
             home: Chain::at_home(spec, &interpreter),
             warnings: angles::warnings(spec, self.machine.text().ok().as_deref()),
@@ -80,7 +81,8 @@ impl Check {
             laws: laws(&interpreter, configurations),
             moved: identifiable::configurations(spec.frames.len()),
             spec: Arc::clone(spec),
-        })
+        };
+        finite(&self.machine.origin, report)
     }
 }
 

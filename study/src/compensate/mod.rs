@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::data::{Base, Data, Map, Summary, Table, Unusable};
 use crate::extrapolated::{Extrapolated, extrapolated};
-use crate::{Machine, Notes, mistake};
+use crate::{Machine, Notes, finite, mistake};
 
 use rows::Task;
 pub use rows::{Norms, Row};
@@ -95,7 +95,7 @@ impl Compensate {
         let extrapolated = extrapolated(&machine.spec, &*manipulator, "rows", places, notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
         let rows = rows::rows(&task, &mut data, notes)?;
-        Ok(Report {
+        let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
             compensated: rows.iter().filter(|row| row.reason.is_none()).count(),
@@ -108,7 +108,8 @@ impl Compensate {
             unusable: data.unusable,
             stations: data.stations,
             rows,
-        })
+        };
+        finite(&self.data.file, report)
     }
 }
 

@@ -28,15 +28,15 @@ pub(super) fn resolution(spec: &Spec) -> Vec<Option<f64>> {
 
 /// Numbers the rows by their configuration, from 0 in the order in which they come first.
 pub(super) fn number_configurations(rows: &mut [Observation], resolution: &[Option<f64>]) {
-    let columns = resolution.iter().enumerate().map(|(i, resolution)| {
+    // Column by column: rows stay together that are at one level of each.
+    let mut numbers = vec![0; rows.len()];
+    for (i, resolution) in resolution.iter().enumerate() {
         let values: Vec<f64> =
             rows.iter().map(|row| *row.q.iter().chain(&row.u).nth(i).unwrap_or(&0.0)).collect();
-        levels(&values, *resolution)
-    });
-    let columns: Vec<Vec<usize>> = columns.collect();
-    let key = |i: usize| columns.iter().map(|column| column[i]).collect::<Vec<_>>();
-    let configurations = Configurations::from_keys((0..rows.len()).map(key));
-    rows.iter_mut().zip(configurations.number).for_each(|(row, number)| row.configuration = number);
+        let levels = levels(&values, *resolution);
+        numbers = Configurations::from_keys(numbers.into_iter().zip(levels)).number;
+    }
+    rows.iter_mut().zip(numbers).for_each(|(row, number)| row.configuration = number);
 }
 
 /// Numbers values so that those of one level lie within the resolution: from the least on, a level begins where a value is

@@ -22,7 +22,7 @@ impl Dated {
     pub fn read(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
         let data = Data::read_wanted(file, map)?;
         let Some(column) = &map.time else { return Ok(Self { data, dates: None }) };
-        let table = File::read(file)?;
+        let table = File::open(file)?;
         let place = table.heading.iter().position(|name| *name == column.name);
         let place = place.ok_or_else(|| map.missing(file, &[column], &table.heading))?;
         let mut dates = Vec::new();

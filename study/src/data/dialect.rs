@@ -1,5 +1,7 @@
 //! How a data file is written: what stands between its cells, and how its decimals are written.
 
+use std::io::Read;
+
 use csv::{ReaderBuilder, Trim};
 
 /// How many records are looked at.
@@ -32,7 +34,7 @@ impl Dialect {
         Self { decimal_comma: any(',') && !any('.'), ..plain }
     }
 
-    pub(super) fn reader<'t>(&self, bytes: &'t [u8]) -> csv::Reader<&'t [u8]> {
+    pub(super) fn reader<R: Read>(&self, bytes: R) -> csv::Reader<R> {
         let mut builder = ReaderBuilder::new();
         builder
             .trim(Trim::All)

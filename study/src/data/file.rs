@@ -1,87 +1,112 @@
-//! A CSV file: its heading, and records that know their lines.
+//! A CSV file: its heading, and records that know their lines. It is read as it is used, not kept.
 
+use std::io::{self, Cursor, Read};
 use std::path::Path;
+use std::sync::Arc;
 
 use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::expr::LARGEST;
+use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use csv::StringRecord;
 
 use super::date::parse_date;
 use super::dialect::Dialect;
+use super::lines::{Lines, Watched};
 use crate::mistake;
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
 
+/// The largest file that is read, in bytes.
+const LARGEST_FILE: u64 = 4 << 30;
+
+/// How much of it tells how it is written, in bytes.
+const HEAD: u64 = 1 << 18;
+
+/// The most columns of a file.
+const MOST_COLUMNS: usize = 10_000;
+
+/// The most rows of a file.
+const MOST_ROWS: usize = 2_000_000;
+
 /// A file with a heading.
 pub(super) struct File {
     file: String,
-    bytes: Vec<u8>,
+    reader: csv::Reader<Watched<io::Chain<Cursor<Vec<u8>>, Bounded>>>,
+    lines: Lines,
     pub(super) dialect: Dialect,
-    pub(super) heading: Vec<String>,
+    pub(super) heading: Arc<[String]>,
 }
 
 /// A record below the heading.
-pub(super) struct Record<'t> {
+pub(super) struct Record {
     /// Its line in the file, from 1.
     pub(super) line: u64,
-    heading: &'t [String],
+    heading: Arc<[String]>,
     dialect: Dialect,
     fields: StringRecord,
 }
 
 impl File {
-    /// Reads a file and its heading.
-    pub(super) fn read(file: &Path) -> Result<Self, Diagnostics> {
-        let file_name = file.display().to_string();
-        let bytes = std::fs::read(file).map_err(|error| unreadable(&file_name, &error.into()))?;
-        let dialect = Dialect::detect(&bytes);
-        let mut table = Self { file: file_name, bytes, dialect, heading: Vec::new() };
-        let mut reader = dialect.reader(&table.bytes);
-        let heading = reader.headers().map_err(|error| unreadable(&table.file, &error))?;
-        table.heading = heading.iter().map(|name| meant(name).to_owned()).collect();
-        Ok(table)
+    /// Opens a file and reads its heading.
+    pub(super) fn open(file: &Path) -> Result<Self, Diagnostics> {
+        let name = file.display().to_string();
+        let fail = |error: io::Error| unfit(&name, &Unfit::from_error(&error, WANTED));
+        let mut input = Bounded::open(file, LARGEST_FILE).map_err(fail)?;
+        let mut head = Vec::new();
+        input.by_ref().take(HEAD).read_to_end(&mut head).map_err(fail)?;
+        if let Some(found) = not_text(&head).or_else(|| other_text(&head)) {
+            return Err(unfit(&name, &found));
+        }
+        let dialect = Dialect::detect(&head);
+        let (watched, lines) = Watched::new(Cursor::new(head).chain(input));
+        let mut reader = dialect.reader(watched);
+        let heading = reader.headers().map_err(|error| unreadable(&name, &error))?;
+        let heading: Arc<[String]> = heading.iter().map(|name| meant(name).to_owned()).collect();
+        if heading.len() > MOST_COLUMNS {
+            let message = format!("this file has {} columns; {MOST_COLUMNS} can be read", heading.len());
+            return Err(mistake::with_help(name, message, "leave out those that the map does not name"));
+        }
+        Ok(Self { file: name, reader, lines, dialect, heading })
     }
 
     /// Every record below the heading.
-    pub(super) fn records(&self) -> impl Iterator<Item = Result<Record<'_>, Diagnostics>> {
-        let mut lines = Lines { bytes: &self.bytes, at: 0, line: 1 };
-        self.dialect.reader(&self.bytes).into_records().map(move |record| {
-            let fields = record.map_err(|error| unreadable(&self.file, &error))?;
+    pub(super) fn records(self) -> impl Iterator<Item = Result<Record, Diagnostics>> {
+        let Self { file, reader, mut lines, dialect, heading } = self;
+        reader.into_records().enumerate().map(move |(row, record)| {
+            let fields = record.map_err(|error| unreadable(&file, &error))?;
             let line = fields.position().map_or(0, |position| lines.of_record(position.byte()));
-            Ok(Record { line, heading: &self.heading, dialect: self.dialect, fields })
+            if row == MOST_ROWS {
+                let message = format!("this file has more rows than can be worked with: {MOST_ROWS}");
+                let help = "split it, or take every second row";
+                return Err(mistake::with_help(&file, message, help));
+            }
+            Ok(Record { line, heading: Arc::clone(&heading), dialect, fields })
         })
     }
 }
 
-/// Counts lines. The reader's own positions are behind the record before: the rest of a line end, empty lines and comments
-/// are still to come.
-struct Lines<'t> {
-    bytes: &'t [u8],
-    at: usize,
-    line: u64,
-}
-
-impl Lines<'_> {
-    /// The line on which the next record after that byte begins.
-    fn of_record(&mut self, byte: u64) -> u64 {
-        let mut start = byte as usize;
-        loop {
-            match self.bytes.get(start) {
-                Some(b'\r' | b'\n') => start += 1,
-                Some(b'#') => {
-                    let rest = self.bytes[start..].iter();
-                    start += rest.take_while(|byte| **byte != b'\n').count();
-                }
-                _ => break,
-            }
-        }
-        self.line += self.bytes[self.at..start].iter().filter(|byte| **byte == b'\n').count() as u64;
-        self.at = start;
-        self.line
+/// What a text is that is no data, by its first line.
+fn other_text(head: &[u8]) -> Option<Unfit> {
+    if head.contains(&0) {
+        return Some(Unfit::new("this file is no text: it has bytes that are 0", WANTED));
     }
+    let text = String::from_utf8_lossy(head);
+    let mut lines = text.lines().map(str::trim);
+    let line = lines.find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let (what, help) = if line.starts_with('[') && line.ends_with(']') {
+        ("TOML", "data are a CSV file; a spec stands before it, a map after `--map`")
+    } else if line.starts_with('<') {
+        ("XML", WANTED)
+    } else if line.starts_with('{') || line == "[" {
+        ("JSON", WANTED)
+    } else {
+        return None;
+    };
+    Some(Unfit::new(format!("this file is no table; it seems to be {what}"), help))
 }
 
-impl Record<'_> {
+impl Record {
     /// Whether there are cells beyond the heading, and how many in all. Empty ones do not count.
     pub(super) fn too_long(&self) -> Option<String> {
         let cells = (1..=self.fields.len()).rev().find(|cells| !self.is_empty(cells - 1))?;
@@ -113,7 +138,7 @@ impl Record<'_> {
     pub(super) fn time(&self, place: usize) -> Result<f64, String> {
         let text = self.text(place);
         let time = parse_date(text).map(|(_, time)| time).or_else(|| self.dialect.number(text));
-        time.filter(|time| time.is_finite()).ok_or_else(|| {
+        time.filter(|time| time.abs() <= LARGEST).ok_or_else(|| {
             format!("`{}` is `{}`, no date and no number", self.heading[place], text.escape_debug())
         })
     }
@@ -125,7 +150,10 @@ impl Record<'_> {
             None => Err(format!("it ends before `{name}`")),
             Some("") => Err(format!("`{name}` is missing")),
             Some(text) => match self.dialect.number(text) {
-                Some(value) if value.is_finite() => Ok(value),
+                Some(value) if value.abs() <= LARGEST => Ok(value),
+                Some(value) if value.is_finite() => {
+                    Err(format!("`{name}` is `{value:e}`: numbers go up to 1e150"))
+                }
                 Some(_) => Err(format!("`{name}` is `{}`", text.escape_debug())),
                 None => Err(format!("`{name}` is `{}`, not a number", text.escape_debug())),
             },
@@ -134,24 +162,18 @@ impl Record<'_> {
 }
 
 fn unreadable(file: &str, error: &csv::Error) -> Diagnostics {
-    mistake::with_help(file, format!("cannot read this file: {error}"), WANTED)
+    let found = match error.kind() {
+        csv::ErrorKind::Io(error) => Unfit::from_error(error, WANTED),
+        csv::ErrorKind::Utf8 { pos, .. } => {
+            let line = pos.as_ref().map_or(1, csv::Position::line);
+            let message = format!("near line {line} of this file there is a byte that is no UTF-8 text");
+            Unfit::new(message, "save it as UTF-8, or write names without accents")
+        }
+        _ => Unfit::new(format!("cannot read this file: {error}"), WANTED),
+    };
+    unfit(file, &found)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Lines;
-
-    #[test]
-    fn line_ends_of_any_kind_count() {
-        for end in ["\n", "\r\n"] {
-            let text = ["a,b", "1,2", "", "# no row", "3,4", "5,6"].join(end);
-            let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
-            let mut lines = Lines { bytes: text.as_bytes(), at: 0, line: 1 };
-            let found: Vec<u64> = reader
-                .records()
-                .map(|record| lines.of_record(record.unwrap().position().unwrap().byte()))
-                .collect();
-            assert_eq!(found, [2, 5, 6], "{end:?}");
-        }
-    }
+fn unfit(file: &str, Unfit { message, help }: &Unfit) -> Diagnostics {
+    mistake::with_help(file, message, help)
 }

@@ -10,6 +10,7 @@ use super::map::Map;
 impl Map {
     /// The mistake that columns are missing: all of them, each where the map names it.
     pub(super) fn missing(&self, file: &Path, columns: &[&Column], header: &[String]) -> Diagnostics {
+        let there_are = first_of(header);
         let wanted: Vec<&str> =
             self.commanded().chain(self.measured()).map(|column| column.name.as_str()).collect();
         // Many at once have one cause.
@@ -27,7 +28,7 @@ impl Map {
             let help = match header {
                 [] => "the file has no first line".to_owned(),
                 [only] => format!("its first line has one cell, `{}`", only.escape_debug()),
-                _ => format!("its first line has: {}", header.join(", ")),
+                _ => format!("its first line has: {there_are}"),
             };
             let span = first.span.clone();
             let mistake =
@@ -44,8 +45,8 @@ impl Map {
             let near = free.max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
             let near = near.filter(|name| similarity(name) > 0.55);
             let help = match near {
-                Some(name) => format!("did you mean `{name}`? there are: {}", header.join(", ")),
-                None => format!("there are: {}", header.join(", ")),
+                Some(name) => format!("did you mean `{name}`? there are: {there_are}"),
+                None => format!("there are: {there_are}"),
             };
             let message =
                 format!("there is no column `{}` in {}", column.name.escape_debug(), file.display());
@@ -53,5 +54,15 @@ impl Map {
             Diagnostic { span, ..Diagnostic::whole_file(message) }.label("the map wants it").help(help)
         });
         Diagnostics { path: self.path.clone(), text: self.text.clone(), list: list.collect() }
+    }
+}
+
+/// The names of columns, and not too many of them.
+fn first_of(header: &[String]) -> String {
+    const SHOWN: usize = 60;
+    let shown = header[..header.len().min(SHOWN)].join(", ");
+    match header.len().saturating_sub(SHOWN) {
+        0 => shown,
+        more => format!("{shown}, and {more} more"),
     }
 }

@@ -12,6 +12,7 @@ mod from_rows;
 mod instrument;
 mod keys;
 mod layout;
+mod lines;
 mod map;
 mod missing;
 mod read;

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasher, RandomState};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use abbe::identify::{Configurations, Measurement, Observation};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -58,7 +59,7 @@ impl Data {
 
     /// The names of the columns of a file.
     pub fn heading(file: &Path) -> Result<Vec<String>, Diagnostics> {
-        File::read(file).map(|file| file.heading)
+        File::open(file).map(|file| file.heading.to_vec())
     }
 
     /// Reads where the tool is wanted: what is measured elsewhere; the same place may be wanted again.
@@ -72,8 +73,8 @@ impl Data {
     }
 
     fn rows(file: &Path, map: &Map, columns: Columns, once: bool) -> Result<Self, Diagnostics> {
-        let table = File::read(file)?;
-        let header = &table.heading;
+        let table = File::open(file)?;
+        let header = &Arc::clone(&table.heading);
         // The setup is read with what is measured, if anything is.
         let setup = map.setup().filter(|_| columns == Columns::Commanded);
         let commanded: Vec<&Column> = map.commanded().chain(setup).collect();

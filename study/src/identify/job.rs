@@ -36,7 +36,7 @@ use super::solve::{Settings, Solved, solve};
 use super::terms::Term;
 use crate::data::{Data, Map, Summary};
 use crate::number::digits;
-use crate::{Acceptance, Machine, Notes, mistake, number};
+use crate::{Acceptance, Machine, Notes, finite, mistake, number};
 
 /// Which errors has this machine?
 pub struct Identify {
@@ -85,7 +85,7 @@ impl Identify {
         let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
         let test = self.test.as_ref().map(|test| completed(test.completed(map, &nominal, &spec), false));
         let identified = Identified { setup: &setup, solved: &solved, chosen: &chosen, derived: &derived };
-        report(self, &identified, &data, test.as_deref())
+        finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
 }
 

@@ -18,7 +18,7 @@ use serde::Serialize;
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::identify::{Order, Setup, Sizes, check_readings};
-use crate::{Acceptance, Accepted, Machine, Notes, mistake, number};
+use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake, number};
 
 pub use errors::RowError;
 use readings::{Readings, readings};
@@ -172,7 +172,8 @@ impl Measure {
         let observations: Vec<&Observation> = rows.iter().collect();
         let order = drift(&setup.real, &observations, &[]);
         let order = order.map_err(|failure| mistake::whole(&seen.data.file, failure))?;
-        Ok(Report {
+        let file = seen.data.file.clone();
+        let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
             unit: machine.spec.length,
@@ -194,7 +195,8 @@ impl Measure {
             row_errors: seen.rows,
             row_readings: seen.row_readings,
             numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
-        })
+        };
+        finite(file, report)
     }
 }
 

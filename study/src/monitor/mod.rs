@@ -16,7 +16,7 @@ use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 use crate::data::{Calendar, Map, Summary};
-use crate::{Machine, Notes};
+use crate::{Machine, Notes, finite};
 
 pub use charts::{Chart, Limit};
 pub use checks::{Check, Checks};
@@ -122,7 +122,7 @@ impl Monitor {
         let alarm = alarm(&charts, &left, date);
         let found =
             alarm.as_ref().and_then(|_| finding::finding(&errors, &numbers, checks, settings.tolerance));
-        Ok(Report {
+        let report = Report {
             name: spec.name.clone(),
             length: spec.length.symbol(),
             title: map.title.clone(),
@@ -141,7 +141,8 @@ impl Monitor {
             alarm,
             tolerance: settings.tolerance,
             files: checks.list.iter().map(|check| check.data.summary()).collect(),
-        })
+        };
+        finite("abbe monitor", report)
     }
 }
 

@@ -16,7 +16,7 @@ use abbe_interpreter::Interpreter;
 use crate::data::{Instruments, Map};
 use crate::identify::{Counts, NotKnown, Setup, aimed, alikes, scale_note, unaimed};
 use crate::workspace::has_range;
-use crate::{Machine, Notes, Study, mistake};
+use crate::{Machine, Notes, Study, finite, mistake};
 
 pub use keys::TABLES;
 pub use report::{Input, Predicted, Report, Unseen};
@@ -116,7 +116,7 @@ impl Plan {
         }
         let alike = rows.first().map_or(Ok(Vec::new()), |row| alikes(&model, &row.q, &moved, setup.pose));
         let alike = alike.map_err(|error| mistake::whole(&machine.origin, error))?;
-        Ok(Report {
+        let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
             title,
@@ -136,7 +136,8 @@ impl Plan {
             predicted: Predicted { mean: spread.mean, rms: spread.rms, max: spread.max, p95: spread.p95 },
             groups: alike,
             observations: rows,
-        })
+        };
+        finite(&machine.origin, report)
     }
 
     fn aimed(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {

@@ -16,6 +16,9 @@ use super::keys;
 use crate::workspace::{Candidates, Region, count, read_region};
 use crate::{Notes, mistake, named};
 
+/// The most rows of a set.
+const MOST_ROWS: usize = 1_000_000;
+
 /// A plan, read and checked.
 #[derive(Clone, Debug)]
 pub struct Sets {
@@ -70,6 +73,17 @@ impl Sets {
         let home = Configuration::home(description);
         // Every combination of the plan's inputs, each by index and value.
         let mut combinations: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
+        let sizes = self.inputs.iter().map(|axis| axis.values.len());
+        let count = sizes.chain([self.repeat]).fold(1, usize::saturating_mul);
+        let few_enough = |more: usize| match count.saturating_mul(more) {
+            rows if rows > MOST_ROWS => {
+                let message = format!("this plan has more rows than can be worked with: {MOST_ROWS}");
+                let help = "give fewer values of inputs, fewer configurations, or a smaller `repeat`";
+                Err(mistake::with_help(&self.title, message, help))
+            }
+            _ => Ok(()),
+        };
+        few_enough(1)?;
         for axis in &self.inputs {
             let with = |before: &Vec<(usize, f64)>| {
                 let before = before.clone();
@@ -83,6 +97,7 @@ impl Sets {
                 Content::Workspace(region) => {
                     let workspace = region.workspace(manipulator, None);
                     let workspace = workspace.map_err(|error| mistake::whole(&set.name, error))?;
+                    few_enough(workspace.len())?;
                     let unreached = workspace.len() - workspace.reached().len();
                     if unreached > 0 {
                         notes.note(&format!("{}: {unreached} configurations cannot be reached", set.name));
@@ -101,6 +116,7 @@ impl Sets {
                     .collect(),
             };
             let before = rows.len();
+            few_enough(configurations.len())?;
             for inputs in &combinations {
                 for _ in 0..self.repeat {
                     rows.extend(configurations.iter().cloned().map(|mut configuration| {

@@ -12,7 +12,7 @@ use crate::data::{Channel, Data, Map, Table};
 use crate::identify::{Setup, aimed, unaimed};
 use crate::number::quantity;
 use crate::workspace::has_range;
-use crate::{Machine, Notes, mistake};
+use crate::{Machine, Notes, finite, mistake};
 
 /// How many configurations are tried for one at which instruments can be read.
 const TRIES: usize = 20;
@@ -107,7 +107,7 @@ impl Simulate {
         let names = if list.stations.is_empty() { map.station_names() } else { list.stations.clone() };
         let labels = map.labels(&observations, &names);
         let table = Table { heading: map.heading(true), rows: rows.map_err(fail)?, labels };
-        Ok(Report { table, observations })
+        finite(&list.file, Report { table, observations })
     }
 
     /// Says which inputs could be drawn within their ranges if the map had a column for them.

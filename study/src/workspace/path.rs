@@ -15,12 +15,19 @@ use abbe::analysis::Configuration;
 use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Section};
-use abbe_codegen::expr::{Dimension, find_name, parse_value};
+use abbe_codegen::expr::{Dimension, LARGEST, find_name, parse_value};
+use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use abbe_codegen::spec::{Input, Spec, VariableKind};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::keys;
 use crate::number::quantity;
+
+/// The largest file that is read, in bytes.
+const LARGEST_FILE: u64 = 1 << 30;
+
+/// The most configurations of a file.
+const MOST_ROWS: usize = 2_000_000;
 
 /// Configurations from a file.
 #[derive(Clone, Debug)]
@@ -119,9 +126,12 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
 }
 
 fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64>>), String> {
-    let reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_path(file);
-    let mut reader = reader.map_err(|error| error.to_string())?;
-    let heading = reader.headers().map_err(|error| error.to_string())?;
+    let input = Bounded::open(file, LARGEST_FILE).map_err(|error| in_words(&error.into()))?;
+    let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(input);
+    let heading = reader.headers().map_err(|error| in_words(&error))?;
+    if let Some(unfit) = not_text(heading.as_byte_record().as_slice()) {
+        return Err(format!("{}; {}", unfit.message, unfit.help));
+    }
     let columns = heading.iter().map(|name| column(meant(name), spec)).collect::<Result<Vec<_>, _>>()?;
     for (i, column) in columns.iter().enumerate() {
         if columns[..i].iter().any(|other| other.place == column.place) {
@@ -130,13 +140,27 @@ fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64
     }
     let mut configurations = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| error.to_string())?;
+        let record = record.map_err(|error| in_words(&error))?;
+        if configurations.len() == MOST_ROWS {
+            return Err(format!("it has more than {MOST_ROWS} lines; take fewer configurations"));
+        }
         configurations.push(values(&record, &columns, spec)?);
     }
     if configurations.is_empty() {
         return Err("there is no configuration in it".to_owned());
     }
     Ok((columns, configurations))
+}
+
+/// What is wrong with the form of a file.
+fn in_words(error: &csv::Error) -> String {
+    match error.kind() {
+        csv::ErrorKind::Io(error) => {
+            let Unfit { message, help } = Unfit::from_error(error, "");
+            if help.is_empty() { error.to_string() } else { format!("{message}; {help}") }
+        }
+        _ => error.to_string(),
+    }
 }
 
 fn values(record: &StringRecord, columns: &[Column], spec: &Spec) -> Result<Vec<f64>, String> {
@@ -146,6 +170,9 @@ fn values(record: &StringRecord, columns: &[Column], spec: &Spec) -> Result<Vec<
         let value = value.filter(|value| value.is_finite());
         let value =
             value.ok_or_else(|| format!("line {line}: `{}` is not a number", field.escape_debug()))?;
+        if value.abs() > LARGEST {
+            return Err(format!("line {line}: `{}` is too large: numbers go up to 1e150", field.escape_debug()));
+        }
         match column.place {
             Place::Input(i) if !within(value, spec.inputs[i].range) => {
                 let Input { name, unit, range: [lower, upper], .. } = &spec.inputs[i];

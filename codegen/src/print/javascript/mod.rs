@@ -10,6 +10,7 @@ use self::functions::function;
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
+use super::text::escaped;
 use crate::expr::Table;
 use crate::program::{Routines, Sums};
 use crate::spec::Spec;
@@ -95,7 +96,7 @@ fn description(writer: &mut Writer, routines: &Routines) {
 fn lookup_table(writer: &mut Writer, table: &Table) {
     let lookup = table.lookup();
     writer.blank();
-    comment(writer, &table.documentation());
+    comment(writer, &table.documentation(&escaped(&table.description)));
     writer.open(&format!("const {} =", table.constant_name()));
     writer.lines(&format!(
         "first: {}, scale: {}, steps: {},",

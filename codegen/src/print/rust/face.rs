@@ -7,26 +7,44 @@ use crate::print::layout::{Writer, array};
 use crate::print::text::escaped;
 use crate::spec::{Class, Orientation, Spec, VariableKind};
 
-/// Types that a generated module has or uses already.
-const TAKEN: [&str; 18] = [
+/// Types that a generated module has or uses already, and what every module knows.
+const TAKEN: [&str; 36] = [
+    "Box",
     "Class",
+    "Clone",
     "Component",
+    "Copy",
+    "Debug",
+    "Default",
     "Description",
     "Distribution",
+    "Drop",
     "Effect",
+    "Eq",
+    "Err",
+    "Fn",
     "Frame",
     "Input",
     "Inputs",
     "LengthUnit",
     "List",
+    "None",
+    "Ok",
+    "Option",
     "Orientation",
     "Parameter",
     "Parameters",
+    "Result",
     "Self",
+    "Send",
+    "Some",
     "Source",
+    "String",
+    "Sync",
     "Text",
     "Variable",
     "VariableKind",
+    "Vec",
 ];
 
 /// How wide the fields of a structure may be on one line.

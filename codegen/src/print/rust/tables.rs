@@ -3,13 +3,14 @@
 use super::literal::number;
 use crate::expr::Table;
 use crate::print::layout::{Writer, array};
+use crate::print::text::escaped;
 use crate::program::{Routines, Sums};
 
 /// A function given by points, as a constant.
 pub(super) fn lookup_table(writer: &mut Writer, table: &Table) {
     let (name, lookup) = (table.constant_name(), table.lookup());
     writer.blank();
-    writer.documentation(&table.documentation());
+    writer.documentation(&table.documentation(&escaped(&table.description)));
     writer.open(&format!("const {name}: ::abbe::LookupTable<'static> = ::abbe::LookupTable"));
     writer.lines(&format!("first: {},", number(lookup.first)));
     writer.lines(&format!("scale: {},", number(lookup.scale)));

@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix3, SymmetricEigen};
 
+use crate::analysis::decompose::symmetric_eigen;
+
 /// A variance of less than this share of the largest is none: the error lies in a plane or on a line.
 pub const FLAT: f64 = 1e-12;
 
@@ -15,9 +17,12 @@ pub struct Principal {
 }
 
 impl Principal {
-    /// Of a covariance, symmetric and positive semidefinite.
+    /// Of a covariance, symmetric and positive semidefinite. Where it is not finite, no deviation is.
     pub fn new(covariance: [[f64; 3]; 3]) -> Self {
-        let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(Matrix3::from(covariance));
+        let Some(SymmetricEigen { eigenvectors, eigenvalues }) = symmetric_eigen(Matrix3::from(covariance))
+        else {
+            return Self { deviations: [f64::INFINITY; 3], axes: Matrix3::identity().into() };
+        };
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| eigenvalues[j].total_cmp(&eigenvalues[i]));
         let least = FLAT * eigenvalues[order[0]];

@@ -1,6 +1,6 @@
 //! Why corrected commands do not bring the real tool to where it should be.
 
-use nalgebra::{DMatrix, Matrix6xX, Vector3};
+use nalgebra::{DMatrix, Matrix6xX, SVD, Vector3};
 
 use super::real_tool::RealTool;
 use crate::analysis::sampling;
@@ -137,8 +137,9 @@ fn immobile(columns: &Matrix6xX<f64>, missing: Missing, axis: &Vector3<f64>) -> 
         Missing::Turn(_) => {
             let point: DMatrix<f64> = point.into_owned();
             let along = turn.transpose() * axis;
-            let largest = point.singular_values().max();
-            let Ok(back) = point.clone().pseudo_inverse(SINGULAR * largest.max(1e-300)) else { return false };
+            let Some(svd) = SVD::try_new(point.clone(), true, true, f64::EPSILON, 1000) else { return false };
+            let largest = svd.singular_values.max();
+            let Ok(back) = svd.pseudo_inverse(SINGULAR * largest.max(1e-300)) else { return false };
             let free = &along - &back * (&point * &along);
             free.norm() <= IMMOBILE * turn.norm().max(1e-12)
         }

@@ -76,6 +76,6 @@ fn sweep_own(
     let Some(region) = &gather.figure.region else { return Ok(None) };
     let workspace = region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, error))?;
     let unreachable = sweep(manipulator, &*workspace, &mut |row| gather.add(row))
-        .map_err(|error| mistake::whole(&spec.file, error))?;
+        .map_err(|refused| mistake::whole(&spec.file, refused.error))?;
     Ok(Some([workspace.len() - unreachable.count, unreachable.count]))
 }

@@ -1,0 +1,217 @@
+//! Files that are read: no more of them than fits, and no longer than somebody writes into them.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+/// How long nothing may come through a pipe.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// How much of a pipe is handed on at once, in bytes.
+const PIECE: usize = 1 << 16;
+
+/// Why a file cannot be read, and a way out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unfit {
+    /// What is wrong, in one sentence.
+    pub message: String,
+    /// The way out.
+    pub help: String,
+}
+
+impl Unfit {
+    /// A reason and a way out.
+    pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: help.into() }
+    }
+
+    /// What an error of reading says; `help` is the way out where the error knows none.
+    pub fn from_error(error: &io::Error, help: &str) -> Self {
+        match error.get_ref().and_then(|inner| inner.downcast_ref::<Self>()) {
+            Some(unfit) => unfit.clone(),
+            None => Self::new(format!("cannot read this file: {error}"), help),
+        }
+    }
+}
+
+impl fmt::Display for Unfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Unfit {}
+
+impl From<Unfit> for io::Error {
+    fn from(unfit: Unfit) -> Self {
+        Self::other(unfit)
+    }
+}
+
+/// A file that is being read. What does not fit is an error that holds an [`Unfit`].
+#[derive(Debug)]
+pub struct Bounded {
+    source: Source,
+    most: u64,
+    left: u64,
+}
+
+#[derive(Debug)]
+enum Source {
+    File(File),
+    /// What comes through a pipe or out of a device, by a thread of its own: it can be waited for with patience.
+    Pipe { pieces: Receiver<io::Result<Vec<u8>>>, piece: Vec<u8>, at: usize, patience: Duration },
+}
+
+impl Bounded {
+    /// Opens a file of which at most so many bytes are read.
+    pub fn open(path: &Path, most: u64) -> io::Result<Self> {
+        Self::open_patiently(path, most, PATIENCE)
+    }
+
+    fn open_patiently(path: &Path, most: u64, patience: Duration) -> io::Result<Self> {
+        let metadata = fs::metadata(path)?;
+        if metadata.is_dir() {
+            return Err(Unfit::new("this is a directory, not a file", "name a file in it").into());
+        }
+        let source = if metadata.is_file() {
+            let file = File::open(path)?;
+            if metadata.len() > most {
+                return Err(too_large(most).into());
+            }
+            Source::File(file)
+        } else {
+            let (sender, pieces) = sync_channel(4);
+            let path = path.to_owned();
+            thread::spawn(move || {
+                let mut file = match File::open(path) {
+                    Ok(file) => file,
+                    Err(error) => return drop(sender.send(Err(error))),
+                };
+                loop {
+                    let mut piece = vec![0; PIECE];
+                    let read = file.read(&mut piece).map(|length| {
+                        piece.truncate(length);
+                        piece
+                    });
+                    let ended = !matches!(&read, Ok(piece) if !piece.is_empty());
+                    if sender.send(read).is_err() || ended {
+                        return;
+                    }
+                }
+            });
+            Source::Pipe { pieces, piece: Vec::new(), at: 0, patience }
+        };
+        Ok(Self { source, most, left: most })
+    }
+
+    /// All of a file, which has at most so many bytes.
+    pub fn read_all(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        Self::open(path, most)?.read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+impl Read for Bounded {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let length = match &mut self.source {
+            Source::File(file) => file.read(buffer)?,
+            Source::Pipe { pieces, piece, at, patience } => {
+                if *at == piece.len() {
+                    (*piece, *at) = match pieces.recv_timeout(*patience) {
+                        Ok(piece) => (piece?, 0),
+                        Err(RecvTimeoutError::Disconnected) => return Ok(0),
+                        Err(RecvTimeoutError::Timeout) => {
+                            let seconds = patience.as_secs();
+                            let message = format!("nothing has come through this pipe for {seconds} s");
+                            let help = "start what writes into it, or give the path of a file";
+                            return Err(Unfit::new(message, help).into());
+                        }
+                    };
+                }
+                let length = buffer.len().min(piece.len() - *at);
+                buffer[..length].copy_from_slice(&piece[*at..*at + length]);
+                *at += length;
+                length
+            }
+        };
+        self.left = self.left.checked_sub(length as u64).ok_or_else(|| too_large(self.most))?;
+        Ok(length)
+    }
+}
+
+fn too_large(most: u64) -> Unfit {
+    let message = format!("this file is larger than {} MiB", most >> 20);
+    Unfit::new(message, "is this the file you meant? Nothing that is read here is that long")
+}
+
+/// What a file is that is no text in UTF-8, by how it begins.
+pub fn not_text(head: &[u8]) -> Option<Unfit> {
+    const KINDS: [(&[u8], &str, &str); 10] = [
+        (b"\x1f\x8b", "is compressed by gzip", "unpack it: `gunzip FILE`"),
+        (b"PK\x03\x04", "is a zip archive or a spreadsheet", "unpack it, or save the sheet as CSV"),
+        (b"BZh", "is compressed by bzip2", "unpack it: `bunzip2 FILE`"),
+        (b"\xfd7zXZ", "is compressed by xz", "unpack it: `unxz FILE`"),
+        (b"\x28\xb5\x2f\xfd", "is compressed by zstd", "unpack it: `unzstd FILE`"),
+        (b"\xd0\xcf\x11\xe0", "is a spreadsheet or a document", "save it as text: a sheet as CSV"),
+        (b"%PDF", "is a PDF", "give a text file"),
+        (b"\x7fELF", "is a program", "give a text file"),
+        (b"\xff\xfe", "is text in UTF-16", "save it as UTF-8: `iconv -f UTF-16 -t UTF-8 FILE`"),
+        (b"\xfe\xff", "is text in UTF-16", "save it as UTF-8: `iconv -f UTF-16 -t UTF-8 FILE`"),
+    ];
+    let known = KINDS.iter().find(|(begins, ..)| head.starts_with(begins));
+    let (what, help) = known.map(|(_, what, help)| (*what, *help)).or_else(|| {
+        // Every other byte of Latin letters in UTF-16 is 0.
+        let head = &head[..head.len().min(256)];
+        let zeros = |first: usize| head.iter().skip(first).step_by(2).filter(|byte| **byte == 0).count();
+        let is_utf_16 = zeros(0).min(zeros(1)) == 0 && 3 * zeros(0).max(zeros(1)) > head.len();
+        let help = "save it as UTF-8: `iconv -f UTF-16LE -t UTF-8 FILE`, or from UTF-16BE";
+        is_utf_16.then_some(("seems to be text in UTF-16", help))
+    })?;
+    Some(Unfit::new(format!("this file {what}"), help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_text() {
+        let utf_16: Vec<u8> = "name = 1".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        for (head, word) in [
+            (&b"\x1f\x8b\x08"[..], "gzip"),
+            (b"PK\x03\x04", "spreadsheet"),
+            (b"\xff\xfea\x00", "UTF-16"),
+            (&utf_16, "UTF-16"),
+        ] {
+            assert!(not_text(head).unwrap().message.contains(word), "{word}");
+        }
+        for text in ["", "a", "q1,q2\n1,2\n", "\u{feff}[data]", "größe = 1", "a\0b", "\0\0\0"] {
+            assert_eq!(not_text(text.as_bytes()), None);
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_never_ends_is_not_waited_for() {
+        let most = 1 << 20;
+        let unfit = |result: io::Result<Vec<u8>>| Unfit::from_error(&result.unwrap_err(), "").message;
+        let zero = Bounded::read_all(Path::new("/dev/zero"), most);
+        assert_eq!(unfit(zero), "this file is larger than 1 MiB");
+        let pipe = std::env::temp_dir().join(format!("abbe-nobody-writes-{}", std::process::id()));
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.is_ok_and(|status| status.success()));
+        let mut bytes = Vec::new();
+        let read = Bounded::open_patiently(&pipe, most, Duration::from_millis(20))
+            .and_then(|mut input| input.read_to_end(&mut bytes));
+        assert_eq!(unfit(read.map(|_| bytes)), "nothing has come through this pipe for 0 s");
+        fs::remove_file(pipe).unwrap();
+        let folder = Bounded::read_all(Path::new("/"), most);
+        assert_eq!(unfit(folder), "this is a directory, not a file");
+    }
+}
