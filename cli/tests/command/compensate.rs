@@ -150,7 +150,7 @@ fn bad_input_writes_nothing() {
     refused("", &[], &["6 columns of the map are not in"]);
     let heading = "d1,d2,d3,q4,q5,q6\n";
     refused(heading, &[], &["no row in it that can be used"]);
-    refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "-1mm"], &["not negative"]);
+    refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "-1mm"], &["may not be negative"]);
     refused(&format!("{heading}1,2,3,0,0,0\n"), &["--tolerance", "1deg"], &["length"]);
     let hot = write(folder.path(), "hot.csv", "x,y,z,temperature_rise\n1,2,3,50\n");
     let run = abbe(&["compensate", "machine3", path(&hot), "--out", path(&out)]);

@@ -1,5 +1,6 @@
 //! The command as its users run it: the binary itself, its output, its exit status.
 
+mod abuse;
 mod analyze;
 mod bad_input;
 mod check;

@@ -158,7 +158,7 @@ fn maps_and_plans_with_mistakes() {
     let empty =
         write(folder.path(), "empty.csv", "d1,d2,d3,q4,p1_x,p1_y,p1_z,p2_x,p2_y,p2_z,p3_x,p3_y,p3_z\n");
     refused(&["measure", "pps", path(&empty), "--map", "pps"], &["no row in it that can be used"]);
-    refused(&["simulate", "pps", "--map", "pps", "--noise", "-1mm"], &["not negative"]);
+    refused(&["simulate", "pps", "--map", "pps", "--noise", "-1mm"], &["may not be negative"]);
     refused(&["simulate", "pps", "--map", "pps", "--outliers", "2"], &["a share is from 0 to 1"]);
 }
 

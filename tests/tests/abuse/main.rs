@@ -34,7 +34,7 @@ fn specs() {
     let shipped = abbe_manipulators::SHIPPED.iter().map(|shipped| shipped.spec);
     let all: Vec<&str> = shipped.chain([ARM]).collect();
     let mut figures = Figures::new("specs");
-    for seed in 0..many(600) {
+    for seed in 0..many(400) {
         let mut c = Choices::seeded(seed);
         let whole = *c.of(&all);
         let file = damaged(&mut c, whole.as_bytes());
@@ -51,7 +51,7 @@ fn specs() {
 #[test]
 fn random_specs() {
     let mut figures = Figures::new("random specs");
-    for seed in 0..many(300) {
+    for seed in 0..many(120) {
         let text = spec(&mut Choices::seeded(seed), "arm");
         figures.add(watched("random spec", seed, &text, || {
             let spec = Spec::parse("random.toml", &text)?;
@@ -106,7 +106,7 @@ fn data() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("data.csv");
     let mut figures = Figures::new("data");
-    for seed in 0..many(400) {
+    for seed in 0..many(250) {
         let file = damaged_table(&mut Choices::seeded(seed), DATA.as_bytes());
         std::fs::write(&path, &file).unwrap();
         figures.add(watched("data", seed, &String::from_utf8_lossy(&file), || {
@@ -176,4 +176,29 @@ fn other_files_are_named() {
     }
     let folder = Spec::read(Path::new("/")).unwrap_err().to_string();
     assert!(folder.contains("directory"), "{folder}");
+}
+
+/// What damage is done to is right.
+#[test]
+fn whole_files_are_answered() {
+    let machine = machine();
+    jobs::of_spec(machine.clone(), true).unwrap();
+    for study in STUDIES {
+        jobs::analyze(&machine, Study::read(Document::new("study.toml", study), &machine.spec).unwrap()).unwrap();
+    }
+    let folder = tempdir().unwrap();
+    let data = folder.path().join("data.csv");
+    std::fs::write(&data, DATA).unwrap();
+    for map in MAPS {
+        let map = Map::parse("map.toml", map, &machine.spec).unwrap();
+        for question in 0..6 {
+            jobs::of_data(&machine, &map, &data, Asked::numbered(question)).unwrap();
+        }
+    }
+    let map = Map::parse("map.toml", MAPS[0], &machine.spec).unwrap();
+    let plan = folder.path().join("plan.toml");
+    for sets in PLANS {
+        std::fs::write(&plan, sets).unwrap();
+        jobs::plan(&machine, &map, Sets::find(&plan, &machine.spec).unwrap()).unwrap();
+    }
 }
