@@ -173,7 +173,7 @@ fn damaged_files() {
         let ended = match seed % 5 {
             0 => run(&["jacobian", spec, "--json"]),
             1 => run(&["measure", spec, data, "--map", map, "--json"]),
-            2 => run(&["compensate", spec, "--data", data, "--map", map, "--json"]),
+            2 => run(&["compensate", spec, data, "--map", map, "--json"]),
             3 => run(&["identify", spec, data, "--map", map, "--folds", "3", "--json"]),
             _ => run(&["simulate", spec, "--map", map, "--samples", "5"]),
         };

@@ -108,7 +108,7 @@ pub(crate) fn of_data(machine: &Machine, map: &Map, data: &Path, asked: Asked) -
         Asked::Optimal => {
             let choice = Choice::Optimal { criterion: Criterion::Variance, count: 12, candidates: 30 };
             let study = Study::find(None, &machine)?;
-            Plan { machine, map, choice, study, model_error: 0.0 }.run(&mut notes()).map(drop)
+            Plan { machine, map, choice, study, model_error: 0.0, seed: None }.run(&mut notes()).map(drop)
         }
     }
 }
@@ -116,7 +116,7 @@ pub(crate) fn of_data(machine: &Machine, map: &Map, data: &Path, asked: Asked) -
 pub(crate) fn plan(machine: &Machine, map: &Map, sets: Sets) -> Result<(), Diagnostics> {
     let study = Study::find(None, machine)?;
     let (machine, map, choice) = (machine.clone(), map.clone(), Choice::Sets(sets));
-    Plan { machine, map, choice, study, model_error: 0.0 }.run(&mut notes()).map(drop)
+    Plan { machine, map, choice, study, model_error: 0.0, seed: None }.run(&mut notes()).map(drop)
 }
 
 /// Equation (6) by the interpreter and by products of transforms: whether there was something to compare.
