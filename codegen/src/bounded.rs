@@ -64,7 +64,12 @@ pub struct Bounded {
 enum Source {
     File(File),
     /// What comes through a pipe or out of a device, by a thread of its own: it can be waited for with patience.
-    Pipe { pieces: Receiver<io::Result<Vec<u8>>>, piece: Vec<u8>, at: usize, patience: Duration },
+    Pipe {
+        pieces: Receiver<io::Result<Vec<u8>>>,
+        piece: Vec<u8>,
+        at: usize,
+        patience: Duration,
+    },
 }
 
 impl Bounded {

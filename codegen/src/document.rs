@@ -6,9 +6,9 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
-use crate::expr::{Dimension, LARGEST as LARGEST_NUMBER, Entry, Expression, Place, Scope, parse_expression};
 use crate::bounded::{Bounded, Unfit, not_text};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
+use crate::expr::{Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Place, Scope, parse_expression};
 use crate::keys::Keys;
 use crate::not_toml::not_toml;
 
@@ -50,9 +50,8 @@ impl Document {
         let name = path.display().to_string();
         let fail =
             |text: Arc<str>, diagnostic| Diagnostics { path: name.clone(), text, list: vec![diagnostic] };
-        let unfit = |Unfit { message, help }: Unfit| {
-            fail(Arc::from(""), Diagnostic::whole_file(message).help(help))
-        };
+        let unfit =
+            |Unfit { message, help }: Unfit| fail(Arc::from(""), Diagnostic::whole_file(message).help(help));
         let bytes = Bounded::read_all(path, LARGEST)
             .map_err(|error| unfit(Unfit::from_error(&error, "give the path of a TOML file")))?;
         if let Some(found) = not_text(&bytes) {

@@ -28,8 +28,10 @@ pub fn analysis(report: &Report) -> Result<Vec<File>, Diagnostics> {
     let none = Figures::default();
     let Figures { figures, left_out } = report.figures.as_ref().unwrap_or(&none);
     let figures = Named::all(figures, report);
-    let draw =
-        |figure: &Named| svg::draw(figure, report).map_err(|error| mistake::with_help(&figure.name, error, "leave this figure out of the study"));
+    let draw = |figure: &Named| {
+        svg::draw(figure, report)
+            .map_err(|error| mistake::with_help(&figure.name, error, "leave this figure out of the study"))
+    };
     let drawings = figures.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
     let page = html::page(&figures, &drawings, left_out, report);
     let names = figures.iter().map(|figure| format!("{}.svg", figure.name));

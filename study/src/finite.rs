@@ -15,7 +15,8 @@ use serde::{Serialize, Serializer};
 use crate::mistake;
 
 /// What may be infinite, and is said to be so: freedom without end, joints without limits, tests without a spread.
-const ENDLESS: [&str; 7] = ["degrees_of_freedom", "effective_degrees_of_freedom", "limits", "range", "condition", "f", "t"];
+const ENDLESS: [&str; 7] =
+    ["degrees_of_freedom", "effective_degrees_of_freedom", "limits", "range", "condition", "f", "t"];
 
 /// The report itself, or the mistake that a number in it is not finite, with its place in the report.
 pub fn finite<R: Serialize>(subject: impl Display, report: R) -> Result<R, Diagnostics> {
@@ -131,7 +132,11 @@ impl<'l> Serializer for &'l mut Looking {
         Ok(())
     }
 
-    fn serialize_newtype_struct<T: ?Sized + Serialize>(self, _: &'static str, value: &T) -> Result<(), NotFinite> {
+    fn serialize_newtype_struct<T: ?Sized + Serialize>(
+        self,
+        _: &'static str,
+        value: &T,
+    ) -> Result<(), NotFinite> {
         value.serialize(self)
     }
 
@@ -277,7 +282,10 @@ mod tests {
         let report = |value: f64| Report {
             name: "a".to_owned(),
             degrees_of_freedom: f64::INFINITY,
-            sizes: vec![BTreeMap::new(), BTreeMap::from([("rms".to_owned(), Some([1.0, value])), ("x".to_owned(), None)])],
+            sizes: vec![
+                BTreeMap::new(),
+                BTreeMap::from([("rms".to_owned(), Some([1.0, value])), ("x".to_owned(), None)]),
+            ],
             _scratch: f64::NAN,
         };
         assert!(finite("arm", report(2.0)).is_ok());

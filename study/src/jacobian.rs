@@ -71,7 +71,12 @@ impl Jacobian {
             .and_then(|pose| interpreter.generalized_errors(&q, &s, &u, &mut errors).map(|()| pose))
             .map_err(|error| {
                 let error = first_effect(&interpreter, [&q, &s, &u], error);
-                mistake::not_evaluated(&self.machine.origin, &number::variables(&q, spec), &error, description)
+                mistake::not_evaluated(
+                    &self.machine.origin,
+                    &number::variables(&q, spec),
+                    &error,
+                    description,
+                )
             })?;
         finite(&self.machine.origin, Report::new(description, Arc::clone(spec), q, &pose, &columns, &errors))
     }

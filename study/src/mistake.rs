@@ -16,8 +16,12 @@ pub trait WayOut: Display {
 impl WayOut for Error {
     fn way_out(&self) -> &'static str {
         match self {
-            Self::NotFinite { .. } => "a number divides by 0 there, or is far too large: are the units of the spec right?",
-            Self::EulerSingularity { .. } => "leave this configuration out, or say `orientation = \"rotation-vector\"`",
+            Self::NotFinite { .. } => {
+                "a number divides by 0 there, or is far too large: are the units of the spec right?"
+            }
+            Self::EulerSingularity { .. } => {
+                "leave this configuration out, or say `orientation = \"rotation-vector\"`"
+            }
             Self::OutOfRange { .. } => "give another value, or widen the input's `range` in the spec",
             Self::Count { .. } => "give as many values as the manipulator has",
         }
@@ -28,11 +32,15 @@ impl WayOut for Failure {
     fn way_out(&self) -> &'static str {
         match self {
             Self::Observation { error, .. } => match error {
-                Error::NotFinite { .. } => "is a cell of the row, or a unit of the map, far too large? Leave the row out",
+                Error::NotFinite { .. } => {
+                    "is a cell of the row, or a unit of the map, far too large? Leave the row out"
+                }
                 error => error.way_out(),
             },
             Self::Machine(error) => error.way_out(),
-            Self::TooFew { .. } => "measure at more configurations, or let the map know more: `base = \"known\"`",
+            Self::TooFew { .. } => {
+                "measure at more configurations, or let the map know more: `base = \"known\"`"
+            }
             Self::Untouched { .. } => "leave the row out, or widen the limits of the joints",
             Self::NotConverged { .. } => {
                 "look for rows that are far off, wrong units and reversed joints in the map; or try `--robust tukey`"
@@ -62,7 +70,9 @@ pub fn not_evaluated(
     let blamed = blamed(error, description);
     let help = match blamed.is_empty() {
         true => error.way_out(),
-        false => "look at its expression and at what is set; or leave it out: `--disable NAME`, `enabled = false`",
+        false => {
+            "look at its expression and at what is set; or leave it out: `--disable NAME`, `enabled = false`"
+        }
     };
     let message = match blamed.as_slice() {
         [] => format!("at {at}: {error}"),

@@ -34,6 +34,10 @@ impl Notes for () {}
 impl dyn Notes + '_ {
     /// Ends a job that is to stop: for the places between two parts of it.
     pub fn go_on(&self) -> Result<(), Diagnostics> {
-        if self.stop() { Err(mistake::with_help("abbe", "stopped before the end", "start it again")) } else { Ok(()) }
+        if self.stop() {
+            Err(mistake::with_help("abbe", "stopped before the end", "start it again"))
+        } else {
+            Ok(())
+        }
     }
 }

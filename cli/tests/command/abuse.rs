@@ -43,7 +43,8 @@ fn run(arguments: &[&str]) -> Run {
     match run.status {
         0 | 1 => {}
         2 => assert!(
-            ["error: ", "--> ", "help: "].iter().all(|part| run.stderr.contains(part)) && run.stdout.is_empty(),
+            ["error: ", "--> ", "help: "].iter().all(|part| run.stderr.contains(part))
+                && run.stdout.is_empty(),
             "{arguments:?}: {}",
             run.stderr
         ),
@@ -106,7 +107,9 @@ fn what_is_far_too_large_is_refused_where_it_is_read() {
 fn one_cell_holds_nothing_up() {
     let folder = tempdir().unwrap();
     let (map, data) = measurements(folder.path());
-    for (cell, said) in [("1e300", Some("numbers go up to 1e150")), ("1e150", None), ("1e149", None), ("1e75", None)] {
+    for (cell, said) in
+        [("1e300", Some("numbers go up to 1e150")), ("1e150", None), ("1e149", None), ("1e75", None)]
+    {
         let file = write(folder.path(), "wild.csv", &with_cell(&data, cell));
         for command in ["measure", "identify"] {
             let run = run(&[command, "scara", path(&file), "--map", &map]);
@@ -128,7 +131,8 @@ fn what_never_ends_is_not_read_to_its_end() {
     let study = write(folder.path(), "study.toml", study);
     refused(&["analyze", "scara", "--study", path(&study)], "/dev/zero");
     // A quotation mark that nothing closes.
-    let file = write(folder.path(), "open.csv", &format!("q1,q2,d3,q4,x,y,z\n1,\"{}", "2,3\n".repeat(2_000_000)));
+    let file =
+        write(folder.path(), "open.csv", &format!("q1,q2,d3,q4,x,y,z\n1,\"{}", "2,3\n".repeat(2_000_000)));
     refused(&["measure", "scara", path(&file), "--map", &map], "does not end within 4 MiB");
 }
 

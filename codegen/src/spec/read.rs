@@ -217,7 +217,13 @@ fn read_frames<'d>(
         );
         return None;
     }
-    document.at_most(&item, items.len(), MOST_FRAMES, "frames", "leave out frames that have no errors: products of transforms are one")?;
+    document.at_most(
+        &item,
+        items.len(),
+        MOST_FRAMES,
+        "frames",
+        "leave out frames that have no errors: products of transforms are one",
+    )?;
     let mut frames: Vec<RawFrame<'d>> = Vec::new();
     for (index, item) in items.iter().enumerate() {
         let Some(mut section) = document.section(item) else {

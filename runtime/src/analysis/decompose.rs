@@ -1,9 +1,9 @@
 //! Decompositions that end, whatever the numbers: they are scaled, looked at first, and have a limit of steps.
 
 use nalgebra::allocator::Allocator;
+use nalgebra::{DefaultAllocator, Dim, DimDiff, DimSub, OMatrix, SymmetricEigen, U1};
 #[cfg(feature = "identify")]
 use nalgebra::{Matrix3, SVD, U3};
-use nalgebra::{DefaultAllocator, Dim, DimDiff, DimSub, OMatrix, SymmetricEigen, U1};
 
 /// Some hundred times what matrices of this size take.
 const STEPS: usize = 100_000;
@@ -12,8 +12,7 @@ const STEPS: usize = 100_000;
 pub(crate) fn symmetric_eigen<D>(matrix: OMatrix<f64, D, D>) -> Option<SymmetricEigen<f64, D>>
 where
     D: Dim + DimSub<U1>,
-    DefaultAllocator:
-        Allocator<D, D> + Allocator<DimDiff<D, U1>> + Allocator<D> + Allocator<DimDiff<D, U1>>,
+    DefaultAllocator: Allocator<D, D> + Allocator<DimDiff<D, U1>> + Allocator<D> + Allocator<DimDiff<D, U1>>,
 {
     let is_finite = matrix.iter().all(|value| value.is_finite());
     is_finite.then(|| SymmetricEigen::try_new(matrix, f64::EPSILON, STEPS))?
@@ -47,8 +46,9 @@ mod tests {
             let back = svd.u.unwrap() * Matrix3::from_diagonal(&svd.singular_values) * svd.v_t.unwrap();
             assert!((back - matrix).amax() <= 1e-12 * matrix.amax(), "{scale:e}");
             let eigen = symmetric_eigen(matrix).unwrap();
-            let back =
-                eigen.eigenvectors * Matrix3::from_diagonal(&eigen.eigenvalues) * eigen.eigenvectors.transpose();
+            let back = eigen.eigenvectors
+                * Matrix3::from_diagonal(&eigen.eigenvalues)
+                * eigen.eigenvectors.transpose();
             assert!((back - matrix).amax() <= 1e-12 * matrix.amax(), "{scale:e}");
         }
         for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

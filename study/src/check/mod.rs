@@ -18,9 +18,9 @@ use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
+use crate::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
-use crate::finite;
 
 pub use angles::Warning;
 pub use chain::{Chain, Dh, Link};

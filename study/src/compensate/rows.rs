@@ -115,7 +115,11 @@ pub(super) fn rows(task: &Task<'_>, data: &mut Data, notes: &mut dyn Notes) -> R
     if rows.is_empty() {
         let why = data.unusable.first().map(|row| format!(": line {}: {}", row.line, row.reason));
         let message = format!("no row can be compensated{}", why.unwrap_or_default());
-        return Err(mistake::with_help(&data.file, message, "are the units of the map and the limits of the joints right?"));
+        return Err(mistake::with_help(
+            &data.file,
+            message,
+            "are the units of the map and the limits of the joints right?",
+        ));
     }
     Ok(rows)
 }

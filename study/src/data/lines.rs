@@ -40,7 +40,8 @@ impl<R: Read> Read for Watched<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let mut window = self.window.borrow_mut();
         if window.bytes.len() > LONGEST {
-            let message = format!("the row in line {} does not end within {} MiB", window.line, LONGEST >> 20);
+            let message =
+                format!("the row in line {} does not end within {} MiB", window.line, LONGEST >> 20);
             return Err(Unfit::new(message, "is there a quotation mark that nothing closes?").into());
         }
         let length = self.inner.read(buffer)?;
@@ -82,11 +83,11 @@ mod tests {
         for end in ["\n", "\r\n"] {
             let text = ["a,b", "1,2", "", "# no row", "3,4", "\"5", "x\",6", "7,8"].join(end);
             let (watched, mut lines) = Watched::new(text.as_bytes());
-            let reader = csv::ReaderBuilder::new().comment(Some(b'#')).buffer_capacity(3).from_reader(watched);
+            let reader =
+                csv::ReaderBuilder::new().comment(Some(b'#')).buffer_capacity(3).from_reader(watched);
             let records = reader.into_records();
-            let found: Vec<u64> = records
-                .map(|record| lines.of_record(record.unwrap().position().unwrap().byte()))
-                .collect();
+            let found: Vec<u64> =
+                records.map(|record| lines.of_record(record.unwrap().position().unwrap().byte())).collect();
             assert_eq!(found, [2, 5, 6, 8], "{end:?}");
         }
     }

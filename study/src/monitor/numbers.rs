@@ -57,7 +57,13 @@ impl Numbers {
             notes.progress(i + 1, checks.list.len());
             notes.go_on()?;
         }
-        let Some(model) = model else { return Err(mistake::with_help("abbe monitor", "there is no check", "give the files of the checks")) };
+        let Some(model) = model else {
+            return Err(mistake::with_help(
+                "abbe monitor",
+                "there is no check",
+                "give the files of the checks",
+            ));
+        };
         let common: Vec<usize> =
             (0..places.len()).filter(|place| visits.iter().all(|check| has(check, *place))).collect();
         if common.is_empty() {

@@ -31,14 +31,18 @@ pub fn expression(c: &mut Choices<'_>, length: bool, names: [&[String]; 2], dept
     }
     match c.below(if depth == 0 { 2 } else { 13 }) {
         0 if !numbers.is_empty() => c.of(numbers).clone(),
-        0 | 1 => c.of(&["0.3", "-1.7", "2", "pi/2", "0", "1", "-1", "12.5 deg", "1e-3", "40 arcmin"]).to_string(),
+        0 | 1 => {
+            c.of(&["0.3", "-1.7", "2", "pi/2", "0", "1", "-1", "12.5 deg", "1e-3", "40 arcmin"]).to_string()
+        }
         2 => format!("sin({})", pure(c)),
         3 => format!("cos({})", pure(c)),
         4 => format!("{}({})", c.of(&["sin", "cos"]), pure(c)),
         5 => format!("({} {} {})", pure(c), c.of(&["+", "-", "*"]), pure(c)),
         6 => format!("-({})", pure(c)),
         7 => format!("atan2({}, 2 + cos({}))", pure(c), pure(c)),
-        8 => format!("{}(0.9*sin({}))", c.of(&["asin", "acos", "tan", "atan", "exp", "sign", "abs"]), pure(c)),
+        8 => {
+            format!("{}(0.9*sin({}))", c.of(&["asin", "acos", "tan", "atan", "exp", "sign", "abs"]), pure(c))
+        }
         9 => format!("({})/(3 + sin({}))", pure(c), pure(c)),
         10 => format!("log(2 + cos({}))", pure(c)),
         11 => format!("(2 + sin({}))^{}", pure(c), c.of(&["2", "3", "-1", "0.5", "1.7"])),

@@ -19,9 +19,52 @@ const NAMES: &str = "default default_ result results Vec vec self_ Self_ String 
 /// Words for titles, descriptions, names of frames and sources: ends of comments and texts, turns of the direction of
 /// reading, things that look like code.
 const WORDS: [&str; 46] = [
-    "arm", "*/", "/*", "//", "\\\"", "\\\\", "\\\\\\\"", "#", "##", "\\u202E", "\\u2066", "\\u200B", "\\u2028", "\\uFEFF", "'", "`",
-    "```", "~~~", "```rust", "{", "}", "{{}}", "${x}", "%s", "<b>", "</script>", "<!--", "]]>", "[link](x)", "[`x`]", "| a |", "&amp;",
-    "größe", "機械", "🦾", "é", "\\u0301", "https://example.org/a_b?c=d&e", "- item", "1. item", "#[x]", "#![x]", "r#x#", "\\\\n", "0", "$crate",
+    "arm",
+    "*/",
+    "/*",
+    "//",
+    "\\\"",
+    "\\\\",
+    "\\\\\\\"",
+    "#",
+    "##",
+    "\\u202E",
+    "\\u2066",
+    "\\u200B",
+    "\\u2028",
+    "\\uFEFF",
+    "'",
+    "`",
+    "```",
+    "~~~",
+    "```rust",
+    "{",
+    "}",
+    "{{}}",
+    "${x}",
+    "%s",
+    "<b>",
+    "</script>",
+    "<!--",
+    "]]>",
+    "[link](x)",
+    "[`x`]",
+    "| a |",
+    "&amp;",
+    "größe",
+    "機械",
+    "🦾",
+    "é",
+    "\\u0301",
+    "https://example.org/a_b?c=d&e",
+    "- item",
+    "1. item",
+    "#[x]",
+    "#![x]",
+    "r#x#",
+    "\\\\n",
+    "0",
+    "$crate",
 ];
 
 fn words(c: &mut Choices<'_>, lines: bool) -> String {
@@ -71,7 +114,8 @@ pub fn plain_spec(c: &mut Choices<'_>) -> String {
 fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
     let mut names = Names { taken: HashSet::new(), plain: hostile.is_none() };
     let mut text = String::new();
-    let said = |c: &mut Choices<'_>, lines| if hostile.is_some() { words(c, lines) } else { "said".to_owned() };
+    let said =
+        |c: &mut Choices<'_>, lines| if hostile.is_some() { words(c, lines) } else { "said".to_owned() };
     let title = |c: &mut Choices<'_>, of: usize| -> String {
         let said: String = said(c, false).chars().take(60).collect();
         // Not within an escape.
@@ -99,7 +143,8 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
     let mut inputs = Vec::new();
     if c.once_in(2) {
         let (name, about) = (names.new(c, "u"), said(c, false));
-        let _ = writeln!(text, "[inputs]\n{name} = {{ value = 0.5, range = [0, 2], description = \"{about}\" }}");
+        let _ =
+            writeln!(text, "[inputs]\n{name} = {{ value = 0.5, range = [0, 2], description = \"{about}\" }}");
         inputs.push(name);
     }
     let mut frames = Vec::new();
@@ -146,7 +191,10 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
         let (e, f) = (*c.of(&["x", "y", "z"]), *c.of(&["s", "r", "p"]));
         let (moved, turned) =
             (expression(c, true, [&numbers, &lengths], 3), expression(c, false, [&numbers, &lengths], 3));
-        let _ = writeln!(text, "e_{e} = \"1e-3*(1.5 + sin({turned}))*abs({moved})\"\ne_{f} = \"1e-3*abs({turned})\"");
+        let _ = writeln!(
+            text,
+            "e_{e} = \"1e-3*(1.5 + sin({turned}))*abs({moved})\"\ne_{f} = \"1e-3*abs({turned})\""
+        );
     }
     text
 }

@@ -12,9 +12,34 @@ use crate::watch::many;
 
 /// Names of manipulators: modules and types of generated code.
 const MANIPULATORS: [&str; 28] = [
-    "default", "default_", "result", "option", "vec", "string", "some", "ok_", "none", "text", "list", "raw", "abbe",
-    "std", "core", "clone", "debug", "copy", "send", "a__b", "_x", "x_", "frame", "parameters", "inputs", "description",
-    "drop", "d1",
+    "default",
+    "default_",
+    "result",
+    "option",
+    "vec",
+    "string",
+    "some",
+    "ok_",
+    "none",
+    "text",
+    "list",
+    "raw",
+    "abbe",
+    "std",
+    "core",
+    "clone",
+    "debug",
+    "copy",
+    "send",
+    "a__b",
+    "_x",
+    "x_",
+    "frame",
+    "parameters",
+    "inputs",
+    "description",
+    "drop",
+    "d1",
 ];
 
 /// A crate with these modules, checked by the compiler: what it says, if it does not accept them.

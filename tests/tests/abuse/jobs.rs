@@ -90,10 +90,13 @@ pub(crate) fn of_data(machine: &Machine, map: &Map, data: &Path, asked: Asked) -
         }
         Asked::Identify(terms, loss) => {
             let data = Data::read(data, &map)?;
-            let settings =
-                Settings { loss, prior: Prior::Share(0.01), folds: 4, time: Some(Duration::from_millis(300)) };
-            let job =
-                Identify { machine, map, data, test: None, terms, harmonics: vec![], settings, accept };
+            let settings = Settings {
+                loss,
+                prior: Prior::Share(0.01),
+                folds: 4,
+                time: Some(Duration::from_millis(300)),
+            };
+            let job = Identify { machine, map, data, test: None, terms, harmonics: vec![], settings, accept };
             job.run(&mut notes()).map(drop)
         }
         Asked::Compensate => {
@@ -140,7 +143,8 @@ pub(crate) fn is_computed_alike(interpreter: &Interpreter, seed: u64, text: &str
         return false;
     };
     let expected = real_pose(&transforms, &errors);
-    let size = transforms.iter().flat_map(|pose| pose.0.as_flattened()).fold(1.0, |size: f64, x| size.max(x.abs()));
+    let size =
+        transforms.iter().flat_map(|pose| pose.0.as_flattened()).fold(1.0, |size: f64, x| size.max(x.abs()));
     for (a, b) in found.0.as_flattened().iter().zip(expected.0.as_flattened()) {
         assert!((a - b).abs() <= 1e-9 * size, "{a} {b} of {seed}:\n{text}");
     }

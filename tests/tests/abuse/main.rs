@@ -184,7 +184,8 @@ fn whole_files_are_answered() {
     let machine = machine();
     jobs::of_spec(machine.clone(), true).unwrap();
     for study in STUDIES {
-        jobs::analyze(&machine, Study::read(Document::new("study.toml", study), &machine.spec).unwrap()).unwrap();
+        jobs::analyze(&machine, Study::read(Document::new("study.toml", study), &machine.spec).unwrap())
+            .unwrap();
     }
     let folder = tempdir().unwrap();
     let data = folder.path().join("data.csv");

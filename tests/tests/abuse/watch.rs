@@ -31,7 +31,11 @@ impl Figures {
     }
 
     pub(crate) fn add(&mut self, (answered, taken): (bool, Duration)) {
-        if answered { self.answered += 1 } else { self.refused += 1 }
+        if answered {
+            self.answered += 1
+        } else {
+            self.refused += 1
+        }
         self.slowest = self.slowest.max(taken);
     }
 
@@ -41,7 +45,10 @@ impl Figures {
 
     pub(crate) fn print(&self) {
         let Self { kind, answered, refused, slowest } = self;
-        eprintln!("{kind}: {} inputs, {answered} answered, {refused} refused, slowest {slowest:.1?}", self.all());
+        eprintln!(
+            "{kind}: {} inputs, {answered} answered, {refused} refused, slowest {slowest:.1?}",
+            self.all()
+        );
     }
 }
 
