@@ -95,6 +95,7 @@ pub(crate) fn of_data(machine: &Machine, map: &Map, data: &Path, asked: Asked) -
                 prior: Prior::Share(0.01),
                 folds: 4,
                 time: Some(Duration::from_millis(300)),
+                points: true,
             };
             let job = Identify { machine, map, data, test: None, terms, harmonics: vec![], settings, accept };
             job.run(&mut notes()).map(drop)
