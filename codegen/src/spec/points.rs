@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use crate::bounded::{Bounded, Unfit, not_text};
 use crate::cell::meant;
 use crate::diagnostic::{Diagnostic, Span, suggestion};
 use crate::document::{Document, Item};
 use crate::expr::LARGEST as LARGEST_NUMBER;
-use crate::bounded::{Bounded, Unfit, not_text};
 
 /// The largest file of points that is read.
 const LARGEST: u64 = 16 << 20;
@@ -97,9 +97,13 @@ impl Columns {
             match cell.parse::<f64>() {
                 Ok(number) if number.abs() <= LARGEST_NUMBER => numbers.push(number),
                 Ok(number) if number.is_finite() => {
-                    let message = format!("line {line} of `{}`: `{name}` is too large to compute with", self.file);
-                    let mistake = Diagnostic::new(item.span(), message).label(format!("`{number:e}` stands there"));
-                    document.mistake(mistake.help("numbers go up to 1e150; leave rows out that were not measured"));
+                    let message =
+                        format!("line {line} of `{}`: `{name}` is too large to compute with", self.file);
+                    let mistake =
+                        Diagnostic::new(item.span(), message).label(format!("`{number:e}` stands there"));
+                    document.mistake(
+                        mistake.help("numbers go up to 1e150; leave rows out that were not measured"),
+                    );
                     return None;
                 }
                 _ => {

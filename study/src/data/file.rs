@@ -4,10 +4,10 @@ use std::io::{self, Cursor, Read};
 use std::path::Path;
 use std::sync::Arc;
 
+use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LARGEST;
-use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use csv::StringRecord;
 
 use super::date::parse_date;

@@ -12,11 +12,11 @@ use std::path;
 
 use abbe::Manipulator;
 use abbe::analysis::Configuration;
+use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Section};
 use abbe_codegen::expr::{Dimension, LARGEST, find_name, parse_value};
-use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use abbe_codegen::spec::{Input, Spec, VariableKind};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
@@ -171,7 +171,10 @@ fn values(record: &StringRecord, columns: &[Column], spec: &Spec) -> Result<Vec<
         let value =
             value.ok_or_else(|| format!("line {line}: `{}` is not a number", field.escape_debug()))?;
         if value.abs() > LARGEST {
-            return Err(format!("line {line}: `{}` is too large: numbers go up to 1e150", field.escape_debug()));
+            return Err(format!(
+                "line {line}: `{}` is too large: numbers go up to 1e150",
+                field.escape_debug()
+            ));
         }
         match column.place {
             Place::Input(i) if !within(value, spec.inputs[i].range) => {
