@@ -10,7 +10,7 @@ use crate::arguments::Jacobian;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, json};
-use crate::table::{Table, wrapped};
+use abbe_report::text::{Table, wrapped};
 
 pub(crate) fn run(arguments: &Jacobian) -> Result<Outcome, Failure> {
     let machine = arguments.subject.machine()?;

@@ -6,7 +6,7 @@ use crate::arguments::List;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, json};
-use crate::table::Table;
+use abbe_report::text::Table;
 
 pub(crate) fn run(arguments: &List) -> Result<Outcome, Failure> {
     let shipped = list::List.run(&mut Console::default())?;

@@ -22,9 +22,7 @@ mod monitor;
 mod number;
 mod output;
 mod plan;
-mod provenance;
 mod simulate;
-mod table;
 
 use std::process::ExitCode;
 

@@ -3,7 +3,7 @@
 //! Everything comes back as texts with the names of their files; nothing here writes. [`analysis`] is the report of an
 //! analysis: `axis` says how its numbers are shown, `svg` draws the figures one by one, `html` writes the page, with the
 //! same figures to rotate and to point at. [`measurement()`], [`identification()`],
-//! [`compensation()`] and [`monitoring()`] are the pages about measurements.
+//! [`compensation()`] and [`monitoring()`] are the pages about measurements. [`text`] is what a terminal shows.
 
 mod axis;
 mod figure;
@@ -12,6 +12,7 @@ mod pictures;
 mod shares;
 mod spheres;
 mod svg;
+pub mod text;
 
-pub use html::{Provenance, compensation, identification, measurement, monitoring};
+pub use html::{Provenance, compensation, identification, listed, measurement, monitoring};
 pub use pictures::{File, PAGE, analysis};

@@ -1,12 +1,8 @@
 //! `abbe analyze`: section 5 of the paper. What every source does over a workspace, alone and together.
 //!
-//! The job is asked and its report shown: `text` for people, with its `tables` and what was `drawn`; `files` writes every
-//! configuration on the way, and the pictures in the end.
+//! The job is asked and its report shown; `files` writes every configuration on the way, and the pictures in the end.
 
-mod drawn;
 mod files;
-mod tables;
-mod text;
 
 use abbe::analysis::Row;
 use abbe_study::analyze::{Analyze, Report, Verdict};
@@ -45,7 +41,8 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
             report
         }
     };
-    let text = if arguments.running.json { output::json(&report)? } else { text::text(&report) };
+    let text =
+        if arguments.running.json { output::json(&report)? } else { abbe_report::text::analysis(&report) };
     match (arguments.check, report.verdict()) {
         (true, None) => Err(Failure::of("--check", "the study has no tolerance")
             .help("give one: tolerance = \"0.5 mm\" in its [study]")),

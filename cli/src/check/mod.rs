@@ -11,7 +11,7 @@ use crate::arguments::Check;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, json};
-use crate::table::{Table, wrapped};
+use abbe_report::text::{Table, wrapped};
 
 pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
     let job = check::Check { machine: arguments.subject.machine()? };

@@ -3,6 +3,7 @@
 mod text;
 
 use abbe_codegen::spec::Spec;
+use abbe_report::Provenance;
 use abbe_study::compensate::{Compensate, check_poses};
 use abbe_study::data::{Data, Map};
 
@@ -11,7 +12,6 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
 use crate::output::{Outcome, Outputs, json};
-use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);
         let files = [("commands", &arguments.data)];
-        let provenance = provenance(spec, map, files, arguments.page.date.as_ref())?;
+        let provenance = Provenance::new(spec, map, files, arguments.page.date.as_ref())?;
         file.fill(&abbe_report::compensation(spec, &job.map, &report, &provenance))
     });
     let printed = outputs.finish(commands.into_iter().chain(page.transpose()?))?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use abbe::{Class, Description, VariableKind};
 
-use crate::table::{Table, wrapped};
+use abbe_report::text::{Table, wrapped};
 use abbe_study::compensate::{Report, Row, Size};
 use abbe_study::number::{error_decimals, fixed, length, short};
 

@@ -2,7 +2,7 @@
 
 use abbe_study::identify::Alike;
 
-use crate::table::Table;
+use abbe_report::text::Table;
 
 /// Groups that have the same reason.
 struct Sentence<'r> {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use abbe::identify::Loss;
 use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_report::Provenance;
 use abbe_study::Acceptance;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};
@@ -15,7 +16,6 @@ use crate::arguments::{self, Robust, Terms};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, json, note};
-use crate::provenance::provenance;
 
 pub(crate) use alike::table as alike_table;
 
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
         let test = arguments.test.iter().map(|file| ("test", file));
         let files = [("measurements", &arguments.measured.data)].into_iter().chain(test);
         let spec = &job.machine.spec;
-        let provenance = provenance(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
+        let provenance = Provenance::new(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
         file.fill(&abbe_report::identification(spec, &job.map, &report, &provenance))
     });
     let printed = outputs.finish(out.into_iter().chain(page.transpose()?))?;
@@ -116,7 +116,7 @@ fn found(file: &Path, job: &Identify, report: &Report) -> Result<Found, Failure>
     let text = format!(
         "Written to {}: the nominal spec, these lines, and the covariance of what they say\n{lines}{}\n",
         file.display(),
-        crate::table::wrapped(&beside, 0)
+        abbe_report::text::wrapped(&beside, 0)
     );
     Ok(Found { spec: spec.text, map, text })
 }

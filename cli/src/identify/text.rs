@@ -5,7 +5,7 @@ use abbe_study::identify::{Gain, Kind, NotKnown, Report, Sizes, shown_lines};
 use abbe_study::number::{self, digits, fixed};
 
 use super::alike;
-use crate::table::{Table, wrapped};
+use abbe_report::text::{Table, wrapped};
 
 /// `written` says what was written, if anything was.
 pub(super) fn text(spec: &Spec, report: &Report, written: Option<&str>) -> String {

@@ -2,6 +2,7 @@
 
 mod text;
 
+use abbe_report::Provenance;
 use abbe_study::data::{Data, Map};
 use abbe_study::measure::Measure;
 
@@ -10,7 +11,6 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::identify::accept;
 use crate::output::{Outcome, Outputs, json};
-use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let spec = &job.machine.spec;
     if let Some((errors, page)) = files {
-        let provenance = provenance(
+        let provenance = Provenance::new(
             spec,
             Some(&job.map),
             [("measurements", &arguments.measured.data)],

@@ -4,7 +4,7 @@ use abbe_codegen::spec::Spec;
 use abbe_study::measure::{InstrumentErrors, Report, Size};
 use abbe_study::number::{digits, fixed};
 
-use crate::table::{Table, wrapped};
+use abbe_report::text::{Table, wrapped};
 
 pub(super) fn text(spec: &Spec, report: &Report) -> String {
     let mut parts = vec![format!("{}: measured\n\n", spec.title)];

@@ -2,6 +2,7 @@
 
 mod text;
 
+use abbe_report::Provenance;
 use abbe_study::data::Map;
 use abbe_study::monitor::{Checks, Monitor, Settings};
 
@@ -10,7 +11,6 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
 use crate::output::{Outcome, Outputs, json};
-use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let page = page.map(|file| {
         let (spec, files) = (&job.machine.spec, arguments.data.iter().map(|file| ("check", file)));
-        let provenance = provenance(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
+        let provenance = Provenance::new(spec, Some(&job.map), files, arguments.page.date.as_ref())?;
         file.fill(&abbe_report::monitoring(spec, &job.map, &report, &provenance))
     });
     let printed = outputs.finish(page.transpose()?)?;

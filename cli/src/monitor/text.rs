@@ -4,7 +4,7 @@ use abbe_codegen::spec::Spec;
 use abbe_study::monitor::{Chart, Report};
 use abbe_study::number::{fixed, percent};
 
-use crate::table::{Table, wrapped};
+use abbe_report::text::{Table, wrapped};
 
 /// How many charts are shown.
 const SHOWN: usize = 12;

@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::identify::alike_table;
 use crate::number::length;
 use crate::output::{Outcome, Outputs, json};
-use crate::table::wrapped;
+use abbe_report::text::wrapped;
 
 pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
     arguments.running.start()?;

@@ -133,8 +133,8 @@ pub(super) fn combined(report: &Report) -> String {
     )
 }
 
-/// Any table, as it is.
-pub(super) fn listed(listing: &Listing) -> String {
+/// Any listing as a table of HTML.
+pub fn listed(listing: &Listing) -> String {
     let class = |column: usize| if listing.numbers.contains(&column) { "" } else { " class=\"words\"" };
     let cells = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
         let cells =

@@ -19,6 +19,7 @@ mod residuals;
 
 pub use compensation::compensation;
 pub use identification::identification;
+pub use ledger::listed;
 pub use measurement::measurement;
 pub use monitoring::monitoring;
 pub(super) use page::page;

@@ -1,7 +1,11 @@
 //! What a page of measurements rests on: the instrument, the files, the date that was given.
 
+use std::path::{Path, PathBuf};
+
+use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 use abbe_study::data::{Base, Layout, Map};
+use abbe_study::hash;
 use abbe_study::number::{self, short};
 
 use super::escaped;
@@ -16,6 +20,22 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// The spec, the map if there is one, and files by what they are.
+    pub fn new<'f>(
+        spec: &Spec,
+        map: Option<&Map>,
+        files: impl IntoIterator<Item = (&'static str, &'f PathBuf)>,
+        date: Option<&String>,
+    ) -> Result<Self, Diagnostics> {
+        let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let mut all = vec![("spec", spec.file.clone(), spec.hash.clone())];
+        all.extend(map.map(|map| ("map", name(Path::new(map.path())), map.hash())));
+        for (kind, file) in files {
+            all.push((kind, name(file), hash::of_file(file)?));
+        }
+        Ok(Self { date: date.cloned(), files: all })
+    }
+
     /// As a table.
     pub(super) fn table(&self) -> String {
         let row = |(kind, name, hash): &(&str, String, String)| {

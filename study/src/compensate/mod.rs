@@ -1,5 +1,6 @@
 //! Joint commands that put the real tool where the ideal one should be.
 
+mod commands;
 mod reason;
 mod rows;
 
@@ -12,6 +13,7 @@ use crate::data::{Base, Data, Map, Summary, Table, Unusable};
 use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::{Machine, Notes, finite, mistake};
 
+pub use commands::{Command, Commands};
 use rows::Task;
 pub use rows::{Norms, Row};
 

@@ -83,6 +83,17 @@ impl<'a> Task<'a> {
         let mobility = mobility.map_err(|error| mistake::whole(&description.name, error))?;
         Ok(Self { manipulator, description, s, poses, tolerance, mobility })
     }
+
+    /// One command for the joints, and why it does not arrive.
+    pub(super) fn correct(
+        &self,
+        q: &[f64],
+        u: &[f64],
+    ) -> Result<(Compensated<Vec<f64>>, Option<String>), String> {
+        within_limits(self.description, q)?;
+        let corrected = corrected(self, None, q, u).map_err(|error| evaluation(self.description, &error))?;
+        Ok((corrected.found, corrected.reason))
+    }
 }
 
 /// All rows that can be evaluated, for their joints or for the poses that were measured; the others go to the unusable ones.

@@ -7,13 +7,13 @@ use abbe_study::number::NO_BREAK;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Row, TableStyle};
 
 /// The width that everything is set to, so that the same input gives the same text on every terminal.
-pub(crate) const WIDTH: usize = 100;
+pub const WIDTH: usize = 100;
 
 const STYLE: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─').left('─').right('─'));
 
 /// A listing as a table.
-pub(crate) fn listed(listing: &Listing) -> String {
+pub fn listed(listing: &Listing) -> String {
     let mut table = Table::new(&listing.header);
     listing.rows.iter().for_each(|row| table.row(row.clone()));
     table.right(&listing.numbers.clone().collect::<Vec<_>>()).to_string()
@@ -21,11 +21,11 @@ pub(crate) fn listed(listing: &Listing) -> String {
 
 /// A table that grows row by row.
 #[derive(Debug)]
-pub(crate) struct Table(comfy_table::Table);
+pub struct Table(comfy_table::Table);
 
 impl Table {
     /// An empty table.
-    pub(crate) fn new(header: &[&str]) -> Self {
+    pub fn new(header: &[&str]) -> Self {
         let mut table = comfy_table::Table::new();
         table.load_style(STYLE).set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH as u16);
         table.set_header(header.to_vec());
@@ -33,12 +33,12 @@ impl Table {
     }
 
     /// Adds a row. Lines of a cell stand beside the same lines of the others.
-    pub(crate) fn row<T: Into<Row>>(&mut self, cells: T) {
+    pub fn row<T: Into<Row>>(&mut self, cells: T) {
         self.0.add_row(cells);
     }
 
     /// Sets columns flush right: numbers, which are never wrapped.
-    pub(crate) fn right(mut self, columns: &[usize]) -> Self {
+    pub fn right(mut self, columns: &[usize]) -> Self {
         for &column in columns {
             if let Some(column) = self.0.column_mut(column) {
                 column.set_cell_alignment(CellAlignment::Right);
@@ -49,7 +49,7 @@ impl Table {
     }
 
     /// Keeps columns as wide as their text.
-    pub(crate) fn unwrapped(mut self, columns: &[usize]) -> Self {
+    pub fn unwrapped(mut self, columns: &[usize]) -> Self {
         for &column in columns {
             if let Some(column) = self.0.column_mut(column) {
                 column.set_constraint(ColumnConstraint::ContentWidth);
@@ -66,7 +66,7 @@ impl fmt::Display for Table {
 }
 
 /// A text wrapped at the width of the tables, its lines after the first indented.
-pub(crate) fn wrapped(text: &str, indent: usize) -> String {
+pub fn wrapped(text: &str, indent: usize) -> String {
     let (mut lines, mut width) = (String::new(), indent);
     for word in text.split([' ', '\n']).filter(|word| !word.is_empty()) {
         let length = word.chars().count();

@@ -1,6 +1,6 @@
 //! What was drawn at the worst configuration and at home, as a table.
 
-use crate::table::{Table, wrapped};
+use super::super::table::{Table, wrapped};
 use abbe_study::analyze::{Drawn, Report};
 use abbe_study::number::{self, fixed};
 

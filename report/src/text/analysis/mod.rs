@@ -1,13 +1,16 @@
-//! The results for people.
+//! What an analysis found, for people.
+
+mod drawn;
+mod tables;
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{self, Report, Stated};
 use abbe_study::number::{self, unbroken};
 
-use super::{drawn, tables};
-use crate::table::{listed, wrapped};
+use super::table::{listed, wrapped};
 
-pub(super) fn text(report: &Report) -> String {
+/// What an analysis found: verdict, every source alone, all together, ledgers, budgets, and conclusions.
+pub fn analysis(report: &Report) -> String {
     let unit = report.spec.length.symbol();
     let mut parts = vec![answer(report), heading(report)];
     if report.budget.sources.is_empty() {

@@ -4,7 +4,7 @@ use abbe_study::analyze::{Report, figures_of};
 use abbe_study::number::{self, fixed, short};
 use abbe_study::study_file::{CombinedFigure, Metric, Subject};
 
-use crate::table::Table;
+use super::super::table::Table;
 
 /// Three metrics of every source, and under each what is published on it.
 pub(super) fn sources(report: &Report) -> String {
