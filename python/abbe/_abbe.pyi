@@ -1,12 +1,12 @@
 # The compiled part: written by hand, held against the module by mypy's stubtest.
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Machine", "SpecError", "__version__", "_restore", "load", "shipped"]
+__all__ = ["Commands", "Machine", "Report", "SpecError", "__version__", "_restore", "load", "shipped"]
 
 __version__: str
 
@@ -15,6 +15,12 @@ _Array: TypeAlias = NDArray[np.float64]
 _Joints: TypeAlias = ArrayLike | Mapping[str, ArrayLike] | Any
 # A number in coherent units, text with a unit, or a value for each configuration.
 _Input: TypeAlias = float | str | ArrayLike
+
+# Called with how many are done, and of how many.
+_Progress: TypeAlias = Callable[[int, int], object]
+_Path: TypeAlias = str | PathLike[str]
+# A number in the length unit of the spec, or text with a unit.
+_Length: TypeAlias = float | str
 
 class SpecError(ValueError):
     file: str
@@ -64,7 +70,95 @@ class Machine:
     def predict(self, q: _Joints, *, out: _Array | None = None, **inputs: _Input) -> _Array: ...
     def source_displacements(self, q: _Joints, *, out: _Array | None = None, **inputs: _Input) -> _Array: ...
     def real_pose(self, q: _Joints, *, out: _Array | None = None, **inputs: _Input) -> _Array: ...
+    def inverse(self, target: ArrayLike, q0: _Joints | None = None) -> _Array: ...
+    def compensate(
+        self, q: _Joints, *, tolerance: _Length | None = None, progress: _Progress | None = None, **inputs: _Input
+    ) -> Commands: ...
+    def check(self) -> Report: ...
+    def analyze(
+        self,
+        study: _Path | None = None,
+        *,
+        study_text: str | None = None,
+        monte_carlo: int = 0,
+        seed: int | None = None,
+        figures: bool = True,
+        threads: int | None = None,
+        progress: _Progress | None = None,
+    ) -> Report: ...
+    def measure(self, data: _Path, map: _Path, *, new_station: bool = False, accept: str | None = None) -> Report: ...
+    def identify(
+        self,
+        data: _Path,
+        map: _Path,
+        *,
+        test: _Path | None = None,
+        terms: str | Sequence[str] | None = None,
+        robust: str | None = None,
+        prior: float | str | None = None,
+        folds: int = 10,
+        time: float | None = None,
+        accept: str | None = None,
+        threads: int | None = None,
+        progress: _Progress | None = None,
+    ) -> Report: ...
+    def plan(
+        self,
+        map: _Path,
+        *,
+        sets: _Path | None = None,
+        count: int = 50,
+        criterion: str = "v",
+        candidates: int = 500,
+        model_error: _Length | None = None,
+        study: _Path | None = None,
+        seed: int | None = None,
+        progress: _Progress | None = None,
+    ) -> Report: ...
+    def simulate(
+        self,
+        map: _Path,
+        *,
+        data: _Path | None = None,
+        samples: int = 100,
+        noise: _Length | None = None,
+        outliers: float = 0.0,
+        random: bool = False,
+        seed: int = 0,
+    ) -> Report: ...
+    def monitor(
+        self,
+        data: Sequence[_Path],
+        map: _Path,
+        *,
+        tolerance: _Length | None = None,
+        since: str | None = None,
+        false_alarm: int = 365,
+    ) -> Report: ...
+    def generate(self, language: str = "rust") -> str: ...
     def __reduce__(self) -> tuple[Any, tuple[str, str | None, list[tuple[str, str]]]]: ...
+
+@final
+class Commands:
+    @property
+    def q(self) -> _Array: ...
+    @property
+    def left(self) -> _Array: ...
+    @property
+    def reason(self) -> str | None | list[str | None]: ...
+
+@final
+class Report:
+    @property
+    def notes(self) -> list[str]: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def to_json(self) -> str: ...
+    def report(self, folder: _Path, *, overwrite: bool = False) -> list[str]: ...
+    def figures(self) -> dict[str, str]: ...
+    def figure(self, name: str) -> Any: ...
+    def __getattr__(self, name: str) -> Any: ...
+    def __dir__(self) -> list[str]: ...
+    def _repr_html_(self) -> str | None: ...
 
 def load(spec: str | PathLike[str] | None = None, *, text: str | None = None) -> Machine: ...
 def shipped() -> list[str]: ...

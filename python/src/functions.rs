@@ -37,10 +37,10 @@ enum Values<'py> {
 }
 
 /// An argument, and for which configurations it is.
-struct Given<'py> {
+pub(crate) struct Given<'py> {
     values: Values<'py>,
     /// The dimensions before its own; none if it is for every configuration.
-    lead: Vec<usize>,
+    pub(crate) lead: Vec<usize>,
 }
 
 impl Machine {
@@ -116,7 +116,11 @@ impl Machine {
     }
 
     /// The inputs: nominal, but for those that are given by name. All for every configuration, or all for each.
-    fn given_inputs<'py>(&self, inputs: Option<&Bound<'py, PyDict>>, lead: &[usize]) -> PyResult<Given<'py>> {
+    pub(crate) fn given_inputs<'py>(
+        &self,
+        inputs: Option<&Bound<'py, PyDict>>,
+        lead: &[usize],
+    ) -> PyResult<Given<'py>> {
         let description = self.interpreter.description();
         let mut nominal: Vec<f64> = description.inputs.iter().map(|input| input.nominal).collect();
         let mut columns = Vec::new();
@@ -179,7 +183,7 @@ impl Machine {
 }
 
 /// An array whose last dimension is that of an argument.
-fn vec_of<'py>(
+pub(crate) fn vec_of<'py>(
     array: PyReadonlyArrayDyn<'py, f64>,
     name: &str,
     argument: &Array,
@@ -212,7 +216,7 @@ impl Values<'_> {
 }
 
 impl Given<'_> {
-    fn argument(&self) -> PyResult<Argument<'_>> {
+    pub(crate) fn argument(&self) -> PyResult<Argument<'_>> {
         Ok(Argument { values: self.values.slice()?, each: !self.lead.is_empty() })
     }
 }

@@ -1,14 +1,20 @@
 //! The Python package `abbe`: what `abbe-study` and `abbe-interpreter` do, for NumPy arrays.
 //!
-//! `machine` is the class that users hold. `functions` evaluates a function of it: `layout` says where its numbers go,
-//! `arrays` reads what it takes, `batch` runs it over many configurations. `failure` makes exceptions of mistakes.
+//! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `commands` single commands. `functions`
+//! evaluates: `layout` says where numbers go, `arrays` reads what users give, `batch` runs over many configurations. `job` runs a
+//! job beside Python, `report` is what it found; `failure` makes exceptions of mistakes.
 
 mod arrays;
+mod asked;
 mod batch;
+mod commands;
+mod evaluated;
 mod failure;
 mod functions;
+mod job;
 mod layout;
 mod machine;
+mod report;
 
 /// The compiled part of the package `abbe`.
 #[pyo3::pymodule(gil_used = false)]
@@ -16,9 +22,13 @@ mod _abbe {
     use pyo3::prelude::*;
 
     #[pymodule_export]
+    use super::commands::Commands;
+    #[pymodule_export]
     use super::failure::SpecError;
     #[pymodule_export]
     use super::machine::{Machine, load, restore, shipped};
+    #[pymodule_export]
+    use super::report::Report;
 
     #[pymodule_init]
     fn version(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -14,7 +14,6 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
 
 use crate::failure::{guarded, spec_error};
-use crate::functions::Third;
 use crate::layout::Layout;
 
 /// A manipulator: its spec, ready to be evaluated. Nothing changes it; what differs is another one.
@@ -25,6 +24,8 @@ use crate::layout::Layout;
 #[pyclass(frozen, module = "abbe")]
 pub(crate) struct Machine {
     pub(crate) machine: abbe_study::Machine,
+    /// The same without changes.
+    pub(crate) unchanged: abbe_study::Machine,
     pub(crate) interpreter: Interpreter,
     /// The nominal parameters.
     pub(crate) parameters: Vec<f64>,
@@ -45,10 +46,11 @@ type Restored<'a> = (&'a str, Option<&'a str>, Vec<Change>);
 impl Machine {
     fn new(
         py: Python<'_>,
-        mut machine: abbe_study::Machine,
+        unchanged: abbe_study::Machine,
         text: Option<String>,
         changes: Vec<Change>,
     ) -> PyResult<Self> {
+        let mut machine = unchanged.clone();
         for (kind, change) in &changes {
             let changes = changes_of(kind, change, &machine.spec);
             machine.change(&changes.map_err(|mistakes| spec_error(py, &mistakes))?);
@@ -59,6 +61,7 @@ impl Machine {
             parameters: description.parameters.iter().map(|parameter| parameter.nominal).collect(),
             variable_names: PyTuple::new(py, description.variables.iter().map(|one| &*one.name))?.unbind(),
             machine,
+            unchanged,
             interpreter,
             text,
             changes,
@@ -69,11 +72,18 @@ impl Machine {
     /// The same with further changes.
     fn changed(&self, py: Python<'_>, more: impl IntoIterator<Item = Change>) -> PyResult<Self> {
         let changes = self.changes.iter().cloned().chain(more).collect();
-        guarded(|| Self::new(py, self.unchanged(py)?, self.text.clone(), changes))
+        guarded(|| Self::new(py, self.unchanged.clone(), self.text.clone(), changes))
     }
 
-    fn unchanged(&self, py: Python<'_>) -> PyResult<abbe_study::Machine> {
-        found(&self.machine.origin, self.text.as_deref()).map_err(|mistakes| spec_error(py, &mistakes))
+    /// The changes, one by one, as a job takes them.
+    pub(crate) fn changes(&self) -> Result<Vec<Changes>, Diagnostics> {
+        let spec = &self.unchanged.spec;
+        self.changes.iter().map(|(kind, change)| changes_of(kind, change, spec)).collect()
+    }
+
+    /// The text of its spec, as it was before changes.
+    pub(crate) fn text(&self) -> Result<String, Diagnostics> {
+        self.text.clone().map_or_else(|| self.unchanged.text(), Ok)
     }
 
     pub(crate) fn layout(&self, function: Function) -> &Layout {
@@ -212,7 +222,7 @@ impl Machine {
 
     /// The home configuration.
     #[getter]
-    fn home(&self) -> Vec<f64> {
+    pub(crate) fn home(&self) -> Vec<f64> {
         self.interpreter.description().variables.iter().map(|variable| variable.home).collect()
     }
 
@@ -279,168 +289,6 @@ impl Machine {
     #[pyo3(signature = (*sources))]
     fn disable(&self, py: Python<'_>, sources: Vec<String>) -> PyResult<Self> {
         self.changed(py, sources.into_iter().map(|source| ("disable".to_owned(), source)))
-    }
-
-    /// (…, 4, 4): the nominal pose of the tool in F_0. Rows and columns of a homogeneous matrix; column 3 is the tool point.
-    ///
-    /// >>> import abbe
-    /// >>> pps = abbe.load("pps")
-    /// >>> pps.pose(pps.home)[:3, 3]
-    /// array([1128., 1626., 1568.])
-    #[pyo3(signature = (q, *, out=None))]
-    fn pose<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::Pose, q, &Third::None, out)
-    }
-
-    /// (…, n + 1, 4, 4): A_1 … A_n and the tool T, each by itself. A_i takes coordinates in F_i to F_{i-1}, T those of the tool to F_n.
-    #[pyo3(signature = (q, *, out=None))]
-    fn transforms<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::Transforms, q, &Third::None, out)
-    }
-
-    /// (…, 6, 6n): the error Jacobian J_e = ∂X_T/∂ε in F_0.
-    ///
-    /// Rows: x, y, z of the tool point in the length unit, then three of its orientation in rad (`rows`). Columns: e_x e_y e_z
-    /// (length unit) e_s e_r e_p (rad; about Y, Z, X) of frame 1, then of frame 2 … (`columns`). Rows that are Euler angles raise
-    /// ValueError where these are singular.
-    ///
-    /// >>> import abbe
-    /// >>> pps = abbe.load("pps")
-    /// >>> jacobian = pps.error_jacobian(pps.home)
-    /// >>> jacobian.shape, float(jacobian[0, pps.columns.index("e_s1")])
-    /// ((6, 36), 1568.0)
-    #[pyo3(signature = (q, *, out=None))]
-    fn error_jacobian<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::ErrorJacobian, q, &Third::None, out)
-    }
-
-    /// (…, 6, nq): the joint Jacobian J_q = ∂X_T/∂q in F_0.
-    ///
-    /// Rows as those of the error Jacobian. Columns: one for each joint variable, per rad or per length unit.
-    #[pyo3(signature = (q, *, out=None))]
-    fn joint_jacobian<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::JointJacobian, q, &Third::None, out)
-    }
-
-    /// (…, 6, ns): ∂X_T/∂s in F_0.
-    ///
-    /// Rows as those of the error Jacobian. Columns: one for each structural parameter in the order of `parameters`, per its
-    /// coherent unit.
-    #[pyo3(signature = (q, *, out=None))]
-    fn parameter_jacobian<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::ParameterJacobian, q, &Third::None, out)
-    }
-
-    /// (…, 6): ΔX = J_e ε in F_0, for any errors ε.
-    ///
-    /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`. Rows as those of the error Jacobian: what
-    /// the tool is off, real minus ideal.
-    #[pyo3(signature = (q, errors, *, out=None))]
-    fn displacement<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        errors: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::Displacement, q, &Third::Numbers("errors", errors), out)
-    }
-
-    /// (…, 6, 6): the covariance J_e diag(σ²) J_eᵀ of ΔX in F_0, for independent errors.
-    ///
-    /// `sigma`: the standard deviation of every error, (6n,) or (…, 6n), in the order and units of `columns`. Rows and columns
-    /// as the rows of the error Jacobian, in products of their units.
-    #[pyo3(signature = (q, sigma, *, out=None))]
-    fn covariance<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        sigma: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::Covariance, q, &Third::Squares("sigma", sigma), out)
-    }
-
-    /// (…, n, 6): ε of the repeatable sources of the spec: for each frame e_x e_y e_z (length unit) e_s e_r e_p (rad).
-    ///
-    /// `inputs`: those of the spec by name, a number in coherent units, text with a unit, or an array with a value for each
-    /// configuration; nominal if not given. So it is for all functions that take them.
-    #[pyo3(signature = (q, *, out=None, **inputs))]
-    fn generalized_errors<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-        inputs: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::GeneralizedErrors, q, &Third::Inputs(inputs), out)
-    }
-
-    /// (…, 6): ΔX in F_0 that the repeatable sources of the spec cause, to first order: real minus ideal.
-    ///
-    /// Rows as those of the error Jacobian, in the length unit and rad. `inputs` as for `generalized_errors`.
-    #[pyo3(signature = (q, *, out=None, **inputs))]
-    fn predict<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-        inputs: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::PredictedDisplacement, q, &Third::Inputs(inputs), out)
-    }
-
-    /// (…, S, 6): ΔX in F_0 of each source alone (`sources`), of a random one for its magnitude.
-    ///
-    /// Columns as the rows of the error Jacobian, in the length unit and rad. `inputs` as for `generalized_errors`.
-    #[pyo3(signature = (q, *, out=None, **inputs))]
-    fn source_displacements<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-        inputs: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::SourceDisplacements, q, &Third::Inputs(inputs), out)
-    }
-
-    /// (…, 4, 4): the pose of the tool in F_0 with the errors of the repeatable sources, exactly: A_1 E_1 … A_n E_n T.
-    ///
-    /// Rows and columns as those of `pose`. `inputs` as for `generalized_errors`.
-    #[pyo3(signature = (q, *, out=None, **inputs))]
-    fn real_pose<'py>(
-        &self,
-        py: Python<'py>,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-        inputs: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.evaluate(py, Function::RealPose, q, &Third::Inputs(inputs), out)
     }
 
     fn __repr__(&self) -> String {

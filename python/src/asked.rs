@@ -1,0 +1,380 @@
+//! The jobs of a machine, as users ask for them: what the commands of the same names do, without their files.
+#![allow(clippy::too_many_arguments, reason = "keywords of Python")]
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use abbe::identify::{Criterion, Loss};
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::document::Document;
+use abbe_codegen::expr::{Dimension, parse_value};
+use abbe_codegen::spec::Spec;
+use abbe_report::{Provenance, text};
+use abbe_study::analyze::{self, Analyze};
+use abbe_study::check::Check;
+use abbe_study::data::{Data, Map};
+use abbe_study::generate::{Generate, Language};
+use abbe_study::identify::{Family, Identify, Prior, Settings};
+use abbe_study::measure::Measure;
+use abbe_study::monitor::{self, Checks, Monitor};
+use abbe_study::plan::{Choice, Plan, Sets};
+use abbe_study::simulate::{Places, Simulate};
+use abbe_study::{Acceptance, Study};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+
+use crate::failure::{guarded, spec_error};
+use crate::job::run;
+use crate::machine::Machine;
+use crate::report::{Pages, Report};
+
+#[pymethods]
+impl Machine {
+    /// Checks the spec: what it says, its chain at home, what measurements could tell, and J_e against the exact chain.
+    ///
+    /// Fields as those of `abbe check --json`.
+    ///
+    /// >>> import abbe
+    /// >>> all(law.holds for law in abbe.load("scara").check().laws)
+    /// True
+    fn check(&self, py: Python<'_>) -> PyResult<Report> {
+        let job = Check { machine: self.machine.clone() };
+        let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
+        Report::new("check", &report, notes)
+    }
+
+    /// Every error source alone and all together, over a workspace: what leads, where, and whether a tolerance is met.
+    ///
+    /// `study`: a study file; `study_text`: the text of one; if neither is given, the one beside the spec or shipped with it, or
+    /// else samples of the joints. `monte_carlo` draws at the worst configuration and at home. `figures` gathers what the pictures of
+    /// `.report(folder)` and `.figure(name)` show. Lengths in the unit of the spec; fields as those of `abbe analyze --json`.
+    ///
+    /// >>> import abbe
+    /// >>> report = abbe.load("pps").analyze()
+    /// >>> print(f"{report.combined.radius:.3f}")
+    /// 5.480
+    #[pyo3(signature = (study=None, *, study_text=None, monte_carlo=0, seed=None, figures=true, threads=None, progress=None))]
+    fn analyze(
+        &self,
+        py: Python<'_>,
+        study: Option<PathBuf>,
+        study_text: Option<&str>,
+        monte_carlo: usize,
+        seed: Option<u64>,
+        figures: bool,
+        threads: Option<usize>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Report> {
+        let (report, notes) = run(py, threads, progress, |notes| {
+            let machine = self.unchanged.clone();
+            let study = match (study_text, &study) {
+                (Some(text), None) => Study::read(Document::new("study_text", text), &machine.spec)?,
+                (_, file) => Study::find(file.as_deref(), &machine)?,
+            };
+            let mut job = Analyze::new(machine, study);
+            self.changes()?.iter().for_each(|changes| job.change(changes, notes));
+            job.monte_carlo = Some(monte_carlo).filter(|draws| *draws > 0);
+            job.seed = seed;
+            job.figures = figures;
+            job.run(notes)
+        })?;
+        let shown = guarded(|| Ok((text::analysis(&report), budget(&report))))?;
+        let found = Report::new("analyze", &report, notes)?.shown(shown.0, shown.1);
+        Ok(found.with_pages(move || {
+            let files = abbe_report::analysis(&report)?;
+            Ok(files.into_iter().map(|file| (file.name, file.text)).collect())
+        }))
+    }
+
+    /// How good the machine is: what was measured against the ideal machine and against what its sources predict.
+    ///
+    /// `data`: a CSV file; `map`: what its columns are, a file or a shipped name. `new_station`: the instrument stands where no map
+    /// knows. `accept`: limits such as "mean 0.15 mm, max 0.3 mm". Fields as those of `abbe measure --json`.
+    #[pyo3(signature = (data, map, *, new_station=false, accept=None))]
+    fn measure(
+        &self,
+        py: Python<'_>,
+        data: PathBuf,
+        map: PathBuf,
+        new_station: bool,
+        accept: Option<&str>,
+    ) -> PyResult<Report> {
+        let ((job, report), notes) = run(py, None, None, |notes| {
+            let machine = self.machine.clone();
+            let map = Map::find(&map, &machine.spec)?;
+            let map = if new_station { map.newly_stationed() } else { map };
+            let accept = limits(accept, &machine.spec, &map)?;
+            let job = Measure { data: Data::read(&data, &map)?, machine, map, accept };
+            let report = job.run(notes)?;
+            Ok((job, report))
+        })?;
+        Ok(Report::new("measure", &report, notes)?.with_pages(move || {
+            let spec = &job.machine.spec;
+            let provenance = Provenance::new(spec, Some(&job.map), [("measurements", &data)], None)?;
+            let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
+            Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
+        }))
+    }
+
+    /// Which errors the real machine has, from measurements, how well each is known, and how good the result is on unseen rows.
+    ///
+    /// `data`, `test`: CSV files; `map`: what their columns are. `terms`: "auto" for all families of richer terms, or names of some:
+    /// joint, load, elastic, backlash, product, drift. `robust`: "huber" or "tukey". `prior`: how large errors are expected to be, as
+    /// a share of the arm and in rad, or "spec" or "auto". `time`: seconds for richer terms. `.report(folder)` writes found.toml and
+    /// found.map.toml, too. Fields as those of `abbe identify --json`.
+    #[pyo3(signature = (data, map, *, test=None, terms=None, robust=None, prior=None, folds=10, time=None, accept=None, threads=None, progress=None))]
+    fn identify(
+        &self,
+        py: Python<'_>,
+        data: PathBuf,
+        map: PathBuf,
+        test: Option<PathBuf>,
+        terms: Option<&Bound<'_, PyAny>>,
+        robust: Option<&str>,
+        prior: Option<&Bound<'_, PyAny>>,
+        folds: usize,
+        time: Option<f64>,
+        accept: Option<&str>,
+        threads: Option<usize>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Report> {
+        let terms = families(terms)?;
+        let settings = Settings {
+            loss: match robust {
+                None => Loss::Squares,
+                Some("huber") => Loss::Huber,
+                Some("tukey") => Loss::Tukey,
+                Some(other) => {
+                    return Err(PyValueError::new_err(format!(
+                        "robust={other:?}: None, \"huber\" or \"tukey\""
+                    )));
+                }
+            },
+            prior: expected(prior)?,
+            folds: Some(folds)
+                .filter(|folds| (2..=1000).contains(folds))
+                .ok_or_else(|| PyValueError::new_err("`folds`: from 2 to 1000"))?,
+            time: time
+                .map(Duration::try_from_secs_f64)
+                .transpose()
+                .map_err(|error| PyValueError::new_err(format!("`time`: {error}")))?,
+            points: true,
+        };
+        let ((job, report), notes) = run(py, threads, progress, |notes| {
+            let machine = self.machine.clone();
+            let map = Map::find(&map, &machine.spec)?;
+            let test = test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
+            let accept = limits(accept, &machine.spec, &map)?;
+            let data = Data::read(&data, &map)?;
+            let job = Identify { machine, map, data, test, terms, harmonics: Vec::new(), settings, accept };
+            let report = job.run(notes)?;
+            Ok((job, report))
+        })?;
+        // A spec with changes has no room for what was found.
+        let nominal = self.machine.spec.hash == self.unchanged.spec.hash
+            && self.changes().is_ok_and(|changes| changes.is_empty());
+        let text = self.text();
+        Ok(Report::new("identify", &report, notes)?.with_pages(move || {
+            let Identify { machine, map, .. } = &job;
+            let files = [("measurements", &data)].into_iter().chain(test.iter().map(|test| ("test", test)));
+            let provenance = Provenance::new(&machine.spec, Some(map), files, None)?;
+            let page = abbe_report::identification(&machine.spec, map, &report, &provenance);
+            let mut pages: Pages = vec![("report.html".into(), page)];
+            if nominal {
+                let spec = report.found.written(&machine.spec, &text.clone()?, "found.toml")?;
+                let map = report.found.written_map(map, &machine.spec, "found.map.toml")?;
+                pages.extend([("found.toml".into(), spec.text), ("found.map.toml".into(), map)]);
+            }
+            Ok(pages)
+        }))
+    }
+
+    /// Where to measure, and how well the errors of the machine will then be known where it is used.
+    ///
+    /// `map`: what will be measured. `sets`: a plan file; else the `count` configurations that tell most of `candidates` samples, by
+    /// `criterion` "v" or "d"; `seed` draws the samples. `model_error`: a length in the unit of the spec, or text. `.report(folder)` writes plan.csv. Fields as
+    /// those of `abbe plan --json`.
+    #[pyo3(signature = (map, *, sets=None, count=50, criterion="v", candidates=500, model_error=None, study=None, seed=None, progress=None))]
+    fn plan(
+        &self,
+        py: Python<'_>,
+        map: PathBuf,
+        sets: Option<PathBuf>,
+        count: usize,
+        criterion: &str,
+        candidates: usize,
+        model_error: Option<&Bound<'_, PyAny>>,
+        study: Option<PathBuf>,
+        seed: Option<u64>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Report> {
+        let criterion = match criterion {
+            "v" => Criterion::Variance,
+            "d" => Criterion::Determinant,
+            other => return Err(PyValueError::new_err(format!("criterion={other:?}: \"v\" or \"d\""))),
+        };
+        if !(1..=5000).contains(&count) || !(1..=1_000_000).contains(&candidates) {
+            return Err(PyValueError::new_err("`count` is from 1 to 5000, `candidates` from 1 to 1000000"));
+        }
+        let model_error =
+            model_error.map(|value| length("model_error", value, &self.machine.spec)).transpose()?;
+        let ((job, report), notes) = run(py, None, progress, |notes| {
+            let machine = self.machine.clone();
+            let map = Map::find(&map, &machine.spec)?;
+            let choice = match &sets {
+                Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
+                None => Choice::Optimal { criterion, count, candidates },
+            };
+            let study = Study::find(study.as_deref(), &machine)?;
+            let job = Plan { machine, map, choice, study, model_error: model_error.unwrap_or(0.0), seed };
+            let report = job.run(notes)?;
+            Ok((job, report))
+        })?;
+        let found = Report::new("plan", &report, notes)?;
+        Ok(found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())])))
+    }
+
+    /// What an instrument would measure of the machine with the errors of its sources.
+    ///
+    /// `map`: what is measured; `data`: commands in a CSV file, else `samples` random configurations. `noise`: one standard deviation
+    /// of a coordinate, in the length unit or as text; `outliers`: which share of the rows is grossly wrong; `random`: draw the random
+    /// sources, too. `.report(folder)` writes measurements.csv. Fields as those of `abbe simulate --json`.
+    #[pyo3(signature = (map, *, data=None, samples=100, noise=None, outliers=0.0, random=false, seed=0))]
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        map: PathBuf,
+        data: Option<PathBuf>,
+        samples: usize,
+        noise: Option<&Bound<'_, PyAny>>,
+        outliers: f64,
+        random: bool,
+        seed: u64,
+    ) -> PyResult<Report> {
+        if !(0.0..=1.0).contains(&outliers) || !(1..=10_000_000).contains(&samples) {
+            return Err(PyValueError::new_err("`outliers` is from 0 to 1, `samples` from 1 to 10000000"));
+        }
+        let noise = noise.map(|value| length("noise", value, &self.machine.spec)).transpose()?;
+        let (report, notes) = run(py, None, None, |notes| {
+            let machine = self.machine.clone();
+            let map = Map::find(&map, &machine.spec)?;
+            let at = match &data {
+                Some(file) => Places::Rows(Data::read_commanded(file, &map)?),
+                None => Places::Samples(samples),
+            };
+            Simulate { machine, map, at, noise, outliers, random, seed }.run(notes)
+        })?;
+        let found = Report::new("simulate", &report, notes)?;
+        Ok(found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())])))
+    }
+
+    /// Whether the machine is still what it was: charts of a few points that are measured again and again.
+    ///
+    /// `data`: CSV files in the order of their dates. `tolerance`: how far the tool point may move, in the length unit or as text.
+    /// `since`: begin with the check of this date. `false_alarm`: one in so many checks. Fields as those of `abbe monitor --json`.
+    #[pyo3(signature = (data, map, *, tolerance=None, since=None, false_alarm=365))]
+    fn monitor(
+        &self,
+        py: Python<'_>,
+        data: Vec<PathBuf>,
+        map: PathBuf,
+        tolerance: Option<&Bound<'_, PyAny>>,
+        since: Option<&str>,
+        false_alarm: u32,
+    ) -> PyResult<Report> {
+        if !(10..=100_000).contains(&false_alarm) {
+            return Err(PyValueError::new_err("`false_alarm` is from 10 to 100000"));
+        }
+        let tolerance = tolerance.map(|value| length("tolerance", value, &self.machine.spec)).transpose()?;
+        let ((job, report), notes) = run(py, None, None, |notes| {
+            let machine = self.machine.clone();
+            let map = Map::find(&map, &machine.spec)?;
+            let mut checks = Checks::read(&data, &map)?;
+            since.map_or(Ok(()), |date| checks.since("since", date))?;
+            let checks_per_false_alarm = f64::from(false_alarm);
+            let settings = monitor::Settings { checks_per_false_alarm, tolerance, ..Default::default() };
+            let job = Monitor { machine, map, checks, settings };
+            let report = job.run(notes)?;
+            Ok((job, report))
+        })?;
+        Ok(Report::new("monitor", &report, notes)?.with_pages(move || {
+            let files = data.iter().map(|file| ("check", file));
+            let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files, None)?;
+            let page = abbe_report::monitoring(&job.machine.spec, &job.map, &report, &provenance);
+            Ok(vec![("report.html".into(), page)])
+        }))
+    }
+
+    /// The closed form as source code: `language` is "rust" or "js". The same spec gives the same text.
+    #[pyo3(signature = (language="rust"))]
+    fn generate(&self, py: Python<'_>, language: &str) -> PyResult<String> {
+        let known = Language::ALL.into_iter().find(|known| known.name() == language);
+        let language = known
+            .ok_or_else(|| PyValueError::new_err(format!("language={language:?}: \"rust\" or \"js\"")))?;
+        let job = Generate { machine: self.machine.clone(), language };
+        Ok(run(py, None, None, |notes| job.run(notes))?.0)
+    }
+}
+
+/// The ledger and the uncertainty budgets as tables.
+fn budget(report: &analyze::Report) -> String {
+    let ledgers = [Some(analyze::ledger(report)), analyze::turns(report)];
+    let stated = report
+        .stated
+        .iter()
+        .flat_map(|stated| [analyze::contributions(report, stated), analyze::totals(report, stated)]);
+    ledgers.into_iter().flatten().chain(stated).map(|listing| abbe_report::listed(&listing)).collect()
+}
+
+fn limits(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Diagnostics> {
+    text.map_or(Ok(map.accept.clone()), |text| Acceptance::read("accept", text, spec.length))
+}
+
+/// A length that is not negative: a number in the unit of the spec, or text.
+pub(crate) fn length(name: &str, value: &Bound<'_, PyAny>, spec: &Spec) -> PyResult<f64> {
+    let number: f64 = match value.cast::<PyString>() {
+        Ok(text) => {
+            let text = text.to_str()?;
+            let mut document = Document::new(name, text);
+            let number = parse_value(&mut document, 0..text.len(), spec.length, Dimension::LENGTH, "this");
+            document.finish(number).map_err(|mistakes| spec_error(value.py(), &mistakes))?
+        }
+        Err(_) => value.extract()?,
+    };
+    match number.is_finite() && number >= 0.0 {
+        true => Ok(number),
+        false => Err(PyValueError::new_err(format!("`{name}` is a length that is not negative"))),
+    }
+}
+
+fn families(terms: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Family>> {
+    let names: Vec<String> = match terms {
+        None => Vec::new(),
+        Some(one) if one.is_instance_of::<PyString>() => vec![one.extract()?],
+        Some(several) => several.extract()?,
+    };
+    let known = Family::ALL.map(Family::name).join(", ");
+    let found = names.iter().map(|name| match &name[..] {
+        "auto" => Ok(Family::ALL.to_vec()),
+        name => match Family::ALL.into_iter().find(|family| family.name() == name) {
+            Some(family) => Ok(vec![family]),
+            None => Err(PyValueError::new_err(format!("there are no terms `{name}`; terms: auto, {known}"))),
+        },
+    });
+    Ok(found.collect::<PyResult<Vec<_>>>()?.concat())
+}
+
+fn expected(prior: Option<&Bound<'_, PyAny>>) -> PyResult<Prior> {
+    let Some(prior) = prior else { return Ok(Prior::Share(0.01)) };
+    let wrong = || PyTypeError::new_err("`prior` is a share from 0 to 1, \"spec\" or \"auto\"");
+    match prior.extract::<String>().as_deref() {
+        Ok("spec") => Ok(Prior::Spec),
+        Ok("auto") => Ok(Prior::Auto),
+        Ok(_) => Err(wrong()),
+        Err(_) => match prior.extract::<f64>() {
+            Ok(share) if (0.0..=1.0).contains(&share) => Ok(Prior::Share(share)),
+            _ => Err(wrong()),
+        },
+    }
+}

@@ -1,0 +1,140 @@
+//! Joints for a pose, and commands for the real tool.
+
+use abbe::Function;
+use abbe::Pose;
+use abbe::analysis::{Target, inverse};
+use abbe_study::{compensate, mistake};
+use numpy::PyUntypedArrayMethods;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{empty, numbers, room, tuple};
+use crate::asked::length;
+use crate::failure::guarded;
+use crate::functions::vec_of;
+use crate::job::run;
+use crate::machine::Machine;
+
+/// Corrected commands: `q` (…, nq) within the limits, `left` (…, 6) of ΔX in F_0 (length unit, rad), and `reason`: None where
+/// all is compensated to the tolerance, else why not; a list where there are many configurations.
+#[pyclass(frozen, get_all, module = "abbe")]
+pub(crate) struct Commands {
+    /// (…, nq): the commands, within the limits.
+    q: Py<PyAny>,
+    /// (…, 6): ΔX that is left in F_0, in the length unit and rad.
+    left: Py<PyAny>,
+    /// None where all is compensated to the tolerance, else why not; a list where there are many configurations.
+    reason: Py<PyAny>,
+}
+
+#[pymethods]
+impl Machine {
+    /// (nq,): joints within their limits that bring the ideal tool to `target` in F_0, sought from `q0` (home) on.
+    ///
+    /// `target`: a pose (4, 4), or a tool point (3,) in the length unit. ValueError says why none is found.
+    ///
+    /// >>> import abbe
+    /// >>> ur5 = abbe.load("ur5")
+    /// >>> q = ur5.inverse(ur5.pose([0.1, -1, 1, 0.2, 0.3, 0]), ur5.home)
+    /// >>> bool(abs(ur5.pose(q) - ur5.pose([0.1, -1, 1, 0.2, 0.3, 0])).max() < 1e-6)
+    /// True
+    #[pyo3(signature = (target, q0=None))]
+    fn inverse<'py>(
+        &self,
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        q0: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let array = numbers(target, "target", None)?;
+        let values = array.as_slice()?;
+        if !values.iter().all(|value| value.is_finite()) {
+            return Err(PyValueError::new_err("`target` has a number that is not finite"));
+        }
+        let target = match *array.shape() {
+            [4, 4] => Target::Pose(Pose(std::array::from_fn(|j| std::array::from_fn(|i| values[4 * i + j])))),
+            [3] => Target::Point([values[0], values[1], values[2]]),
+            ref shape => {
+                let message =
+                    format!("`target` has shape {}: give a pose (4, 4) or a tool point (3,)", tuple(shape));
+                return Err(PyValueError::new_err(message));
+            }
+        };
+        let start = match q0 {
+            None => self.home(),
+            Some(q0) => {
+                let array = numbers(q0, "q0", Some(self.variable_names.bind(py)))?;
+                if array.shape() != [self.home().len()] {
+                    return Err(PyValueError::new_err(format!("`q0` has shape {}", tuple(array.shape()))));
+                }
+                array.as_slice()?.to_vec()
+            }
+        };
+        let all: Vec<usize> = (0..start.len()).collect();
+        let find = || inverse(&self.interpreter, &self.parameters, &start, &all, &target);
+        let found =
+            guarded(|| Ok(py.detach(find)))?.map_err(|reason| PyValueError::new_err(reason.to_string()))?;
+        filled(py, &[found.len()], &found)
+    }
+
+    /// Commands that bring the real tool to where the ideal one is at `q`: Commands with q, left and reason.
+    ///
+    /// `tolerance` is what may be left at the tool point, in the length unit or as text (1 rad counts as 1 m); `inputs` as for
+    /// `generalized_errors`. Commands beyond the limits raise ValueError. `progress(done, total)` is called now and then.
+    #[pyo3(signature = (q, *, tolerance=None, progress=None, **inputs))]
+    fn compensate<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        tolerance: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
+        inputs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Commands> {
+        let description = abbe::Manipulator::description(&self.interpreter);
+        let tolerance = match tolerance {
+            Some(value) => length("tolerance", value, &self.machine.spec)?,
+            None => 1e-6 / description.length.in_metres(),
+        };
+        let names = self.variable_names.bind(py);
+        let signature = Function::RealPose.signature();
+        let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;
+        let inputs = self.given_inputs(inputs, &given.lead)?;
+        let (lead, nq) = (given.lead.clone(), description.variables.len());
+        let (given, inputs) = (given.argument()?, inputs.argument()?);
+        let (q, nu) = (given.values, description.inputs.len());
+        let count: usize = lead.iter().product();
+        let work = |notes: &mut dyn abbe_study::Notes| {
+            let commands = compensate::Commands::new(&self.interpreter, tolerance)?;
+            let mut found = Vec::new();
+            for i in 0..count {
+                notes.progress(i, count);
+                notes.go_on()?;
+                let u = if inputs.each { &inputs.values[nu * i..][..nu] } else { inputs.values };
+                found.push(commands.correct(&q[nq * i..][..nq], u).map_err(|reason| {
+                    let at = if lead.is_empty() { String::new() } else { format!("configuration {i}: ") };
+                    mistake::whole(&self.machine.origin, at + &reason)
+                })?);
+            }
+            Ok(found)
+        };
+        let (found, _) = run(py, None, progress, work)?;
+        let corrected: Vec<f64> = found.iter().flat_map(|command| command.q.clone()).collect();
+        let left: Vec<f64> = found.iter().flat_map(|command| command.left).collect();
+        let reasons: Vec<Option<String>> = found.into_iter().map(|command| command.reason).collect();
+        let reason = match &reasons[..] {
+            [reason] if lead.is_empty() => reason.into_pyobject(py)?.into_any().unbind(),
+            reasons => reasons.into_pyobject(py)?.into_any().unbind(),
+        };
+        Ok(Commands {
+            q: filled(py, &[&lead[..], &[nq]].concat(), &corrected)?.unbind(),
+            left: filled(py, &[&lead[..], &[6]].concat(), &left)?.unbind(),
+            reason,
+        })
+    }
+}
+
+fn filled<'py>(py: Python<'py>, shape: &[usize], values: &[f64]) -> PyResult<Bound<'py, PyAny>> {
+    let array = empty(py, shape)?;
+    room(&array, shape)?.as_slice_mut()?.copy_from_slice(values);
+    Ok(array)
+}
