@@ -2,6 +2,9 @@
 //!
 //! Every lane goes its own way, by numbers of its own alone: what it finds does not depend on what is in the others.
 
+// Loops, and no closures: those could stay without the instruction set.
+#![allow(clippy::needless_range_loop)]
+
 use core::ops::ControlFlow;
 
 use super::bounds::Bounds;

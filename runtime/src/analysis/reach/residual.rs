@@ -1,6 +1,9 @@
 //! How far the tool of a chain of lower pairs is from its target, how its joints move it, and the step that brings it there:
 //! in lanes.
 
+// Loops, and no closures: those could stay without the instruction set.
+#![allow(clippy::needless_range_loop)]
+
 use super::joint_chain::JointChain;
 use crate::lanes::{Lanes, Mask, Register};
 use crate::{Pose, Scalar, VariableKind};

@@ -28,6 +28,7 @@ pub trait Workspace: Sync {
 
     /// Shows those configurations one after the other, each by its place in the list, as [`fill`](Self::fill) writes it: for
     /// workspaces that make several sooner than one by one. Whoever is shown one may change it.
+    #[allow(clippy::type_complexity)]
     fn fill_each(
         &self,
         indices: &[usize],
