@@ -85,8 +85,6 @@ tolerance = { position = "0.3 mm", orientation = "1 mrad", probability = 0.95 }
 
 [workspace.joints]
 samples = 60
-random = true
-seed = 3
 "#,
     r#"
 [study]
