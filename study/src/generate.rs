@@ -1,7 +1,7 @@
 //! The closed form of a manipulator as source code.
 
 use abbe_codegen::diagnostic::Diagnostics;
-pub use abbe_codegen::print::Language;
+pub use abbe_codegen::print::{Language, SourceFile};
 
 use crate::machine::Machine;
 use crate::notes::Notes;
@@ -16,8 +16,8 @@ pub struct Generate {
 }
 
 impl Generate {
-    /// The text of the file. The same spec gives the same bytes.
-    pub fn run(&self, _: &mut dyn Notes) -> Result<String, Diagnostics> {
-        Ok(self.language.print(&self.machine.spec))
+    /// The files: one, or several that belong together. The same spec gives the same bytes.
+    pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>, Diagnostics> {
+        Ok(self.language.files(&self.machine.spec))
     }
 }

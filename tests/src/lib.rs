@@ -5,6 +5,7 @@
 pub mod abuse;
 pub mod chains;
 pub mod frame_loop;
+pub mod languages;
 pub mod needs;
 
 /// The specs in `specs/`.

@@ -5,46 +5,15 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_inputs, nominal_parameters};
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::Language;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::{coupled_joints, long_chain};
+use abbe_tests::languages::{NAMES, arguments, configurations};
 use abbe_tests::needs::{Missing, run, tool};
 use abbe_tests::specs;
-
-/// Words of JavaScript, and names that its functions use.
-const NAMES: &str = r#"
-[manipulator]
-name = "arguments"
-title = "Comments end here: */ or `not`"
-length = "m"
-[parameters]
-function = "0.3 m"
-Math = 2
-pose = 0.1
-class = "0.2 m"
-[inputs]
-NaN = { value = "2 N", range = ["0 N", "3 N"] }
-[[frame]]
-name = "\"quoted\" \\ and '${more}'"
-variable = { name = "new", kind = "revolute", limits = [-1, 1] }
-transform = "Rz(new - pose) Tx(function)"
-[[frame]]
-name = "second"
-variable = { name = "undefined", kind = "revolute", limits = [-1, 1] }
-transform = "Rx(undefined*Math) Ty(class) Rz(0.4)"
-[tool]
-transform = "Tx(-function^1.5/abs(class)^0.5)"
-[[source]]
-name = "repeatable"
-class = "repeatable"
-frame = "second"
-e_x = "1e-4 m/N*NaN*cos(new)"
-e_r = "-1e-3*atan2(function, class)*sqrt(Math)"
-"#;
 
 fn main() -> ExitCode {
     run([
@@ -84,7 +53,7 @@ fn names_that_mean_something() -> Result<(), Missing> {
 
 /// Equal to Rust in so many configurations.
 fn assert_equal(spec: Spec, count: usize) {
-    let (name, module) = (spec.name.clone(), Language::JavaScript.print(&spec));
+    let (name, module) = (spec.name.clone(), Language::JavaScript.files(&spec).remove(0).text);
     let robot = Interpreter::new(spec);
     let given = configurations(&robot, count);
     let found = called(&module, &given.concat());
@@ -112,50 +81,6 @@ fn assert_equal(spec: Spec, count: usize) {
     }
     assert!(found.is_empty(), "{name}: {} numbers more", found.len());
     println!("{name}: {worst:e} in {count} configurations");
-}
-
-/// q, s, u, errors, variances and magnitudes.
-fn configurations(robot: &Interpreter, count: usize) -> Vec<Vec<f64>> {
-    let description = robot.description();
-    let (s, u) = (nominal_parameters(description), nominal_inputs(description));
-    let arm = arm_length(robot, &s).unwrap();
-    let moved: Vec<usize> = (0..description.variables.len()).collect();
-    let errors = 6 * description.frames.len();
-    let configuration = |index| {
-        let small = (0..2 * errors).map(|k| 1e-3 * halton(index + 1, k % 30));
-        let magnitudes = (0..description.sources.len()).map(|k| 2.0 * halton(index + 1, k % 30) - 1.0);
-        joint_sample(description, arm, &moved, index)
-            .into_iter()
-            .chain(s.clone())
-            .chain(u.clone())
-            .chain(small)
-            .chain(magnitudes)
-            .collect()
-    };
-    (0..count).map(configuration).collect()
-}
-
-/// What a function takes of that.
-fn arguments(robot: &Interpreter, function: Function, given: &[f64]) -> Vec<f64> {
-    let description = robot.description();
-    let errors = 6 * description.frames.len();
-    let sizes = [
-        ("q", description.variables.len()),
-        ("s", description.parameters.len()),
-        ("u", description.inputs.len()),
-        ("errors", errors),
-        ("variances", errors),
-        ("magnitudes", description.sources.len()),
-    ];
-    let mut first = 0;
-    let mut taken = Vec::new();
-    for (name, size) in sizes {
-        if function.signature().arguments.iter().any(|array| array.name == name) {
-            taken.extend(&given[first..first + size]);
-        }
-        first += size;
-    }
-    taken
 }
 
 /// What the functions of a module give, by node.

@@ -56,6 +56,23 @@ impl Writer {
         self.depth += 1;
     }
 
+    /// The beginning of a block on a line of its own.
+    pub(super) fn open_alone(&mut self) {
+        self.lines("{");
+        self.depth += 1;
+    }
+
+    /// `before{ first, second, … }after`, as many as a line holds.
+    pub(super) fn braces(&mut self, before: &str, entries: &[impl AsRef<str>], after: &str) {
+        let inner = entries.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", ");
+        if self.indent() + width(before) + width(&inner) + 6 <= LINE {
+            return self.lines(&format!("{before}{{ {inner} }}{after}"));
+        }
+        let mut lines = format!("{before}{{\n");
+        filled(&mut lines, self.indent(), entries);
+        self.lines(&(lines + "}" + after));
+    }
+
     pub(super) fn close(&mut self, end: &str) {
         self.depth -= 1;
         self.lines(end);

@@ -1,11 +1,14 @@
 //! From routines to source text: formatted, documented, the same bytes every time.
 //!
 //! `statements` says what a routine does, one small `statement` after the other; `body` does so for a program, with
-//! an `expression` of a language's operators where a step needs no name, and `names` for everything. `layout` sets lines, `header` and `text` are what stands in comments. A language
+//! an `expression` of a language's operators where a step needs no name, and `names` for everything. `layout` sets lines,
+//! `flat` has arrays as flat ones, `header` and `text` are what stands in comments. A language
 //! is a folder: how it writes operators, numbers, statements, a function and what is around it.
 
 mod body;
+mod c;
 mod expression;
+mod flat;
 mod header;
 mod javascript;
 mod layout;
@@ -24,34 +27,50 @@ use crate::spec::Spec;
 pub enum Language {
     /// A module for the crate `abbe`.
     Rust,
+    /// A header and a source in C99.
+    C,
     /// An ES module of pure functions.
     JavaScript,
 }
 
+/// A file of generated code.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceFile {
+    /// Its name: that of the manipulator, and an extension.
+    pub name: String,
+    /// What stands in it.
+    pub text: String,
+}
+
 impl Language {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Rust, Self::JavaScript];
+    pub const ALL: [Self; 3] = [Self::Rust, Self::C, Self::JavaScript];
 
-    /// Its name on the command line, and the extension of its files.
+    /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rust => "rust",
+            Self::C => "c",
             Self::JavaScript => "js",
         }
     }
 
-    /// The source of a manipulator's module.
-    pub fn print(self, spec: &Spec) -> String {
+    /// The code of a manipulator: one file, or several that belong together.
+    pub fn files(self, spec: &Spec) -> Vec<SourceFile> {
         let model = Model::new(spec);
         let routines = Routines::new(spec, &model);
+        let one =
+            |extension: &str, text| vec![SourceFile { name: format!("{}.{extension}", spec.name), text }];
         match self {
-            Self::Rust => rust::module(spec, &model, &routines),
-            Self::JavaScript => javascript::module(spec, &routines),
+            Self::Rust => one("rs", rust::module(spec, &model, &routines)),
+            Self::C => c::files(spec, &model, &routines),
+            Self::JavaScript => one("js", javascript::module(spec, &routines)),
         }
     }
 }
 
 /// The source of a manipulator's module, `pub mod name { … }`.
 pub fn rust(spec: &Spec) -> String {
-    Language::Rust.print(spec)
+    let model = Model::new(spec);
+    rust::module(spec, &model, &Routines::new(spec, &model))
 }

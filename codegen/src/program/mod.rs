@@ -14,7 +14,7 @@ mod routines;
 mod straight_line;
 
 pub use count::Operations;
-pub use outputs::straight_line;
+pub use outputs::{results, straight_line};
 pub use routine::{Array, Block, Place, Repeated, Role, Routine, Row, Stage, Sums, Table};
 pub use routines::Routines;
 pub use straight_line::{Action, Operand, Program, Step};

@@ -20,6 +20,12 @@ pub fn straight_line(function: Function, model: &Model) -> Program {
     fewest(ways(function, model), model).1
 }
 
+/// The nodes of each result of a function, and those of the margin, in one of the ways to compute them.
+pub fn results(function: Function, model: &Model) -> (Vec<Vec<Node>>, Option<Node>) {
+    let Outputs { results, margin } = ways(function, model).swap_remove(0);
+    (results, margin)
+}
+
 /// Of several ways to compute a function the outputs and the program with the fewest operations.
 pub(super) fn fewest(ways: Vec<Outputs>, model: &Model) -> (Outputs, Program) {
     let ways = ways.into_iter().map(|outputs| {

@@ -1,8 +1,9 @@
 //! Routines as functions.
 
 use super::operators::{JavaScript, number};
+use crate::print::flat::{Flat, filled};
 use crate::print::header::operations;
-use crate::print::layout::{NARROW, Writer, width};
+use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::program::{Array, Place, Role, Routine, Routines, Row, Stage};
@@ -18,7 +19,7 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     let arguments: Vec<&str> = given.map(|array| array.name).collect();
     let export = if routine.function.is_some() { "export " } else { "" };
     writer.open(&format!("{export}function {}({})", routine.name, arguments.join(", ")));
-    let mut printer = Printer { writer, routines, routine };
+    let mut printer = Printer { writer, flat: Flat { routines, routine } };
     list.iter().for_each(|statement| printer.statement(statement));
     let margin = match list.last() {
         Some(Statement::Return(value)) => Some(value.as_str()),
@@ -69,57 +70,39 @@ fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
 
 struct Printer<'p> {
     writer: &'p mut Writer,
-    routines: &'p Routines,
-    routine: &'p Routine,
+    flat: Flat<'p>,
 }
 
 impl Printer<'_> {
     /// What an array is called: not as a function that is called beside it.
     fn name(&self, array: usize) -> String {
-        let name = self.routine.arrays[array].name;
+        let Flat { routine, .. } = self.flat;
+        let name = routine.arrays[array].name;
         let is_called = |stage: &Stage| matches!(stage, Stage::Call { routine, .. } if *routine == name);
-        format!("{name}{}", if self.routine.stages.iter().any(is_called) { "_" } else { "" })
+        format!("{name}{}", if routine.stages.iter().any(is_called) { "_" } else { "" })
     }
 
     fn len(&self, array: usize) -> usize {
-        self.routine.arrays[array].len(&self.routines.description)
+        self.flat.len(array)
     }
 
     /// The numbers of some rows.
-    fn part(&self, Place { array, row }: Place) -> String {
-        let name = self.name(array);
-        let (all, row_len) =
-            (self.len(array), self.routine.arrays[array].row_len(&self.routines.description));
-        match row {
-            Row::First => format!("{name}.subarray(0, {row_len})"),
-            Row::Last => format!("{name}.subarray({})", all - row_len),
-            Row::AllButFirst => format!("{name}.subarray({row_len})"),
-            Row::All | Row::Each { .. } | Row::Listed { .. } => name,
+    fn part(&self, place: Place) -> String {
+        let name = self.name(place.array);
+        match (place.row, self.flat.range(place)) {
+            (Row::First, [_, end]) => format!("{name}.subarray(0, {end})"),
+            (Row::Last | Row::AllButFirst, [begin, _]) => format!("{name}.subarray({begin})"),
+            _ => name,
         }
     }
 
     /// Number k of row `index` of a place.
-    fn place(&self, Place { array, row }: Place, index: usize, k: usize) -> String {
-        let declared = &self.routine.arrays[array];
-        let len = match row {
-            Row::All => declared.row_len(&self.routines.description),
-            _ => declared.place_len(row, &self.routines.description),
+    fn place(&self, place: Place, index: usize, k: usize) -> String {
+        let listed = |table: &str, column| match column {
+            0 => format!("{table}[2 * i]"),
+            column => format!("{table}[2 * i + {column}]"),
         };
-        let plus = |factor: String, k: usize| if k == 0 { factor } else { format!("{factor} + {k}") };
-        let times = |factor: usize, what: &str| {
-            if factor == 1 { what.to_owned() } else { format!("{factor} * {what}") }
-        };
-        let at = match row {
-            Row::All | Row::First => (len * index + k).to_string(),
-            Row::AllButFirst => (declared.row_len(&self.routines.description) + k).to_string(),
-            Row::Last => (self.len(array) - len + k).to_string(),
-            Row::Each { stride, offset } => plus(times(stride * len, "i"), offset * len + k),
-            Row::Listed { table, column } => {
-                let entry = format!("{}[{}]", self.routines.tables[table].name, plus("2 * i".into(), column));
-                plus(times(len, &entry), k)
-            }
-        };
-        format!("{}[{at}]", self.name(array))
+        format!("{}[{}]", self.name(place.array), self.flat.index(place, index, k, listed))
     }
 
     fn statement(&mut self, statement: &Statement) {
@@ -128,7 +111,7 @@ impl Printer<'_> {
                 let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
                 let entry = |(k, name): (usize, &String)| format!("{name} = {}", self.place(*from, 0, k));
                 let entries: Vec<String> = named.map(entry).collect();
-                self.filled("const ", &entries, ", ");
+                filled(self.writer, "const ", &entries, ", ");
             }
             Statement::Comment(text) => self.writer.comment(text),
             Statement::Let { name, value } => self.writer.lines(&format!("const {name} = {value};")),
@@ -156,17 +139,17 @@ impl Printer<'_> {
             }
             Statement::Assign { to, index, values, fresh: false } => {
                 // A result begins as zeros.
-                let is_result = self.routine.arrays[to.array].role == Role::Result;
+                let is_result = self.flat.routine.arrays[to.array].role == Role::Result;
                 let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
                 let entry = |(k, value): (usize, &crate::print::expression::Value)| {
                     format!("{} = {}", self.place(*to, *index, k), value.text)
                 };
                 let entries: Vec<String> = values.map(entry).collect();
-                self.filled("", &entries, "; ");
+                filled(self.writer, "", &entries, "; ");
             }
             Statement::Call { routine, arrays, .. } => self.call(routine, arrays),
             Statement::Sums { sums, terms, entries } => {
-                let name = self.routines.sums[*sums].name;
+                let name = self.flat.routines.sums[*sums].name;
                 let [terms, entries] = [terms, entries].map(|array| self.name(*array));
                 self.writer.lines(&format!("{entries}.set({name}_CONSTANTS);"));
                 self.writer.open(&format!("for (let k = 0; k < {name}_FACTORS.length; k += 3)"));
@@ -175,7 +158,7 @@ impl Printer<'_> {
                 self.writer.close("}");
             }
             Statement::For { repeated, body } => {
-                let count = repeated.count.value(&self.routines.description);
+                let count = repeated.count.value(&self.flat.routines.description);
                 let head = match repeated.backwards {
                     false => format!("for (let i = 0; i < {count}; i++)"),
                     true => format!("for (let i = {}; i >= 0; i--)", number(count as f64 - 1.0)),
@@ -189,26 +172,8 @@ impl Printer<'_> {
         }
     }
 
-    /// Entries one after the other, as many as a line holds.
-    fn filled(&mut self, before: &str, entries: &[String], between: &str) {
-        let mut line = String::new();
-        for entry in entries {
-            if !line.is_empty() && width(&line) + width(entry) > NARROW + 20 {
-                self.writer.lines(&format!("{before}{line};"));
-                line.clear();
-            }
-            if !line.is_empty() {
-                line.push_str(between);
-            }
-            line.push_str(entry);
-        }
-        if !line.is_empty() {
-            self.writer.lines(&format!("{before}{line};"));
-        }
-    }
-
     fn call(&mut self, routine: &str, arrays: &[usize]) {
-        let callee = self.routines.named(routine);
+        let callee = self.flat.routines.named(routine);
         let is_given = |(_, array): &(&usize, &Array)| array.role == Role::Argument;
         let (given, filled): (Vec<_>, Vec<_>) = arrays.iter().zip(&callee.arrays).partition(is_given);
         let given: Vec<String> = given.into_iter().map(|(array, _)| self.name(*array)).collect();
@@ -227,7 +192,7 @@ impl Printer<'_> {
 
     /// What is returned: the only result, or all by their names.
     fn results(&mut self, margin: Option<&str>) {
-        let arrays = self.routine.arrays.iter().enumerate();
+        let arrays = self.flat.routine.arrays.iter().enumerate();
         let results = arrays.filter(|(_, array)| array.role == Role::Result).map(|(index, array)| {
             let value =
                 if self.len(index) == 0 { "new Float64Array(0)".to_owned() } else { self.name(index) };

@@ -1,0 +1,301 @@
+//! Routines as functions.
+
+use super::operators::{C, number};
+use crate::print::expression::Value;
+use crate::print::flat::{Flat, filled};
+use crate::print::header::operations;
+use crate::print::layout::Writer;
+use crate::print::statement::Statement;
+use crate::print::statements::Statements;
+use crate::print::text::harmless;
+use crate::program::{Place, Role, Routine, Routines, Row};
+use crate::spec::Spec;
+
+/// The head of a function without its end: `int pps_pose(const double *restrict q, …)`.
+pub(super) fn head(prefix: &str, routine: &Routine, restrict: &str) -> String {
+    let outside = routine.arrays.iter().filter_map(|array| match array.role {
+        Role::Argument => Some(format!("const double *{restrict} {}", array.name)),
+        Role::Result => Some(format!("double *{restrict} {}", array.name)),
+        Role::Margin | Role::Zeros => None,
+    });
+    let arguments = outside.collect::<Vec<_>>().join(", ");
+    match routine.function {
+        Some(_) => format!("int {prefix}_{}({arguments})", routine.name),
+        None => format!("static void {prefix}_{}({arguments})", routine.name),
+    }
+}
+
+/// What stands above its declaration.
+pub(super) fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
+    let Some(function) = routine.function else { return };
+    let signature = function.signature();
+    let upper = routines.description.name.to_ascii_uppercase();
+    writer.lines("/**");
+    writer.documentation(routine.documentation);
+    writer.documentation_line("");
+    for (array, way) in signature
+        .arguments
+        .iter()
+        .map(|array| (array, "in"))
+        .chain(signature.results.iter().map(|array| (array, "out")))
+    {
+        let shape = array.shape.iter().map(|count| count.value(&routines.description).to_string());
+        writer.documentation(&format!(
+            "@param[{way}] {} {} Numbers: {}; {}.",
+            array.name,
+            array.documentation,
+            shape.collect::<Vec<_>>().join(" x "),
+            array.unit
+        ));
+    }
+    let takes_inputs = signature.arguments.iter().any(|array| array.name == "u");
+    let has_margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
+    let mut codes = vec![format!("`{upper}_OK`, `{upper}_NOT_FINITE`")];
+    codes.extend(has_margin.then(|| format!("`{upper}_SINGULAR`")));
+    codes.extend(takes_inputs.then(|| format!("`{upper}_OUT_OF_RANGE`")));
+    writer.documentation(&format!("@return {}.", codes.join(", ")));
+    writer.documentation_line("");
+    writer.documentation(&format!("{}.", operations(routine)));
+    writer.lines(" */");
+}
+
+/// One function.
+pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
+    let Statements { list, used, .. } =
+        Statements::new(spec, &routines.description, routine, &C(&spec.tables));
+    let prefix = &routines.description.name;
+    writer.blank();
+    if routine.function.is_none() {
+        comment(writer, routine.documentation);
+    }
+    writer.lines(&head(prefix, routine, "restrict"));
+    writer.open_alone();
+    let mut printer = Printer { writer, flat: Flat { routines, routine }, prefix };
+    printer.begin(&used, !list.is_empty());
+    list.iter().for_each(|statement| printer.statement(statement));
+    let margin = list.iter().find_map(|statement| match statement {
+        // Of another function's margin its status has told.
+        Statement::Return(value) if value != "margin" => Some(value.as_str()),
+        _ => None,
+    });
+    printer.end(margin);
+    writer.close("}");
+}
+
+/// A comment of one line or more.
+pub(super) fn comment(writer: &mut Writer, text: &str) {
+    writer.lines("/*");
+    writer.documentation(text);
+    writer.lines(" */");
+}
+
+struct Printer<'p> {
+    writer: &'p mut Writer,
+    flat: Flat<'p>,
+    prefix: &'p str,
+}
+
+impl Printer<'_> {
+    fn place(&self, place: Place, index: usize, k: usize) -> String {
+        let listed = |table: &str, column| format!("{table}[i][{column}]");
+        format!("{}[{}]", self.name(place.array), self.flat.index(place, index, k, listed))
+    }
+
+    fn name(&self, array: usize) -> &'static str {
+        self.flat.routine.arrays[array].name
+    }
+
+    fn upper(&self) -> String {
+        self.prefix.to_ascii_uppercase()
+    }
+
+    /// What is not used says so; inputs must be within their ranges.
+    fn begin(&mut self, used: &[bool], some: bool) {
+        let outside = self.flat.routine.arrays.iter().enumerate();
+        let outside = outside.filter(|(_, array)| matches!(array.role, Role::Argument | Role::Result));
+        for (index, array) in outside {
+            let is_checked =
+                self.flat.routine.function.is_some() && (array.name == "u" || array.role == Role::Result);
+            if self.flat.len(index) == 0 || !(used[index] && some || is_checked) {
+                self.writer.lines(&format!("(void){};", array.name));
+            }
+        }
+        let takes_inputs =
+            |(index, array): (usize, &crate::program::Array)| array.name == "u" && self.flat.len(index) > 0;
+        if self.flat.routine.function.is_some()
+            && self.flat.routine.arrays.iter().enumerate().any(takes_inputs)
+        {
+            let upper = self.upper();
+            self.writer.open("if (inputs_are_in_range(u) == 0)");
+            self.writer.lines(&format!("return {upper}_OUT_OF_RANGE;"));
+            self.writer.close("}");
+        }
+    }
+
+    /// Whether the results are there.
+    fn end(&mut self, margin: Option<&str>) {
+        let Flat { routine, .. } = self.flat;
+        if routine.function.is_none() {
+            return;
+        }
+        let upper = self.upper();
+        if let Some(margin) = margin {
+            self.writer.lines(&format!("const double margin = {margin};"));
+            self.writer.open(&format!("if (!(margin >= {}))", number(abbe::MINIMUM_MARGIN)));
+            self.writer.lines(&format!("return isnan(margin) ? {upper}_NOT_FINITE : {upper}_SINGULAR;"));
+            self.writer.close("}");
+        }
+        let results: Vec<String> = (0..routine.arrays.len())
+            .filter(|array| routine.arrays[*array].role == Role::Result && self.flat.len(*array) > 0)
+            .map(|array| format!("is_finite({}, {}) != 0", self.name(array), self.flat.len(array)))
+            .collect();
+        match &results[..] {
+            [] => self.writer.lines(&format!("return {upper}_OK;")),
+            results => {
+                let all = results.join(" && ");
+                self.writer.lines(&format!("return ({all}) ? {upper}_OK : {upper}_NOT_FINITE;"));
+            }
+        }
+    }
+
+    /// Zeros for an array.
+    fn clear(&mut self, array: usize) {
+        self.writer.open(&format!("for (int k = 0; k < {}; k++)", self.flat.len(array)));
+        self.writer.lines(&format!("{}[k] = 0.0;", self.name(array)));
+        self.writer.close("}");
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Unpack { names, from } => {
+                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
+                for (k, name) in named {
+                    self.writer.lines(&format!("const double {name} = {};", self.place(*from, 0, k)));
+                }
+            }
+            Statement::Comment(text) => {
+                self.writer.lines(&format!("/* {} */", harmless(text)));
+            }
+            Statement::Let { name, value } => self.writer.lines(&format!("const double {name} = {value};")),
+            Statement::SinCos(pairs) => {
+                for ([sine, cosine], angle) in pairs {
+                    self.writer.lines(&format!("double {sine};"));
+                    self.writer.lines(&format!("double {cosine};"));
+                    self.writer.lines(&format!("sin_cos({}, &{sine}, &{cosine});", angle.text));
+                }
+            }
+            Statement::Declare(array) => self.declare(*array),
+            // What is cleared has only begun.
+            Statement::Clear(_) => {}
+            Statement::Copy { from, to } => {
+                let [first, _] = self.flat.range(*from);
+                let (from, to, len) = (self.name(from.array), self.name(*to), self.flat.len(*to));
+                let at = if first == 0 { "k".to_owned() } else { format!("{first} + k") };
+                self.writer.open(&format!("for (int k = 0; k < {len}; k++)"));
+                self.writer.lines(&format!("{to}[k] = {from}[{at}];"));
+                self.writer.close("}");
+            }
+            Statement::Assign { to, values, fresh: true, .. } => {
+                let values: Vec<&str> = values.iter().map(|value| value.text.as_str()).collect();
+                let name = self.name(to.array);
+                self.writer.braces(&format!("double {name}[{}] = ", values.len()), &values, ";");
+            }
+            Statement::Assign { to, index, values, fresh: false } => {
+                // What was declared began as zeros.
+                let is_result = self.flat.routine.arrays[to.array].role == Role::Result;
+                let values = values.iter().enumerate().filter(|(_, value)| !(is_result && value.is_zero));
+                let entry =
+                    |(k, value): (usize, &Value)| format!("{} = {}", self.place(*to, *index, k), value.text);
+                let entries: Vec<String> = values.map(entry).collect();
+                filled(self.writer, "", &entries, "; ");
+            }
+            Statement::Call { routine, arrays, fresh } => self.call(routine, arrays, fresh),
+            Statement::Sums { sums, terms, entries } => {
+                let sums = &self.flat.routines.sums[*sums];
+                let [terms, entries] = [terms, entries].map(|array| self.name(*array));
+                let (name, constants, factors) = (sums.name, sums.constants.len(), sums.factors.len());
+                if constants > 0 {
+                    self.writer.open(&format!("for (int k = 0; k < {constants}; k++)"));
+                    self.writer.lines(&format!("{entries}[k] = {name}_CONSTANTS[k];"));
+                    self.writer.close("}");
+                }
+                if factors > 0 {
+                    self.writer.open(&format!("for (int k = 0; k < {factors}; k++)"));
+                    let factor = format!("{name}_FACTORS[k] * {terms}[{name}_TERMS[k][1]]");
+                    self.writer.lines(&format!("{entries}[{name}_TERMS[k][0]] += {factor};"));
+                    self.writer.close("}");
+                }
+            }
+            Statement::For { repeated, body } => {
+                let count = repeated.count.value(&self.flat.routines.description);
+                let head = match repeated.backwards {
+                    false => format!("for (int i = 0; i < {count}; i++)"),
+                    true => format!("for (int i = {}; i >= 0; i--)", count as i64 - 1),
+                };
+                self.writer.open(&head);
+                body.iter().for_each(|statement| self.statement(statement));
+                self.writer.close("}");
+            }
+            // With the results; columns go to arrays.
+            Statement::Return(_) | Statement::Column { .. } => {}
+        }
+    }
+
+    /// An array of its own begins, a result is cleared.
+    fn declare(&mut self, array: usize) {
+        match self.flat.routine.arrays[array].role {
+            Role::Zeros => {
+                let (name, len) = (self.name(array), self.flat.len(array));
+                self.writer.lines(&format!("double {name}[{len}] = {{ 0.0 }};"));
+            }
+            _ if self.has_zeros(array) => self.clear(array),
+            _ => {}
+        }
+    }
+
+    /// Whether a result has entries that are not written.
+    fn has_zeros(&self, array: usize) -> bool {
+        use crate::program::{Block, Operand, Stage};
+        let Flat { routine, routines } = self.flat;
+        let zeros = |block: &Block| {
+            let mut outputs = block.program.outputs.iter();
+            block.writes.iter().any(|place| {
+                let len = routine.arrays[place.array].place_len(place.row, &routines.description);
+                let is_zero = |output: &Operand| *output == Operand::Constant(0.0);
+                let some = outputs.by_ref().take(len).fold(false, |some, output| some | is_zero(output));
+                some && place.array == array
+            })
+        };
+        let whole = |block: &Block| {
+            block.writes.iter().any(|place| place.array == array && place.row == Row::All) && !zeros(block)
+        };
+        !routine.stages.iter().any(|stage| match stage {
+            Stage::Block(block) => whole(block),
+            Stage::Sums { entries, .. } => *entries == array,
+            Stage::Copy { to, .. } => *to == array,
+            _ => false,
+        })
+    }
+
+    fn call(&mut self, routine: &str, arrays: &[usize], fresh: &[usize]) {
+        let callee = self.flat.routines.named(routine);
+        for array in fresh.iter().filter(|array| self.flat.routine.arrays[**array].role == Role::Zeros) {
+            let (name, len) = (self.name(*array), self.flat.len(*array));
+            self.writer.lines(&format!("double {name}[{len}] = {{ 0.0 }};"));
+        }
+        let given = arrays.iter().zip(&callee.arrays).filter(|(_, array)| array.role != Role::Margin);
+        let given: Vec<String> = given.map(|(array, _)| self.name(*array).to_owned()).collect();
+        let given = given.join(", ");
+        if callee.function.is_none() {
+            self.writer.lines(&format!("{}_{routine}({given});", self.prefix));
+            return;
+        }
+        let ok = format!("{}_OK", self.upper());
+        self.writer.open_alone();
+        self.writer.lines(&format!("const int status = {}_{routine}({given});", self.prefix));
+        self.writer.open(&format!("if (status != {ok})"));
+        self.writer.lines("return status;");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+}

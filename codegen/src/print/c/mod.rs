@@ -1,0 +1,281 @@
+//! C99: a header and a source of pure functions on flat arrays, with nothing but `math.h`.
+//!
+//! `functions` prints routines, `operators` what expressions are made of, `support` the sine and what else is used,
+//! `compensated` the corrected commands, `self_test` numbers to hold a target against.
+
+mod compensated;
+mod functions;
+mod operators;
+mod self_test;
+mod support;
+
+use self::functions::{comment, documentation, function, head};
+use self::operators::number;
+use self::support::{IS_FINITE, Support};
+use super::SourceFile;
+use super::header::header;
+use super::layout::Writer;
+use crate::chain::Model;
+use crate::expr::Table;
+use crate::program::{Routines, Sums};
+use crate::spec::Spec;
+
+/// The header and the source of a manipulator.
+pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines) -> Vec<SourceFile> {
+    let name = &spec.name;
+    vec![
+        SourceFile { name: format!("{name}.h"), text: declarations(spec, routines) },
+        SourceFile { name: format!("{name}.c"), text: definitions(spec, model, routines) },
+    ]
+}
+
+/// The header.
+fn declarations(spec: &Spec, routines: &Routines) -> String {
+    let upper = spec.name.to_ascii_uppercase();
+    let mut writer = Writer::new(" *");
+    writer.lines("/**");
+    header(&mut writer, spec, routines);
+    writer.documentation_line("");
+    writer.documentation(
+        "Arrays are flat, in the order of the Rust code: a Jacobian is column after column, six numbers each. No \
+         function allocates, keeps anything or reads anything else; arrays that are filled must not overlap others. \
+         Every function returns 0 if its results can be used.",
+    );
+    writer.lines(" */");
+    writer.lines(&format!("#ifndef {upper}_H\n#define {upper}_H\n\n{BEGIN}"));
+    writer.blank();
+    writer.lines("/** The version of the generator, and the first digits of the spec's SHA-256. */");
+    writer.lines(&format!("#define {upper}_GENERATOR \"{}\"", env!("CARGO_PKG_VERSION")));
+    writer.lines(&format!("#define {upper}_SPEC \"{}\"", &spec.hash[..16]));
+    writer.blank();
+    enumeration(
+        &mut writer,
+        "What functions return.",
+        &[
+            (format!("{upper}_OK = 0"), "The results can be used."),
+            (format!("{upper}_NOT_FINITE = 1"), "A result is not finite."),
+            (format!("{upper}_SINGULAR = 2"), "Rows 4 to 6 are Euler angles, which do not exist here."),
+            (format!("{upper}_OUT_OF_RANGE = 3"), "An input is outside its range."),
+            (
+                format!("{upper}_NOT_CONVERGED = 4"),
+                "More steps were needed: the commands are the best so far.",
+            ),
+        ],
+    );
+    counts(&mut writer, &upper, routines);
+    indices(&mut writer, &upper, routines);
+    values(&mut writer, spec, "extern ", false);
+    for routine in routines.list.iter().filter(|routine| routine.function.is_some()) {
+        writer.blank();
+        documentation(&mut writer, routines, routine);
+        writer.lines(&format!("{};", head(&spec.name, routine, "ABBE_RESTRICT")));
+    }
+    compensated::declaration(&mut writer, spec);
+    self_test::declaration(&mut writer, spec);
+    writer.lines(END);
+    writer.finish()
+}
+
+/// The source.
+fn definitions(spec: &Spec, model: &Model, routines: &Routines) -> String {
+    let mut writer = Writer::new(" *");
+    comment(&mut writer, &format!("The functions that {}.h declares and describes. Do not edit.", spec.name));
+    writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>", spec.name));
+    values(&mut writer, spec, "", true);
+    for table in &routines.tables {
+        writer.blank();
+        comment(&mut writer, table.documentation);
+        let rows: Vec<String> =
+            table.rows.iter().map(|[first, second]| format!("{{ {first}, {second} }}")).collect();
+        writer.braces(&format!("static const int {}[{}][2] = ", table.name, rows.len()), &rows, ";");
+    }
+    routines.sums.iter().for_each(|sums| sums_of_terms(&mut writer, sums));
+    writer.blank();
+    writer.lines(IS_FINITE.trim_end());
+    for support in Support::used(routines) {
+        writer.blank();
+        writer.lines(support.text().trim_end());
+    }
+    spec.tables.iter().for_each(|table| lookup_table(&mut writer, table));
+    ranges(&mut writer, spec);
+    let (functions, helpers): (Vec<_>, Vec<_>) =
+        routines.list.iter().partition(|routine| routine.function.is_some());
+    for routine in helpers.into_iter().chain(functions) {
+        function(&mut writer, spec, routines, routine);
+    }
+    compensated::definition(&mut writer, spec);
+    self_test::definition(&mut writer, spec, model);
+    writer.finish()
+}
+
+const BEGIN: &str = "\
+#ifdef __cplusplus
+#define ABBE_RESTRICT
+extern \"C\" {
+#else
+#define ABBE_RESTRICT restrict
+#endif
+";
+
+const END: &str = "
+#undef ABBE_RESTRICT
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+";
+
+fn enumeration(writer: &mut Writer, documentation: &str, entries: &[(String, &str)]) {
+    writer.lines(&format!("/** {documentation} */"));
+    writer.open("enum");
+    for (k, (entry, documentation)) in entries.iter().enumerate() {
+        if !documentation.is_empty() {
+            writer.lines(&format!("/** {documentation} */"));
+        }
+        writer.lines(&format!("{entry}{}", if k + 1 < entries.len() { "," } else { "" }));
+    }
+    writer.close("};");
+}
+
+/// What is summed. There are no empty arrays in C.
+fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums) {
+    if !constants.is_empty() {
+        writer.blank();
+        comment(writer, "What is constant in each entry.");
+        numbers(writer, &format!("static const double {name}_CONSTANTS"), constants);
+    }
+    if !factors.is_empty() {
+        writer.blank();
+        comment(writer, "Entry and term, and the factor with which the term is added.");
+        let rows: Vec<String> =
+            factors.iter().map(|(entry, term, _)| format!("{{ {entry}, {term} }}")).collect();
+        writer.braces(&format!("static const int {name}_TERMS[{}][2] = ", rows.len()), &rows, ";");
+        let factors: Vec<f64> = factors.iter().map(|(.., factor)| *factor).collect();
+        numbers(writer, &format!("static const double {name}_FACTORS"), &factors);
+    }
+}
+
+/// How many of everything there are.
+fn counts(writer: &mut Writer, upper: &str, routines: &Routines) {
+    use abbe::function::Count;
+    let entries = [
+        ("FRAMES", Count::Frames, "Frames."),
+        ("ERRORS", Count::Errors, "Generalized errors: six a frame."),
+        ("VARIABLES", Count::Variables, "Numbers in `q`."),
+        ("PARAMETERS", Count::Parameters, "Numbers in `s`."),
+        ("INPUTS", Count::Inputs, "Numbers in `u`."),
+        ("SOURCES", Count::Sources, "Sources of errors."),
+        ("EFFECTS", Count::Effects, "Errors that the sources cause."),
+    ];
+    let entry = |(name, count, documentation): (&str, Count, &'static str)| {
+        (format!("{upper}_{name} = {}", count.value(&routines.description)), documentation)
+    };
+    writer.blank();
+    enumeration(writer, "How many of everything there are.", &entries.map(entry));
+}
+
+/// Where what stands in `q`, `s` and `u`, by its name.
+fn indices(writer: &mut Writer, upper: &str, routines: &Routines) {
+    let description = &routines.description;
+    let lists: [(&str, Vec<&str>); 3] = [
+        ("q", description.variables.iter().map(|variable| &*variable.name).collect()),
+        ("s", description.parameters.iter().map(|parameter| &*parameter.name).collect()),
+        ("u", description.inputs.iter().map(|input| &*input.name).collect()),
+    ];
+    for (array, names) in lists.into_iter().filter(|(_, names)| !names.is_empty()) {
+        let entry =
+            |(k, name): (usize, &&str)| (format!("{upper}_{}_{name} = {k}", array.to_ascii_uppercase()), "");
+        let entries: Vec<(String, &str)> = names.iter().enumerate().map(entry).collect();
+        writer.blank();
+        enumeration(writer, &format!("What stands where in `{array}`."), &entries);
+    }
+}
+
+/// Limits, homes, nominal values and ranges; declared, or with their numbers.
+fn values(writer: &mut Writer, spec: &Spec, before: &str, with_numbers: bool) {
+    let mut one = |what: &str, name: &str, pairs: bool, values: Vec<f64>| {
+        if values.is_empty() {
+            return;
+        }
+        let count = if pairs { values.len() / 2 } else { values.len() };
+        let size = if pairs { format!("[{count}][2]") } else { format!("[{count}]") };
+        let head = format!("{before}const double {}_{name}{size}", spec.name);
+        writer.blank();
+        if !with_numbers {
+            writer.lines(&format!("/** {what} */"));
+            return writer.lines(&format!("{head};"));
+        }
+        let entries: Vec<String> = match pairs {
+            false => values.iter().map(|value| number(*value)).collect(),
+            true => values
+                .chunks(2)
+                .map(|pair| format!("{{ {}, {} }}", number(pair[0]), number(pair[1])))
+                .collect(),
+        };
+        writer.braces(&format!("{head} = "), &entries, ";");
+    };
+    let limits = spec.variables.iter().flat_map(|variable| variable.limits).collect();
+    one("Lower and upper limits of the variables.", "limits", true, limits);
+    one("Where the variables are at home.", "home", false, spec.variables.iter().map(|v| v.home).collect());
+    let nominal = spec.parameters.iter().map(|parameter| parameter.value).collect();
+    one("The parameters as the drawing has them: `s`.", "parameters", false, nominal);
+    one(
+        "The inputs as they are mostly: `u`.",
+        "inputs",
+        false,
+        spec.inputs.iter().map(|i| i.value).collect(),
+    );
+    let ranges = spec.inputs.iter().flat_map(|input| input.range).collect();
+    one("Lower and upper ends of the inputs.", "ranges", true, ranges);
+}
+
+fn numbers(writer: &mut Writer, head: &str, values: &[f64]) {
+    let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
+    writer.braces(&format!("{head}[{}] = ", values.len()), &entries, ";");
+}
+
+/// Whether inputs are where they may be.
+fn ranges(writer: &mut Writer, spec: &Spec) {
+    let count = spec.inputs.len();
+    if count == 0 {
+        return;
+    }
+    writer.blank();
+    writer.lines("/* 1 if every input is within its range, else 0. */");
+    writer.lines("static int inputs_are_in_range(const double *u)");
+    writer.open_alone();
+    writer.lines("int inside = 1;");
+    writer.open(&format!("for (int k = 0; k < {count}; k++)"));
+    let name = &spec.name;
+    writer
+        .lines(&format!("const int is_inside = u[k] >= {name}_ranges[k][0] && u[k] <= {name}_ranges[k][1];"));
+    writer.lines("inside = (inside != 0 && is_inside != 0) ? 1 : 0;");
+    writer.close("}");
+    writer.lines("return inside;");
+    writer.close("}");
+}
+
+/// A function given by points.
+fn lookup_table(writer: &mut Writer, table: &Table) {
+    let (name, lookup) = (table.constant_name(), table.lookup());
+    let even = lookup.starts.is_empty();
+    writer.blank();
+    comment(writer, &table.documentation());
+    if !even {
+        let starts: Vec<String> = lookup.starts.iter().map(u32::to_string).collect();
+        writer.braces(&format!("static const int {name}_STARTS[{}] = ", starts.len()), &starts, ";");
+        numbers(writer, &format!("static const double {name}_KNOTS"), lookup.knots);
+    }
+    let row = |piece: &[f64; 4]| format!("{{ {} }}", piece.map(number).join(", "));
+    let rows: Vec<String> = lookup.pieces.iter().map(row).collect();
+    writer.braces(&format!("static const double {name}_PIECES[{}][4] = ", rows.len()), &rows, ";");
+    let buckets = if even { lookup.pieces.len() } else { lookup.starts.len() } - 2;
+    let or_null = |what: &str| if even { "0".to_owned() } else { format!("{name}_{what}") };
+    writer.open(&format!("static const lookup_table {name} ="));
+    writer.lines(&format!("{}, {},", number(lookup.first), number(lookup.scale)));
+    writer.lines(&format!("{buckets}, {},", lookup.steps));
+    writer.lines(&format!("{}, {}, {},", or_null("STARTS"), or_null("KNOTS"), lookup.knots.len()));
+    writer.lines(&format!("{name}_PIECES"));
+    writer.close("};");
+}

@@ -1,0 +1,81 @@
+//! Operators and numbers of C99.
+
+use std::sync::Arc;
+
+use crate::expr::{Function, Lookup, Table};
+use crate::print::expression::{Binding, Expression, Syntax, infix};
+use crate::program::Action;
+
+/// With the spec's tables, which are constants.
+pub(super) struct C<'s>(pub(super) &'s [Arc<Table>]);
+
+impl Syntax for C<'_> {
+    /// The words of C and C++, what `math.h` has, and what the functions use.
+    fn reserved(&self) -> &'static str {
+        "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imaginary abs acos acosh alignas alignof and and_eq asin \
+         asinh asm atan atan2 atanh auto bitand bitor bool break case catch cbrt ceil char class compl concept const \
+         const_cast constexpr continue copysign cos cosh cosine decltype default delete do double dynamic_cast else enum \
+         erf erfc exp exp2 explicit export expm1 extern fabs false fdim float floor fma fmax fmin fmod for friend frexp \
+         goto greater hypot i if ilogb inline int is_finite isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
+         llround log log10 log1p log2 logb long look_up lrint lround margin modf mutable namespace nan nearbyint new \
+         nextafter nexttoward noexcept not not_eq nullptr operator or or_eq pow private protected public real register \
+         reinterpret_cast remainder remquo requires restrict return rint round scalbln scalbn short side sign signbit sine cosine \
+         signed sin sin_cos sinh sizeof sqrt static static_assert static_cast status struct switch tan tanh template \
+         tgamma this thread_local throw true trunc try typedef typeid typename union unsigned using virtual void \
+         volatile wchar_t while xor xor_eq y0 y1 yn"
+    }
+
+    fn number(&self, value: f64) -> Expression {
+        let binding = if value.is_sign_negative() { Binding::Sign } else { Binding::Atom };
+        Expression::new(number(value), binding)
+    }
+
+    fn zero_and_one(&self) -> [&'static str; 2] {
+        ["0.0", "1.0"]
+    }
+
+    fn action(&self, action: Action, operands: &[Expression]) -> Expression {
+        let call = |name: &str| {
+            let arguments: Vec<&str> = operands.iter().map(|operand| operand.text.as_str()).collect();
+            Expression::new(format!("{name}({})", arguments.join(", ")), Binding::Atom)
+        };
+        let product = || infix(&operands[0], "*", &operands[1]);
+        match action {
+            // No two signs next to each other: that would be a decrement.
+            Action::Neg(_) => {
+                Expression::new(format!("-{}", operands[0].at_least(Binding::Atom)), Binding::Sign)
+            }
+            Action::Add(..) => infix(&operands[0], "+", &operands[1]),
+            Action::Sub(..) => infix(&operands[0], "-", &operands[1]),
+            Action::Mul(..) => product(),
+            Action::Div(..) => infix(&operands[0], "/", &operands[1]),
+            Action::MulAdd(..) => infix(&product(), "+", &operands[2]),
+            Action::MulSub(..) => infix(&product(), "-", &operands[2]),
+            Action::NegMulAdd(..) => infix(&operands[2], "-", &product()),
+            Action::Pow(..) => call("pow"),
+            Action::Atan2(..) => call("atan2"),
+            Action::Min(..) => call("least"),
+            Action::Max(..) => call("greater"),
+            Action::Call(Function::Abs, _) => call("fabs"),
+            Action::Call(Function::Sin, _) => call("sine"),
+            Action::Call(Function::Cos, _) => call("cosine"),
+            Action::Call(function, _) => call(function.name()),
+            Action::Lookup(Lookup { table, order }, _) => {
+                let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
+                Expression::new(format!("look_up(&{name}, {order}, {x})"), Binding::Atom)
+            }
+            Action::SinCos(_) => call("sine"),
+        }
+    }
+}
+
+/// A number with the digits that give it back exactly.
+pub(super) fn number(value: f64) -> String {
+    if value.is_nan() {
+        return "(double)NAN".to_owned();
+    }
+    if value.is_infinite() {
+        return if value > 0.0 { "HUGE_VAL" } else { "-HUGE_VAL" }.to_owned();
+    }
+    format!("{value:?}")
+}

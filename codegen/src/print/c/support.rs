@@ -1,0 +1,230 @@
+//! What generated C needs beside `math.h`: static functions, each only where it is used.
+
+use std::collections::BTreeSet;
+
+use crate::expr::Function;
+use crate::program::{Action, Routines, Stage};
+
+/// A static function, in the order in which they are written.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Support {
+    SinCos,
+    Sine,
+    Cosine,
+    Least,
+    Greater,
+    Sign,
+    Side,
+    LookUp,
+}
+
+impl Support {
+    /// Those that the routines use.
+    pub(super) fn used(routines: &Routines) -> BTreeSet<Self> {
+        let programs =
+            routines.list.iter().flat_map(|routine| &routine.stages).filter_map(|stage| match stage {
+                Stage::Block(block) => Some(&block.program),
+                _ => None,
+            });
+        let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
+        let mut used: BTreeSet<Self> = actions.filter_map(Self::of).collect();
+        if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
+            used.insert(Self::SinCos);
+        }
+        used
+    }
+
+    fn of(action: Action) -> Option<Self> {
+        match action {
+            Action::SinCos(_) => Some(Self::SinCos),
+            Action::Call(Function::Sin, _) => Some(Self::Sine),
+            Action::Call(Function::Cos, _) => Some(Self::Cosine),
+            Action::Call(Function::Sign, _) => Some(Self::Sign),
+            Action::Call(Function::Side, _) => Some(Self::Side),
+            Action::Min(..) => Some(Self::Least),
+            Action::Max(..) => Some(Self::Greater),
+            Action::Lookup(..) => Some(Self::LookUp),
+            _ => None,
+        }
+    }
+
+    /// Its source.
+    pub(super) fn text(self) -> &'static str {
+        match self {
+            Self::SinCos => SIN_COS,
+            Self::Sine => SINE,
+            Self::Cosine => COSINE,
+            Self::Least => LEAST,
+            Self::Greater => GREATER,
+            Self::Sign => SIGN,
+            Self::Side => SIDE,
+            Self::LookUp => LOOK_UP,
+        }
+    }
+}
+
+/// Whether numbers are finite.
+pub(super) const IS_FINITE: &str = "\
+/* 1 if all numbers are finite, else 0. */
+static int is_finite(const double *numbers, int count)
+{
+    int finite = 1;
+    for (int k = 0; k < count; k++) {
+        finite = (finite != 0 && isfinite(numbers[k])) ? 1 : 0;
+    }
+    return finite;
+}
+";
+
+/// Numbers as in `abbe`'s `sin_cos`: a test holds both to the same bits.
+const SIN_COS: &str = "\
+/* Sine and cosine, below 1.7 units in the last place and the same on every machine where |x| <= 1e5: x is a number of
+ * quarter turns and a rest (Cody and Waite), whose sine and cosine are minimax polynomials. Beyond, and at 0, those of
+ * math.h. Needs rounding to nearest, and no contraction of a * b + c. */
+static void sin_cos(double x, double *sine, double *cosine)
+{
+    const double round = 6755399441055744.0;
+    if (!(fabs(x) <= 1e5) || !(fabs(x) > 0.0)) {
+        *sine = sin(x);
+        *cosine = cos(x);
+        return;
+    }
+    const double rounded = x * 0.6366197723675814 + round;
+    const double turns = rounded - round;
+    const unsigned quadrant = (unsigned)(int)turns & 3U;
+    double r = x - turns * 1.5707963267923333;
+    r = r - turns * 2.5632829192545614e-12;
+    r = r - turns * 6.123233995707727e-17;
+    r = r - turns * 2.9038559739793605e-28;
+    const double z = r * r;
+    if ((quadrant & 1U) != 0U) {
+        r = -r;
+    }
+    double s = 1.58969099521155e-10;
+    s = z * s + -2.5050760253406863e-8;
+    s = z * s + 2.7557313707070068e-6;
+    s = z * s + -0.0001984126982985795;
+    s = z * s + 0.00833333333332249;
+    s = z * s + -0.16666666666666632;
+    s = (r * z) * s + r;
+    double c = z * -1.1359647557788195e-11 + 2.087572321298175e-9;
+    c = z * c + -2.7557314351390663e-7;
+    c = z * c + 2.480158728947673e-5;
+    c = z * c + -0.001388888888887411;
+    c = z * c + 0.0416666666666666;
+    c = z * c + -0.5;
+    c = z * c + 1.0;
+    if ((quadrant & 1U) != 0U) {
+        const double other = s;
+        s = c;
+        c = other;
+    }
+    *sine = ((quadrant & 2U) != 0U) ? -s : s;
+    *cosine = ((quadrant & 2U) != 0U) ? -c : c;
+}
+";
+
+const SINE: &str = "\
+static double sine(double x)
+{
+    double s;
+    double c;
+    sin_cos(x, &s, &c);
+    return s;
+}
+";
+
+const COSINE: &str = "\
+static double cosine(double x)
+{
+    double s;
+    double c;
+    sin_cos(x, &s, &c);
+    return c;
+}
+";
+
+const LEAST: &str = "\
+/* The smaller of two numbers; not a number if one of them is not. */
+static double least(double a, double b)
+{
+    return (a < b || isnan(a)) ? a : b;
+}
+";
+
+const GREATER: &str = "\
+/* The larger of two numbers; not a number if one of them is not. */
+static double greater(double a, double b)
+{
+    return (a > b || isnan(a)) ? a : b;
+}
+";
+
+const SIGN: &str = "\
+/* -1, 0 or 1. */
+static double sign(double x)
+{
+    return (x > 0.0) ? 1.0 : ((x < 0.0) ? -1.0 : x * 0.0);
+}
+";
+
+const SIDE: &str = "\
+/* -1 below 0, else 1: the derivative of the absolute value, at 0 that to the right. */
+static double side(double x)
+{
+    return (x >= 0.0) ? 1.0 : ((x < 0.0) ? -1.0 : x);
+}
+";
+
+const LOOK_UP: &str = "\
+/* A function given by points: polynomials between them, found by buckets of equal width. */
+typedef struct {
+    double first;
+    double scale;
+    int buckets;
+    int steps;
+    const int *starts;
+    const double *knots;
+    int knots_count;
+    const double (*pieces)[4];
+} lookup_table;
+
+/* The derivative of that order of a table at x; the table itself if of order 0. */
+static double look_up(const lookup_table *table, int order, double x)
+{
+    const double round = 6755399441055744.0;
+    const double u = (x - table->first) * table->scale;
+    double bucket = u - 0.5;
+    if (isnan(u)) {
+        return u;
+    }
+    bucket = (bucket > -1.0) ? bucket : -1.0;
+    bucket = (bucket < (double)table->buckets) ? bucket : (double)table->buckets;
+    bucket = (bucket + round) - round;
+    int piece = (int)bucket + 1;
+    double t = u - bucket;
+    double unit = table->scale;
+    if (table->knots_count > 0) {
+        piece = table->starts[piece];
+        for (int step = table->steps - 1; step >= 0; step--) {
+            const int next = piece + (1 << step);
+            if (next < table->knots_count && x > table->knots[next]) {
+                piece = next;
+            }
+        }
+        t = x - table->knots[piece];
+        unit = 1.0;
+    }
+    const double *p = table->pieces[piece];
+    switch (order) {
+    case 0:
+        return t * (t * (t * p[3] + p[2]) + p[1]) + p[0];
+    case 1:
+        return unit * (t * (t * (3.0 * p[3]) + 2.0 * p[2]) + p[1]);
+    case 2:
+        return unit * (unit * (t * (6.0 * p[3]) + 2.0 * p[2]));
+    default:
+        return unit * (unit * (unit * (6.0 * p[3])));
+    }
+}
+";

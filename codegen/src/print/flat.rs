@@ -1,0 +1,77 @@
+//! Arrays of a routine as flat ones, for languages without arrays of arrays.
+
+use super::layout::{NARROW, Writer, width};
+use crate::program::{Place, Routine, Routines, Row};
+
+/// The arrays of one routine.
+#[derive(Clone, Copy)]
+pub(super) struct Flat<'p> {
+    pub(super) routines: &'p Routines,
+    pub(super) routine: &'p Routine,
+}
+
+impl Flat<'_> {
+    /// How many numbers an array holds.
+    pub(super) fn len(&self, array: usize) -> usize {
+        self.routine.arrays[array].len(&self.routines.description)
+    }
+
+    /// Where the rows of a place begin that are not counted by a loop, and where they end; all of it else.
+    pub(super) fn range(&self, Place { array, row }: Place) -> [usize; 2] {
+        let (all, row_len) =
+            (self.len(array), self.routine.arrays[array].row_len(&self.routines.description));
+        match row {
+            Row::First => [0, row_len],
+            Row::Last => [all - row_len, all],
+            Row::AllButFirst => [row_len, all],
+            Row::All | Row::Each { .. } | Row::Listed { .. } => [0, all],
+        }
+    }
+
+    /// Where in its array number k of row `index` of a place is; a loop counts `i`, and `listed` is how an entry of a table
+    /// is written.
+    pub(super) fn index(
+        &self,
+        Place { array, row }: Place,
+        index: usize,
+        k: usize,
+        listed: impl Fn(&str, usize) -> String,
+    ) -> String {
+        let declared = &self.routine.arrays[array];
+        let len = match row {
+            Row::All => declared.row_len(&self.routines.description),
+            _ => declared.place_len(row, &self.routines.description),
+        };
+        let plus = |factor: String, k: usize| if k == 0 { factor } else { format!("{factor} + {k}") };
+        let times = |factor: usize, what: &str| {
+            if factor == 1 { what.to_owned() } else { format!("{factor} * {what}") }
+        };
+        match row {
+            Row::All | Row::First => (len * index + k).to_string(),
+            Row::AllButFirst => (declared.row_len(&self.routines.description) + k).to_string(),
+            Row::Last => (self.len(array) - len + k).to_string(),
+            Row::Each { stride, offset } => plus(times(stride * len, "i"), offset * len + k),
+            Row::Listed { table, column } => {
+                plus(times(len, &listed(self.routines.tables[table].name, column)), k)
+            }
+        }
+    }
+}
+
+/// Entries one after the other, as many as a line holds.
+pub(super) fn filled(writer: &mut Writer, before: &str, entries: &[String], between: &str) {
+    let mut line = String::new();
+    for entry in entries {
+        if !line.is_empty() && width(&line) + width(entry) > NARROW + 20 {
+            writer.lines(&format!("{before}{line};"));
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push_str(between);
+        }
+        line.push_str(entry);
+    }
+    if !line.is_empty() {
+        writer.lines(&format!("{before}{line};"));
+    }
+}

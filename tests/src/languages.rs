@@ -1,0 +1,81 @@
+//! What every generated language is held against: the same arguments, and names that mean something in one of them.
+
+use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_inputs, nominal_parameters};
+use abbe::{Function, Manipulator};
+
+/// Words of languages, and names that their functions use.
+pub const NAMES: &str = r#"
+[manipulator]
+name = "arguments"
+title = "Comments end here: */ or `not`, and begin /* here"
+length = "m"
+[parameters]
+function = "0.3 m"
+Math = 2
+pose = 0.1
+class = "0.2 m"
+double = "0.05 m"
+sine = "0.01 m"
+[inputs]
+NaN = { value = "2 N", range = ["0 N", "3 N"] }
+[[frame]]
+name = "\"quoted\" \\ and '${more}'"
+variable = { name = "new", kind = "revolute", limits = [-1, 1] }
+transform = "Rz(new - pose) Tx(function)"
+[[frame]]
+name = "second"
+variable = { name = "undefined", kind = "revolute", limits = [-1, 1] }
+transform = "Rx(undefined*Math) Ty(class) Rz(0.4)"
+[tool]
+transform = "Tx(-function^1.5/abs(class)^0.5) Ty(double + sin(0.3)*sine)"
+[[source]]
+name = "repeatable"
+class = "repeatable"
+frame = "second"
+e_x = "1e-4 m/N*NaN*cos(new)"
+e_r = "-1e-3*atan2(function, class)*sqrt(Math)"
+"#;
+
+/// q, s, u, errors, variances and magnitudes.
+pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
+    let description = robot.description();
+    let (s, u) = (nominal_parameters(description), nominal_inputs(description));
+    let arm = arm_length(robot, &s).unwrap();
+    let moved: Vec<usize> = (0..description.variables.len()).collect();
+    let errors = 6 * description.frames.len();
+    let configuration = |index| {
+        let small = (0..2 * errors).map(|k| 1e-3 * halton(index + 1, k % 30));
+        let magnitudes = (0..description.sources.len()).map(|k| 2.0 * halton(index + 1, k % 30) - 1.0);
+        joint_sample(description, arm, &moved, index)
+            .into_iter()
+            .chain(s.clone())
+            .chain(u.clone())
+            .chain(small)
+            .chain(magnitudes)
+            .collect()
+    };
+    (0..count).map(configuration).collect()
+}
+
+/// What a function takes of that.
+pub fn arguments(robot: &dyn Manipulator, function: Function, given: &[f64]) -> Vec<f64> {
+    let description = robot.description();
+    let errors = 6 * description.frames.len();
+    let sizes = [
+        ("q", description.variables.len()),
+        ("s", description.parameters.len()),
+        ("u", description.inputs.len()),
+        ("errors", errors),
+        ("variances", errors),
+        ("magnitudes", description.sources.len()),
+    ];
+    let mut first = 0;
+    let mut taken = Vec::new();
+    for (name, size) in sizes {
+        if function.signature().arguments.iter().any(|array| array.name == name) {
+            taken.extend(&given[first..first + size]);
+        }
+        first += size;
+    }
+    taken
+}

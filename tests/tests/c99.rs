@@ -1,0 +1,217 @@
+//! Generated C gives what Rust gives, bit by bit: every function of every shipped robot, of a long chain, of tables, and of
+//! names that mean something in C. It is compiled with every warning as an error.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+use abbe::compensator::compensate;
+use abbe::{Function, Manipulator, Orientation, Pose};
+use abbe_codegen::print::Language;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use abbe_tests::chains::{coupled_joints, long_chain};
+use abbe_tests::languages::{NAMES, arguments, configurations};
+use abbe_tests::needs::{Missing, run, tool};
+use abbe_tests::specs;
+
+/// How it is compiled. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
+const STRICT: [&str; 9] = [
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wconversion",
+    "-Wdouble-promotion",
+    "-Werror",
+    "-O1",
+    "-ffp-contract=off",
+];
+
+fn main() -> ExitCode {
+    run([
+        ("shipped_robots", shipped_robots as _),
+        ("long_chains", long_chains as _),
+        ("tables_and_functions", tables_and_functions as _),
+        ("names_that_mean_something", names_that_mean_something as _),
+        ("headers_are_those_of_cpp_too", headers_are_those_of_cpp_too as _),
+    ])
+}
+
+fn shipped_robots() -> Result<(), Missing> {
+    tool("cc", "")?;
+    for shipped in SHIPPED {
+        let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
+        assert_equal(spec, 1000);
+    }
+    Ok(())
+}
+
+fn long_chains() -> Result<(), Missing> {
+    tool("cc", "")?;
+    assert_equal(Spec::parse("long.toml", &long_chain()).unwrap(), 50);
+    assert_equal(Spec::parse("coupled.toml", coupled_joints()).unwrap(), 50);
+    Ok(())
+}
+
+fn tables_and_functions() -> Result<(), Missing> {
+    tool("cc", "")?;
+    assert_equal(Spec::read(specs::path("measured")).unwrap(), 1000);
+    Ok(())
+}
+
+fn names_that_mean_something() -> Result<(), Missing> {
+    tool("cc", "")?;
+    assert_equal(Spec::parse("names.toml", NAMES).unwrap(), 50);
+    Ok(())
+}
+
+fn headers_are_those_of_cpp_too() -> Result<(), Missing> {
+    tool("c++", "")?;
+    let folder = tempfile::tempdir().unwrap();
+    let spec = Spec::parse("names.toml", NAMES).unwrap();
+    write(folder.path(), &spec);
+    let source = folder.path().join("main.cpp");
+    fs::write(&source, format!("#include \"{0}.h\"\nint main() {{ return {0}_self_test(); }}\n", spec.name))
+        .unwrap();
+    let object = folder.path().join("main.o");
+    let flags = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-c", "-o"];
+    succeeds(Command::new("c++").args(flags).arg(&object).arg(&source));
+    Ok(())
+}
+
+/// The same bits as Rust in so many configurations; corrected commands to 1e-9; and the self-test passes.
+fn assert_equal(spec: Spec, count: usize) {
+    let name = spec.name.clone();
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &spec);
+    let robot = Interpreter::new(spec);
+    let given = configurations(&robot, count);
+    let found = called(folder.path(), &robot, &given.concat());
+    let mut found = found.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap()));
+    assert_eq!(found.next(), Some(0.0), "{name}: the self-test");
+    let euler = robot.description().orientation == Orientation::EulerYzx;
+    for given in &given {
+        for function in Function::ALL {
+            let mut expected = robot.evaluate(function, &arguments(&robot, function, given)).unwrap();
+            let has_margin = function.signature().has_margin(robot.description().orientation);
+            expected.truncate(expected.len() - usize::from(has_margin));
+            let status = found.next().unwrap();
+            assert!(status == 0.0 || euler && status == 2.0, "{name} {}: {status}", function.name());
+            for (k, expected) in expected.into_iter().enumerate() {
+                let number = found.next().unwrap();
+                assert!(
+                    number == expected || status != 0.0 && !expected.is_finite(),
+                    "{name} {} {k}: {number:e} and {expected:e}",
+                    function.name()
+                );
+            }
+        }
+        assert_compensated(&robot, given, &mut found);
+    }
+    assert_eq!(found.next(), None, "{name}");
+}
+
+/// What C makes of commands, against the same in Rust.
+fn assert_compensated(robot: &Interpreter, given: &[f64], found: &mut impl Iterator<Item = f64>) {
+    let description = robot.description();
+    let [q, s, u] = arguments_of_step(robot, given);
+    let target = robot.pose(&q, &s).unwrap();
+    let expected = compensate(description, &target, &q, vec![[0.0; 6]; q.len()], |q: &Vec<f64>, columns| {
+        let step = robot.evaluate(Function::CompensatorStep, &[&q[..], &s, &u].concat())?;
+        let (pose, twists) = step.split_at(12);
+        columns.as_flattened_mut().copy_from_slice(twists);
+        Ok(Pose(std::array::from_fn(|i| std::array::from_fn(|j| pose[3 * i + j]))))
+    });
+    let expected = expected.unwrap();
+    let status = found.next().unwrap();
+    assert_eq!(status == 0.0, expected.converged, "{}: {status}", description.name);
+    let metre = 1.0 / description.length.in_metres();
+    let numbers = expected.q.iter().chain(&expected.before).chain(&expected.after);
+    // Where the steps have not come to rest, rounding is not all that differs.
+    let tolerance = if expected.converged { 1e-9 } else { 1e-4 };
+    for expected in numbers {
+        let number = found.next().unwrap();
+        assert!(
+            (number - expected).abs() <= tolerance * metre,
+            "{}: {number} and {expected}",
+            description.name
+        );
+    }
+}
+
+fn arguments_of_step(robot: &Interpreter, given: &[f64]) -> [Vec<f64>; 3] {
+    let all = arguments(robot, Function::CompensatorStep, given);
+    let description = robot.description();
+    let (q, rest) = all.split_at(description.variables.len());
+    let (s, u) = rest.split_at(description.parameters.len());
+    [q.to_vec(), s.to_vec(), u.to_vec()]
+}
+
+fn write(folder: &Path, spec: &Spec) {
+    for file in Language::C.files(spec) {
+        fs::write(folder.join(file.name), file.text).unwrap();
+    }
+}
+
+/// The numbers of the self-test, then of every function at every configuration, each after its status.
+fn called(folder: &Path, robot: &Interpreter, given: &[f64]) -> Vec<u8> {
+    let [source, program, input] = ["main.c", "program", "input"].map(|name| folder.join(name));
+    fs::write(&source, caller(robot)).unwrap();
+    fs::write(&input, given.iter().flat_map(|value| value.to_ne_bytes()).collect::<Vec<u8>>()).unwrap();
+    let own = folder.join(format!("{}.c", robot.description().name));
+    succeeds(Command::new("cc").args(STRICT).arg("-o").arg(&program).args([&own, &source]).arg("-lm"));
+    succeeds(Command::new(&program).stdin(fs::File::open(&input).unwrap()))
+}
+
+fn succeeds(command: &mut Command) -> Vec<u8> {
+    let run = command.output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    run.stdout
+}
+
+/// A program that reads configurations and writes what the functions give.
+fn caller(robot: &Interpreter) -> String {
+    let description = robot.description();
+    let (name, errors) = (&description.name, 6 * description.frames.len());
+    let sizes = [
+        ("q", description.variables.len()),
+        ("s", description.parameters.len()),
+        ("u", description.inputs.len()),
+        ("errors", errors),
+        ("variances", errors),
+        ("magnitudes", description.sources.len()),
+    ];
+    let count: usize = sizes.iter().map(|(_, size)| size).sum();
+    let mut first = 0;
+    let given = sizes.map(|(name, size)| {
+        first += size;
+        format!("    const double *{name} = given + {}; (void){name};\n", first - size)
+    });
+    let call = |function: Function| {
+        let signature = function.signature();
+        let arrays = signature.results.iter().map(|array| (array.name, array.len(description)));
+        let declared = arrays.clone().map(|(name, len)| format!("double {name}[{}]; ", len.max(1)));
+        let names = signature.arguments.iter().chain(signature.results).map(|array| array.name);
+        let written = arrays.map(|(name, len)| format!("put({name}, {len}); "));
+        format!(
+            "    {{ {}status = {name}_{}({}); put(&status, 1); {}}}\n",
+            declared.collect::<String>(),
+            signature.name,
+            names.collect::<Vec<_>>().join(", "),
+            written.collect::<String>()
+        )
+    };
+    let variables = description.variables.len();
+    format!(
+        "#include \"{name}.h\"\n#include <stdio.h>\n\
+         static void put(const double *numbers, int count) {{ fwrite(numbers, sizeof(double), (size_t)count, stdout); }}\n\
+         int main(void)\n{{\n    double given[{count}];\n    double status = {name}_self_test();\n    put(&status, 1);\n    \
+         while (fread(given, sizeof(double), {count}, stdin) == {count}) {{\n{}{}    \
+         {{ double corrected[{variables}]; double before[6]; double after[6]; status = {name}_compensated(q, s, u, corrected, before, after); \
+         put(&status, 1); put(corrected, {variables}); put(before, 6); put(after, 6); }}\n    }}\n    return 0;\n}}\n",
+        given.concat(),
+        Function::ALL.map(call).concat(),
+    )
+}
