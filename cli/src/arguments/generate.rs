@@ -10,6 +10,7 @@ use super::shared::Writing;
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
     "  abbe generate arm.toml --out arm.rs
+  abbe generate arm.toml --lang c --out controller
   abbe generate arm.toml --lang js --out arm.js
 "))]
 pub(crate) struct Generate {
@@ -19,8 +20,8 @@ pub(crate) struct Generate {
     /// Language of the code
     #[arg(long, value_parser = language(), default_value = Language::Rust.name())]
     pub(crate) lang: Language,
-    /// Write to this file instead of stdout
-    #[arg(long, value_name = "FILE")]
+    /// Write to this file instead of stdout; C, which is two files, to this folder
+    #[arg(long, value_name = "PATH")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) writing: Writing,

@@ -43,3 +43,18 @@ fn nothing_is_written_if_the_spec_is_wrong() {
     assert!(run.stderr.contains("bad.toml:2:8"), "{}", run.stderr);
     assert!(!out.exists());
 }
+
+/// A header and a source, which need a folder.
+#[test]
+fn c_is_two_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("controller");
+    let refused = abbe(&["generate", "pps", "--lang", "c"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("--out DIR"));
+    let wrote = abbe(&["generate", "pps", "--lang", "c", "--out", out.to_str().unwrap()]);
+    assert!(wrote.status.success());
+    for (file, what) in [("pps.h", "int pps_pose("), ("pps.c", "#include \"pps.h\"")] {
+        assert!(std::fs::read_to_string(out.join(file)).unwrap().contains(what), "{file}");
+    }
+}
