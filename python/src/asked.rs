@@ -306,14 +306,17 @@ impl Machine {
         }))
     }
 
-    /// The closed form as source code: `language` is "rust" or "js". The same spec gives the same text.
+    /// The closed form as source code: `language` is "rust", "c" or "js". The same spec gives the same text; the header and
+    /// the source of C stand in it one after the other.
     #[pyo3(signature = (language="rust"))]
     fn generate(&self, py: Python<'_>, language: &str) -> PyResult<String> {
         let known = Language::ALL.into_iter().find(|known| known.name() == language);
-        let language = known
-            .ok_or_else(|| PyValueError::new_err(format!("language={language:?}: \"rust\" or \"js\"")))?;
+        let language = known.ok_or_else(|| {
+            PyValueError::new_err(format!("language={language:?}: \"rust\", \"c\" or \"js\""))
+        })?;
         let job = Generate { machine: self.machine.clone(), language };
-        Ok(run(py, None, None, |notes| job.run(notes))?.0)
+        let files = run(py, None, None, |notes| job.run(notes))?.0;
+        Ok(files.into_iter().map(|file| file.text).collect())
     }
 }
 

@@ -49,8 +49,8 @@ fn nothing_is_written_if_the_spec_is_wrong() {
 fn c_is_two_files() {
     let folder = tempdir().unwrap();
     let out = folder.path().join("controller");
-    let (status, _, message) = abbe(&["generate", "pps", "--lang", "c"]);
-    assert!(status == 2 && message.contains("--out DIR"), "{message}");
+    let refused = abbe(&["generate", "pps", "--lang", "c"]);
+    assert!(refused.status == 2 && refused.stderr.contains("--out DIR"), "{}", refused.stderr);
     prints(&["generate", "pps", "--lang", "c", "--out", out.to_str().unwrap()]);
     for (file, what) in [("pps.h", "int pps_pose("), ("pps.c", "#include \"pps.h\"")] {
         assert!(fs::read_to_string(out.join(file)).unwrap().contains(what), "{file}");

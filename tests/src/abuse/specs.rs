@@ -84,7 +84,7 @@ struct Names {
 
 impl Names {
     /// A name that is free; one name is like another up to its case.
-    fn new(&mut self, c: &mut Choices<'_>, like: &str) -> String {
+    fn fresh(&mut self, c: &mut Choices<'_>, like: &str) -> String {
         let all: Vec<&str> = NAMES.split_whitespace().filter(|name| !is_reserved(name)).collect();
         let mut name = match self.plain || c.once_in(4) {
             true => format!("{like}{}", self.taken.len() + 1),
@@ -134,7 +134,7 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
     let [mut numbers, mut lengths] = [Vec::new(), Vec::new()];
     let _ = writeln!(text, "[parameters]");
     for _ in 0..c.below(4) {
-        let (name, about) = (names.new(c, "p"), said(c, true));
+        let (name, about) = (names.fresh(c, "p"), said(c, true));
         let is_length = c.once_in(2);
         let value = if is_length { format!("{} mm", c.decimal(-300, 300)) } else { c.decimal(-2, 2) };
         let _ = writeln!(text, "{name} = {{ value = \"{value}\", description = \"{about}\" }}");
@@ -142,7 +142,7 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
     }
     let mut inputs = Vec::new();
     if c.once_in(2) {
-        let (name, about) = (names.new(c, "u"), said(c, false));
+        let (name, about) = (names.fresh(c, "u"), said(c, false));
         let _ =
             writeln!(text, "[inputs]\n{name} = {{ value = 0.5, range = [0, 2], description = \"{about}\" }}");
         inputs.push(name);
@@ -159,7 +159,7 @@ fn build(c: &mut Choices<'_>, hostile: Option<&str>) -> String {
             let _ = writeln!(text, "transform = \"Tx({moved}) Ry({turned})\"");
             continue;
         }
-        let (name, revolute) = (names.new(c, "j"), c.once_in(2));
+        let (name, revolute) = (names.fresh(c, "j"), c.once_in(2));
         let axis = *c.of(&["x", "y", "z"]);
         let bent = c.once_in(2).then(|| expression(c, !revolute, [&numbers, &lengths], 3));
         let argument = match &bent {

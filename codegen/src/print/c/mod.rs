@@ -15,6 +15,7 @@ use self::support::{IS_FINITE, Support};
 use super::SourceFile;
 use super::header::header;
 use super::layout::Writer;
+use super::text::escaped;
 use crate::chain::Model;
 use crate::expr::Table;
 use crate::program::{Routines, Sums};
@@ -261,7 +262,7 @@ fn lookup_table(writer: &mut Writer, table: &Table) {
     let (name, lookup) = (table.constant_name(), table.lookup());
     let even = lookup.starts.is_empty();
     writer.blank();
-    comment(writer, &table.documentation());
+    comment(writer, &table.documentation(&escaped(&table.description)));
     if !even {
         let starts: Vec<String> = lookup.starts.iter().map(u32::to_string).collect();
         writer.braces(&format!("static const int {name}_STARTS[{}] = ", starts.len()), &starts, ";");
