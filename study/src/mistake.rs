@@ -50,8 +50,8 @@ impl WayOut for Failure {
 }
 
 /// Something that cannot be worked out about a file, a spec or an option.
-pub fn whole(subject: impl Display, reason: impl WayOut) -> Diagnostics {
-    with_help(subject, &reason, reason.way_out())
+pub fn whole(subject: impl Display, reason: &impl WayOut) -> Diagnostics {
+    with_help(subject, reason, reason.way_out())
 }
 
 /// Something wrong with a file, a spec or an option as a whole, and a way out.

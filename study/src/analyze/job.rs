@@ -101,7 +101,7 @@ impl Analyze {
         let manipulator = &*machine.evaluator(!self.interpret);
         let description = manipulator.description();
         let workspace = study.region.workspace(manipulator, self.seed);
-        let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, error))?;
+        let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let gathering = self.figures.then(|| Gathering::new(study, description));
         notes.progress(0, workspace.len());
         let mut watching = Watching { rows, gathering, notes, total: workspace.len() };

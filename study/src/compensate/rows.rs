@@ -80,7 +80,7 @@ impl<'a> Task<'a> {
         let description = manipulator.description();
         let s = sampling::nominal_parameters(description);
         let mobility = mobility(manipulator, &s);
-        let mobility = mobility.map_err(|error| mistake::whole(&description.name, error))?;
+        let mobility = mobility.map_err(|error| mistake::whole(&description.name, &error))?;
         Ok(Self { manipulator, description, s, poses, tolerance, mobility })
     }
 

@@ -79,9 +79,9 @@ impl Identify {
         if stages.is_empty() {
             check_readings(&setup, map, &data)?;
         }
-        setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, failure))?;
+        setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         estimate(&mut setup, map, &data, settings.prior)
-            .map_err(|failure| mistake::whole(&data.file, failure))?;
+            .map_err(|failure| mistake::whole(&data.file, &failure))?;
         let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
         let test = self.test.as_ref().map(|test| completed(test.completed(map, &nominal, &spec), false));
         let identified = Identified { setup: &setup, solved: &solved, chosen: &chosen, derived: &derived };
@@ -113,10 +113,10 @@ fn report(
     let identifiable = &fit.identifiable;
     let name = |k: usize| model.name(model.unknowns[k]);
     let rows = &data.observations;
-    let fail = |failure: Failure| mistake::whole(&data.file, failure);
+    let fail = |failure: Failure| mistake::whole(&data.file, &failure);
     let scale = scale_note(&setup.ideal, rows, &setup.moved(rows)).map_err(fail)?;
     let alike = alikes(model, &rows[0].q, &setup.moved(rows), setup.pose)
-        .map_err(|error| mistake::whole(&data.file, error))?;
+        .map_err(|error| mistake::whole(&data.file, &error))?;
     let compared_fit = compared(solved, &setup.delivered, data, &fit.kept(rows).collect::<Vec<_>>())?;
     refuse_worse(&compared_fit, data, setup, map)?;
     let o = identifiable.observability;
@@ -136,17 +136,17 @@ fn report(
     let in_numbers = InNumbers::new(spec, model, fit);
     let left = compared_fit.after.rms;
     let apart = in_numbers.difference(spec, setup, solved, rows);
-    let apart = apart.map_err(|failure| mistake::whole(&data.file, failure))?;
+    let apart = apart.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let same = Some(&in_numbers).filter(|_| apart <= SAME * left);
     let found = FoundModel {
         derived: derived.to_vec(),
         ..FoundModel::new(spec, solved, same, data, setup.pose, [left, crossed.rms])
     };
     let order = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
-    let order = order.map_err(|failure| mistake::whole(&data.file, failure))?;
+    let order = order.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let outside = |test: &Data| {
         let outside = Outside::new(solved, &found.fitted, rows, &test.observations);
-        outside.map_err(|failure| mistake::whole(&test.file, failure))
+        outside.map_err(|failure| mistake::whole(&test.file, &failure))
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
     let outside = test.as_ref().map(outside).transpose()?.flatten();
@@ -301,7 +301,7 @@ fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<Point
         for row in &data.observations {
             let is_rejected = !is_test && rejected.contains(&row.line);
             let here = after.residuals(&mut before, row, is_test, is_rejected);
-            points.extend(here.map_err(|failure| mistake::whole(&data.file, failure))?);
+            points.extend(here.map_err(|failure| mistake::whole(&data.file, &failure))?);
         }
     }
     Ok(points)
@@ -361,7 +361,7 @@ fn compared(
 ) -> Result<Compared, Diagnostics> {
     let distances = |model: &Model, x: &[f64]| {
         let distances = model.all_distances(rows.iter().copied(), x);
-        distances.map_err(|failure| mistake::whole(&data.file, failure))
+        distances.map_err(|failure| mistake::whole(&data.file, &failure))
     };
     let simple = distances(&solved.simple, &solved.simple_fit.x)?;
     let after = distances(&solved.model, &solved.fit.x)?;

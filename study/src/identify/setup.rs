@@ -50,7 +50,7 @@ impl<'a> Setup<'a> {
                 }
                 (None, Base::Known | Base::Exact) => Pose::IDENTITY,
                 (None, Base::Unknown) => registered(&setup.real, &data.observations, i)
-                    .map_err(|failure| mistake::whole(&data.file, failure))?
+                    .map_err(|failure| mistake::whole(&data.file, &failure))?
                     .ok_or_else(|| in_line(data, name))?,
             };
             Ok(Station { name: name.clone(), pose, exact: map.base == Base::Exact })
@@ -81,7 +81,7 @@ impl<'a> Setup<'a> {
             *role = if source.class == Class::Repeatable { Role::Known } else { Role::Off };
         }
         let arm = sampling::arm_length(ideal.manipulator, &ideal.s);
-        let arm = arm.map_err(|error| mistake::whole(&description.name, error))?;
+        let arm = arm.map_err(|error| mistake::whole(&description.name, &error))?;
         let placement = map.placement.exact;
         let delivered = real.clone();
         Ok(Self { description, pose: map.is_pose(), placement, ideal, real, delivered, arm, declared })
@@ -138,7 +138,7 @@ impl<'a> Setup<'a> {
         }
         let model = self.real.with(unknowns);
         let fit = fit(&model, &data.observations, &Options::default());
-        let fit = fit.map_err(|failure| mistake::whole(&data.file, failure))?;
+        let fit = fit.map_err(|failure| mistake::whole(&data.file, &failure))?;
         self.stand_at(&found_stations(&model, &fit.x));
         let fixtures = (0..model.fixtures.len())
             .map(|i| Fixture { place: found_place(&model, &fit.x, i), ..model.fixtures[i].clone() });

@@ -152,7 +152,7 @@ fn embedded(from: &Model, x: &[f64], to: &Model) -> Vec<f64> {
 pub(super) fn explained(failure: &Failure, data: &Data) -> Diagnostics {
     match failure {
         Failure::Observation { .. } | Failure::Machine(_) | Failure::Untouched { .. } => {
-            mistake::whole(&data.file, failure.clone())
+            mistake::whole(&data.file, failure)
         }
         Failure::TooFew { numbers, configurations, rank } => {
             let message = format!(

@@ -41,7 +41,7 @@ pub(super) fn row_errors(setup: &Setup, data: &mut Data) -> Result<Vec<RowError>
     let mut room = seen.room();
     for observation in std::mem::take(&mut data.observations) {
         let ideal = seen.pose(&mut room, &observation, &[]);
-        let ideal = ideal.map_err(|failure| mistake::whole(&data.file, failure))?;
+        let ideal = ideal.map_err(|failure| mistake::whole(&data.file, &failure))?;
         match pose(&seen.targets, &observation.measured, &ideal) {
             Some(real) => rows.push(RowError {
                 error: deviation(Orientation::RotationVector, &ideal, &real),

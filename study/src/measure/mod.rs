@@ -171,7 +171,7 @@ impl Measure {
         let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
         let observations: Vec<&Observation> = rows.iter().collect();
         let order = drift(&setup.real, &observations, &[]);
-        let order = order.map_err(|failure| mistake::whole(&seen.data.file, failure))?;
+        let order = order.map_err(|failure| mistake::whole(&seen.data.file, &failure))?;
         let file = seen.data.file.clone();
         let report = Report {
             name: machine.spec.name.clone(),
@@ -229,7 +229,7 @@ impl Seen {
             errors.extend(names.map(|(i, name)| Size::new(name, "rad", &along(3 + i))));
         }
         let explained = explained::explained(setup, &rows);
-        let explained = explained.map_err(|failure| mistake::whole(&data.file, failure))?;
+        let explained = explained.map_err(|failure| mistake::whole(&data.file, &failure))?;
         let norms = rows.iter().map(|row| (row.observation.configuration, row.distance()));
         let norms = identify::Distances(norms.collect());
         data.observations = rows.iter().map(|row| row.observation.clone()).collect();
@@ -238,7 +238,7 @@ impl Seen {
 
     fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self, Diagnostics> {
         let Readings { instruments, explained, rows: row_readings, norms } =
-            readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, failure))?;
+            readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         Ok(Self { errors: Vec::new(), instruments, explained, norms, rows: Vec::new(), row_readings, data })
     }
 }

@@ -81,7 +81,7 @@ impl Numbers {
         };
         for (i, (check, visits)) in checks.list.iter().zip(&visits).enumerate() {
             let measured = numbers.measured(&model, visits, &common, i == 0);
-            numbers.checks.push(measured.map_err(|failure| mistake::whole(&check.data.file, failure))?);
+            numbers.checks.push(measured.map_err(|failure| mistake::whole(&check.data.file, &failure))?);
         }
         if !fixed_station {
             let unknowns = model.unknowns.iter().enumerate();

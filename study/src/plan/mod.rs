@@ -79,7 +79,7 @@ impl Plan {
         let description = interpreter.description();
         let setup = Setup::at_home(&interpreter, map)?;
         let model = setup.ideal.with(setup.constants());
-        let fail = |failure: Failure| mistake::whole(&machine.origin, failure);
+        let fail = |failure: Failure| mistake::whole(&machine.origin, &failure);
         let used = self.used(&interpreter, description)?;
         let tool_points = model.tool_points(&used).map_err(fail)?;
         // The same along each axis.
@@ -115,7 +115,7 @@ impl Plan {
             notes.note(&note);
         }
         let alike = rows.first().map_or(Ok(Vec::new()), |row| alikes(&model, &row.q, &moved, setup.pose));
-        let alike = alike.map_err(|error| mistake::whole(&machine.origin, error))?;
+        let alike = alike.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
@@ -143,7 +143,7 @@ impl Plan {
     fn aimed(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
         let most = list.len();
         let aimed = aimed(setup, &self.map, list, most);
-        let aimed = aimed.map_err(|failure| mistake::whole(&self.machine.origin, failure))?;
+        let aimed = aimed.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
         if aimed.is_empty() { Err(unaimed(self.map.path())) } else { Ok(aimed) }
     }
 
@@ -156,7 +156,7 @@ impl Plan {
         notes: &mut dyn Notes,
     ) -> Result<Chosen, Diagnostics> {
         let description = manipulator.description();
-        let fail = |failure: Failure| mistake::whole(&self.machine.origin, failure);
+        let fail = |failure: Failure| mistake::whole(&self.machine.origin, &failure);
         match &self.choice {
             Choice::Sets(sets) => {
                 let (asked, counts) = sets.rows(manipulator, description, notes)?;
@@ -183,7 +183,8 @@ impl Plan {
                     None => joint_samples(manipulator, &moved, *candidates),
                 };
                 let samples = samples.and_then(|samples| samples.inputs(manipulator, &inputs));
-                let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
+                let samples =
+                    samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
                 let list = (1..).zip(samples).map(|(line, sample)| self.map.planned(line, sample));
                 let list = self.aimed(setup, list.collect())?;
                 if *count > list.len() {
@@ -229,7 +230,7 @@ impl Plan {
         manipulator: &dyn Manipulator,
         description: &Description,
     ) -> Result<Vec<Observation>, Diagnostics> {
-        let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, error);
+        let fail = |error: abbe::Error| mistake::whole(&self.machine.origin, &error);
         let mut region = self.study.region.clone();
         region.fix(self.machine.fixed_inputs());
         let workspace = region.workspace(manipulator, self.seed).map_err(fail)?;

@@ -96,7 +96,7 @@ impl Sets {
             let configurations: Vec<Configuration> = match &set.content {
                 Content::Workspace(region) => {
                     let workspace = region.workspace(manipulator, None);
-                    let workspace = workspace.map_err(|error| mistake::whole(&set.name, error))?;
+                    let workspace = workspace.map_err(|error| mistake::whole(&set.name, &error))?;
                     few_enough(workspace.len())?;
                     let unreached = workspace.len() - workspace.reached().len();
                     if unreached > 0 {

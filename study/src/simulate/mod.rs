@@ -85,7 +85,7 @@ impl Simulate {
             Failure::Observation { line, error } => {
                 mistake::not_evaluated(&list.file, &format!("line {line}"), &error, description)
             }
-            failure => mistake::whole(&list.file, failure),
+            failure => mistake::whole(&list.file, &failure),
         };
         if let Some(all) = map.instruments()
             && all.count_from_before()
@@ -143,14 +143,14 @@ impl Simulate {
         let tries = if self.map.instruments().is_some() { TRIES * count } else { count };
         let samples = random_joint_samples(manipulator, &moved, tries, self.seed)
             .and_then(|samples| samples.inputs(manipulator, &inputs));
-        let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, error))?.reached();
+        let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
         let stations = self.map.station_names();
         let rows = (1..).zip(samples).enumerate().map(|(i, (line, sample))| {
             let station = i % stations.len();
             Observation { station, ..self.map.planned(line, sample) }
         });
         let observations = aimed(setup, &self.map, rows.collect(), count)
-            .map_err(|failure| mistake::whole(&self.machine.origin, failure))?;
+            .map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
         if observations.is_empty() {
             return Err(unaimed(self.map.path()));
         }

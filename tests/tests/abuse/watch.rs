@@ -32,9 +32,9 @@ impl Figures {
 
     pub(crate) fn add(&mut self, (answered, taken): (bool, Duration)) {
         if answered {
-            self.answered += 1
+            self.answered += 1;
         } else {
-            self.refused += 1
+            self.refused += 1;
         }
         self.slowest = self.slowest.max(taken);
     }

@@ -56,7 +56,7 @@ impl<'a> Gathering<'a> {
             let data = match asked.content {
                 Content::Manipulator(_) => {
                     let stick = Stick::at_home(manipulator, home);
-                    Gathered::Manipulator(stick.map_err(|error| mistake::whole(&spec.file, error))?)
+                    Gathered::Manipulator(stick.map_err(|error| mistake::whole(&spec.file, &error))?)
                 }
                 _ => gather.finish(),
             };
@@ -74,8 +74,9 @@ fn sweep_own(
     spec: &Spec,
 ) -> Result<Option<[usize; 2]>, Diagnostics> {
     let Some(region) = &gather.figure.region else { return Ok(None) };
-    let workspace = region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, error))?;
+    let workspace =
+        region.workspace(manipulator, None).map_err(|error| mistake::whole(&spec.file, &error))?;
     let unreachable = sweep(manipulator, &*workspace, &mut |row| gather.add(row))
-        .map_err(|refused| mistake::whole(&spec.file, refused.error))?;
+        .map_err(|refused| mistake::whole(&spec.file, &refused.error))?;
     Ok(Some([workspace.len() - unreachable.count, unreachable.count]))
 }
