@@ -25,7 +25,8 @@ fuzz_target!(|bytes: &[u8]| {
     }
     let Ok(Some(found)) = interpreter.drawn_pose(&q, &s, &u, &magnitudes) else { return };
     let expected = real_pose(&transforms, &errors);
-    let size = transforms.iter().flat_map(|pose| pose.0.as_flattened()).fold(1.0, |size: f64, x| size.max(x.abs()));
+    let size =
+        transforms.iter().flat_map(|pose| pose.0.as_flattened()).fold(1.0, |size: f64, x| size.max(x.abs()));
     for (a, b) in found.0.as_flattened().iter().zip(expected.0.as_flattened()) {
         assert!((a - b).abs() <= 1e-9 * size, "{a} {b}:\n{text}");
     }

@@ -13,8 +13,16 @@ use libfuzzer_sys::fuzz_target;
 static MACHINE: LazyLock<Machine> = LazyLock::new(|| Machine::find("scara").expect("it is shipped"));
 
 static MAP: LazyLock<Map> = LazyLock::new(|| {
-    let joint = |variable: &abbe_codegen::spec::Variable| format!("{0} = {{ column = \"{0}\", unit = \"{1}\" }}\n", variable.name,
-        match variable.kind { abbe::VariableKind::Revolute => "deg", abbe::VariableKind::Prismatic => "mm" });
+    let joint = |variable: &abbe_codegen::spec::Variable| {
+        format!(
+            "{0} = {{ column = \"{0}\", unit = \"{1}\" }}\n",
+            variable.name,
+            match variable.kind {
+                abbe::VariableKind::Revolute => "deg",
+                abbe::VariableKind::Prismatic => "mm",
+            }
+        )
+    };
     let joints: String = MACHINE.spec.variables.iter().map(joint).collect();
     let text = format!(
         "[data]\nuncertainty = \"0.02 mm\"\n[joints]\n{joints}[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n"

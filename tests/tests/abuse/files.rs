@@ -98,7 +98,7 @@ payload = ["0 kg", "4 kg"]
 
 [[figure]]
 kind = "histogram"
-title = "How often"
+caption = "How often"
 "#,
     r#"
 [study]
@@ -153,7 +153,7 @@ max = "0.3 mm"
     r#"
 [data]
 title = "Instruments"
-group = "load"
+group = "n"
 time = "n"
 
 [joints]

@@ -180,7 +180,6 @@ fn other_files_are_named() {
 
 /// What damage is done to is right.
 #[test]
-#[ignore = "some files of studies, maps and plans have mistakes of their own: damage is done to what is refused already"]
 fn whole_files_are_answered() {
     let machine = machine();
     jobs::of_spec(machine.clone(), true).unwrap();
