@@ -112,7 +112,9 @@ impl Machine {
                 let u = if inputs.each { &inputs.values[nu * i..][..nu] } else { inputs.values };
                 found.push(commands.correct(&q[nq * i..][..nq], u).map_err(|reason| {
                     let at = if lead.is_empty() { String::new() } else { format!("configuration {i}: ") };
-                    mistake::whole(&self.machine.origin, at + &reason)
+                    let help =
+                        "leave this configuration out, or look at what the spec's expressions are there";
+                    mistake::with_help(&self.machine.origin, at + &reason, help)
                 })?);
             }
             Ok(found)
