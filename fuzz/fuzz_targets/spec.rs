@@ -10,7 +10,7 @@ use libfuzzer_sys::fuzz_target;
 fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     match Spec::parse("fuzzed.toml", text) {
-        Ok(spec) => Language::ALL.into_iter().for_each(|language| drop(language.print(&spec))),
+        Ok(spec) => Language::ALL.into_iter().for_each(|language| drop(language.files(&spec))),
         Err(refused) => told::told(&refused),
     }
 });

@@ -58,13 +58,14 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec) {
     let units: Vec<String> = units.collect();
     writer.braces(&format!("static const double UNITS[{}] = ", units.len()), &units, ";");
     let text = TEXT
+        .replace("SHORTEST", if units.len() > 6 { BY_ROWS } else { BY_COLUMNS })
         .replace("HEAD", &head(&spec.name, "restrict"))
         .replace("NAME", &spec.name)
         .replace("UPPER", &spec.name.to_ascii_uppercase())
         .replace("COUNT", &units.len().to_string())
         .replace("METRE", &number(1.0 / metre));
     writer.blank();
-    writer.lines(text.replace("PRIMAL", if units.len() > 6 { "0" } else { "1" }).trim_end());
+    writer.lines(text.trim_end());
 }
 
 const TEXT: &str = "\
@@ -144,35 +145,7 @@ static void solve(double m[6][6], double *b)
     }
 }
 
-/* The shortest step: J^T (J J^T + lambda)^-1 b, by the smaller of the two matrices. */
-static void shortest(double columns[COUNT][6], const double *b, double *step)
-{
-    double m[6][6] = { { 0.0 } };
-    double x[6] = { 0.0 };
-    if (PRIMAL != 0) {
-        for (int i = 0; i < COUNT; i++) {
-            x[i] = dot(columns[i], b, 6);
-            for (int j = 0; j <= i; j++) {
-                m[i][j] = dot(columns[i], columns[j], 6);
-            }
-        }
-        solve(m, x);
-    } else {
-        for (int i = 0; i < 6; i++) {
-            x[i] = b[i];
-            for (int j = 0; j < 6; j++) {
-                for (int k = 0; k < COUNT; k++) {
-                    m[i][j] += columns[k][i] * columns[k][j];
-                }
-            }
-        }
-        solve(m, x);
-    }
-    for (int k = 0; k < COUNT; k++) {
-        step[k] = (PRIMAL != 0) ? x[k] : dot(columns[k], x, 6);
-    }
-}
-
+SHORTEST
 /* q becomes start + d; a variable that would go beyond a limit is held there, the one furthest beyond it first. */
 static void depart(const double *start, double *q, const double *twists, const double *after)
 {
@@ -272,5 +245,47 @@ HEAD
         }
     }
     return (moved <= 1e-7) ? UPPER_OK : UPPER_NOT_CONVERGED;
+}
+";
+
+/// Of six joints or fewer.
+const BY_COLUMNS: &str = "\
+/* The shortest step, (J^T J + lambda)^-1 J^T b. */
+static void shortest(double columns[COUNT][6], const double *b, double *step)
+{
+    double m[6][6] = { { 0.0 } };
+    double x[6] = { 0.0 };
+    for (int i = 0; i < COUNT; i++) {
+        x[i] = dot(columns[i], b, 6);
+        for (int j = 0; j <= i; j++) {
+            m[i][j] = dot(columns[i], columns[j], 6);
+        }
+    }
+    solve(m, x);
+    for (int k = 0; k < COUNT; k++) {
+        step[k] = x[k];
+    }
+}
+";
+
+/// Of more joints.
+const BY_ROWS: &str = "\
+/* The shortest step, J^T (J J^T + lambda)^-1 b. */
+static void shortest(double columns[COUNT][6], const double *b, double *step)
+{
+    double m[6][6] = { { 0.0 } };
+    double x[6];
+    for (int i = 0; i < 6; i++) {
+        x[i] = b[i];
+        for (int j = 0; j < 6; j++) {
+            for (int k = 0; k < COUNT; k++) {
+                m[i][j] += columns[k][i] * columns[k][j];
+            }
+        }
+    }
+    solve(m, x);
+    for (int k = 0; k < COUNT; k++) {
+        step[k] = dot(columns[k], x, 6);
+    }
 }
 ";

@@ -142,7 +142,8 @@ impl Printer<'_> {
         if let Some(margin) = margin {
             self.writer.lines(&format!("const double margin = {margin};"));
             self.writer.open(&format!("if (!(margin >= {}))", number(abbe::MINIMUM_MARGIN)));
-            self.writer.lines(&format!("return isnan(margin) ? {upper}_NOT_FINITE : {upper}_SINGULAR;"));
+            self.writer
+                .lines(&format!("return (isnan(margin) != 0) ? {upper}_NOT_FINITE : {upper}_SINGULAR;"));
             self.writer.close("}");
         }
         let results: Vec<String> = (0..routine.arrays.len())

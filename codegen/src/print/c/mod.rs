@@ -249,9 +249,8 @@ fn ranges(writer: &mut Writer, spec: &Spec) {
     writer.lines("int inside = 1;");
     writer.open(&format!("for (int k = 0; k < {count}; k++)"));
     let name = &spec.name;
-    writer
-        .lines(&format!("const int is_inside = u[k] >= {name}_ranges[k][0] && u[k] <= {name}_ranges[k][1];"));
-    writer.lines("inside = (inside != 0 && is_inside != 0) ? 1 : 0;");
+    let is_inside = format!("u[k] >= {name}_ranges[k][0] && u[k] <= {name}_ranges[k][1]");
+    writer.lines(&format!("inside = (inside != 0 && {is_inside}) ? 1 : 0;"));
     writer.close("}");
     writer.lines("return inside;");
     writer.close("}");
@@ -275,7 +274,9 @@ fn lookup_table(writer: &mut Writer, table: &Table) {
     let or_null = |what: &str| if even { "0".to_owned() } else { format!("{name}_{what}") };
     writer.open(&format!("static const lookup_table {name} ="));
     writer.lines(&format!("{}, {},", number(lookup.first), number(lookup.scale)));
-    writer.lines(&format!("{buckets}, {},", lookup.steps));
+    // The first of the strides that lead to a piece: they are halved.
+    let stride = if lookup.steps == 0 { 0 } else { 1 << (lookup.steps - 1) };
+    writer.lines(&format!("{buckets}, {stride},"));
     writer.lines(&format!("{}, {}, {},", or_null("STARTS"), or_null("KNOTS"), lookup.knots.len()));
     writer.lines(&format!("{name}_PIECES"));
     writer.close("};");

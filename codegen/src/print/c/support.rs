@@ -70,7 +70,7 @@ static int is_finite(const double *numbers, int count)
 {
     int finite = 1;
     for (int k = 0; k < count; k++) {
-        finite = (finite != 0 && isfinite(numbers[k])) ? 1 : 0;
+        finite = (finite != 0 && isfinite(numbers[k]) != 0) ? 1 : 0;
     }
     return finite;
 }
@@ -148,7 +148,7 @@ const LEAST: &str = "\
 /* The smaller of two numbers; not a number if one of them is not. */
 static double least(double a, double b)
 {
-    return (a < b || isnan(a)) ? a : b;
+    return (a < b || isnan(a) != 0) ? a : b;
 }
 ";
 
@@ -156,7 +156,7 @@ const GREATER: &str = "\
 /* The larger of two numbers; not a number if one of them is not. */
 static double greater(double a, double b)
 {
-    return (a > b || isnan(a)) ? a : b;
+    return (a > b || isnan(a) != 0) ? a : b;
 }
 ";
 
@@ -182,7 +182,7 @@ typedef struct {
     double first;
     double scale;
     int buckets;
-    int steps;
+    int stride;
     const int *starts;
     const double *knots;
     int knots_count;
@@ -195,7 +195,7 @@ static double look_up(const lookup_table *table, int order, double x)
     const double round = 6755399441055744.0;
     const double u = (x - table->first) * table->scale;
     double bucket = u - 0.5;
-    if (isnan(u)) {
+    if (isnan(u) != 0) {
         return u;
     }
     bucket = (bucket > -1.0) ? bucket : -1.0;
@@ -206,8 +206,8 @@ static double look_up(const lookup_table *table, int order, double x)
     double unit = table->scale;
     if (table->knots_count > 0) {
         piece = table->starts[piece];
-        for (int step = table->steps - 1; step >= 0; step--) {
-            const int next = piece + (1 << step);
+        for (int stride = table->stride; stride > 0; stride /= 2) {
+            const int next = piece + stride;
             if (next < table->knots_count && x > table->knots[next]) {
                 piece = next;
             }

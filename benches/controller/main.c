@@ -1,0 +1,76 @@
+/* On a board without an operating system: the self-test, then how many instructions a corrected command takes. */
+#include HEADER
+
+extern char stack_top;
+int main(void);
+
+/* A request of the debugger's host (semihosting). */
+static int host(int operation, const void *argument)
+{
+    register int r0 __asm__("r0") = operation;
+    register const void *r1 __asm__("r1") = argument;
+    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
+}
+
+static void print(const char *text)
+{
+    (void)host(4, text);
+}
+
+static void print_number(unsigned number)
+{
+    char digits[12];
+    int at = 11;
+    digits[at] = '\0';
+    do {
+        digits[--at] = (char)('0' + (int)(number % 10U));
+        number /= 10U;
+    } while (number > 0U);
+    print(&digits[at]);
+}
+
+static void reset(void)
+{
+    *(volatile unsigned *)0xE000ED88U |= 0xFU << 20; /* the floating-point unit */
+    __asm__ volatile("dsb\n isb");
+    const unsigned end[2] = { 0x20026U, (unsigned)main() };
+    (void)host(0x20, end);
+    for (;;) {
+    }
+}
+
+static const struct {
+    const void *stack;
+    void (*start)(void);
+} vectors __attribute__((section(".vectors"), used)) = { &stack_top, reset };
+
+int main(void)
+{
+    volatile unsigned *const control = (volatile unsigned *)0xE000E010U;
+    volatile unsigned *const reload = (volatile unsigned *)0xE000E014U;
+    volatile unsigned *const value = (volatile unsigned *)0xE000E018U;
+    double q[NAME(VARIABLES)];
+    double corrected[NAME(VARIABLES)];
+    double before[6];
+    double after[6];
+    const int wrong = CALL(self_test)();
+    print("self-test ");
+    print(wrong == 0 ? "passed" : "FAILED");
+    for (int j = 0; j < NAME(VARIABLES); j++) {
+        const double *const limits = CALL(limits)[j];
+        q[j] = limits[0] + (0.3 + 0.05 * j) * (limits[1] - limits[0]);
+    }
+    *reload = 0xFFFFFFU;
+    *value = 0U;
+    *control = 5U;
+    const unsigned begun = *value;
+    const int status = CALL(compensated)(q, PARAMETERS, INPUTS, corrected, before, after);
+    const unsigned ticks = (begun - *value) & 0xFFFFFFU;
+    print(", corrected command: status ");
+    print_number((unsigned)status);
+    print(", instructions ");
+    print_number(ticks * TICK);
+    print("\n");
+    return wrong;
+}
