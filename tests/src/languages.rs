@@ -16,6 +16,9 @@ pose = 0.1
 class = "0.2 m"
 double = "0.05 m"
 sine = "0.01 m"
+arguments_pose = "0.02 m"
+ARGUMENTS_OK = 0
+inputs_are_in_range = 0
 [inputs]
 NaN = { value = "2 N", range = ["0 N", "3 N"] }
 [[frame]]
@@ -27,7 +30,7 @@ name = "second"
 variable = { name = "undefined", kind = "revolute", limits = [-1, 1] }
 transform = "Rx(undefined*Math) Ty(class) Rz(0.4)"
 [tool]
-transform = "Tx(-function^1.5/abs(class)^0.5) Ty(double + sin(0.3)*sine)"
+transform = "Tx(-function^1.5/abs(class)^0.5) Ty(double + sin(0.3)*sine + arguments_pose*(1 + ARGUMENTS_OK + inputs_are_in_range))"
 [[source]]
 name = "repeatable"
 class = "repeatable"

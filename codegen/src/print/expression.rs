@@ -26,7 +26,7 @@ pub(super) struct Expression {
 /// The operators, numbers and reserved names of a language.
 pub(super) trait Syntax {
     /// Names that it has itself, or that its functions use, with spaces between them.
-    fn reserved(&self) -> &'static str;
+    fn reserved(&self) -> Cow<'static, str>;
     /// A number as an operand.
     fn number(&self, value: f64) -> Expression;
     /// 0 and 1 as results.

@@ -32,12 +32,13 @@ impl<'s> Names<'s> {
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
         let arrays = arrays.map(|array| array.name).chain(routine.arrays.iter().map(|array| array.name));
         let called = routine.stages.iter().filter_map(|stage| match stage {
-            Stage::Call { routine, .. } => Some(*routine),
+            // In some languages with the name of the manipulator before its own.
+            Stage::Call { routine, .. } => Some([(*routine).to_owned(), format!("{}_{routine}", spec.name)]),
             _ => None,
         });
         let tables = spec.tables.iter().map(|table| table.constant_name());
-        let taken = reserved.split_whitespace().chain(arrays).chain(called);
-        let used = taken.map(str::to_owned).chain(tables).collect();
+        let taken = reserved.split_whitespace().chain(arrays).map(str::to_owned);
+        let used = taken.chain(called.flatten()).chain(tables).collect();
         let (variables, parameters, inputs) = (vec![], vec![], vec![]);
         let (errors, magnitudes, locals) = (vec![], vec![], vec![]);
         let mut names =

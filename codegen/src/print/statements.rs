@@ -49,7 +49,7 @@ impl Statements {
         syntax: &dyn Syntax,
         by_columns: bool,
     ) -> Self {
-        let names = Names::new(spec, routine, syntax.reserved());
+        let names = Names::new(spec, routine, &syntax.reserved());
         let mut writer = Writer {
             routine,
             description,

@@ -61,8 +61,7 @@ pub(super) fn documentation(writer: &mut Writer, routines: &Routines, routine: &
 
 /// One function.
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let Statements { list, used, .. } =
-        Statements::new(spec, &routines.description, routine, &C(&spec.tables));
+    let Statements { list, used, .. } = Statements::new(spec, &routines.description, routine, &C(spec));
     let prefix = &routines.description.name;
     writer.blank();
     if routine.function.is_none() {

@@ -1,28 +1,40 @@
 //! Operators and numbers of C99.
 
-use std::sync::Arc;
+use std::borrow::Cow;
 
-use crate::expr::{Function, Lookup, Table};
+use abbe::Function;
+
+use crate::expr::{Function as Operator, Lookup};
 use crate::print::expression::{Binding, Expression, Syntax, infix};
 use crate::program::Action;
+use crate::spec::Spec;
 
-/// With the spec's tables, which are constants.
-pub(super) struct C<'s>(pub(super) &'s [Arc<Table>]);
+/// With the spec, whose name and tables stand in the file.
+pub(super) struct C<'s>(pub(super) &'s Spec);
 
-impl Syntax for C<'_> {
-    /// The words of C and C++, what `math.h` has, and what the functions use.
-    fn reserved(&self) -> &'static str {
-        "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imaginary abs acos acosh alignas alignof and and_eq asin \
+const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imaginary abs acos acosh alignas alignof and and_eq asin \
          asinh asm atan atan2 atanh auto bitand bitor bool break case catch cbrt ceil char class compl concept const \
          const_cast constexpr continue copysign cos cosh cosine decltype default delete do double dynamic_cast else enum \
          erf erfc exp exp2 explicit export expm1 extern fabs false fdim float floor fma fmax fmin fmod for friend frexp \
-         goto greater hypot i if ilogb inline int is_finite isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
+         goto greater hypot i if ilogb inline inputs_are_in_range int is_finite isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
          llround log log10 log1p log2 logb long look_up lrint lround margin modf mutable namespace nan nearbyint new \
          nextafter nexttoward noexcept not not_eq nullptr operator or or_eq pow private protected public real register \
          reinterpret_cast remainder remquo requires restrict return rint round scalbln scalbn short side sign signbit sine cosine \
          signed sin sin_cos sinh sizeof sqrt static static_assert static_cast status struct switch tan tanh template \
          tgamma this thread_local throw true trunc try typedef typeid typename union unsigned using virtual void \
-         volatile wchar_t while xor xor_eq y0 y1 yn"
+         volatile wchar_t while xor xor_eq y0 y1 yn";
+
+impl Syntax for C<'_> {
+    /// The words of C and C++, what `math.h` has, and what stands in the file: functions, values and status codes.
+    fn reserved(&self) -> Cow<'static, str> {
+        let (name, upper) = (&self.0.name, self.0.name.to_ascii_uppercase());
+        let own = Function::ALL.map(|function| format!(" {name}_{}", function.name())).concat();
+        let values = ["limits", "home", "parameters", "inputs", "ranges"]
+            .map(|what| format!(" {name}_{what}"))
+            .concat();
+        let codes =
+            ["OK", "NOT_FINITE", "SINGULAR", "OUT_OF_RANGE"].map(|code| format!(" {upper}_{code}")).concat();
+        Cow::Owned([WORDS, &own, &values, &codes].concat())
     }
 
     fn number(&self, value: f64) -> Expression {
@@ -56,12 +68,12 @@ impl Syntax for C<'_> {
             Action::Atan2(..) => call("atan2"),
             Action::Min(..) => call("least"),
             Action::Max(..) => call("greater"),
-            Action::Call(Function::Abs, _) => call("fabs"),
-            Action::Call(Function::Sin, _) => call("sine"),
-            Action::Call(Function::Cos, _) => call("cosine"),
+            Action::Call(Operator::Abs, _) => call("fabs"),
+            Action::Call(Operator::Sin, _) => call("sine"),
+            Action::Call(Operator::Cos, _) => call("cosine"),
             Action::Call(function, _) => call(function.name()),
             Action::Lookup(Lookup { table, order }, _) => {
-                let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
+                let (name, x) = (self.0.tables[usize::from(table)].constant_name(), &operands[0].text);
                 Expression::new(format!("look_up(&{name}, {order}, {x})"), Binding::Atom)
             }
             Action::SinCos(_) => call("sine"),

@@ -1,5 +1,6 @@
 //! Operators and numbers.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::expr::{Function, Lookup, Table};
@@ -11,12 +12,14 @@ pub(super) struct JavaScript<'s>(pub(super) &'s [Arc<Table>]);
 
 impl Syntax for JavaScript<'_> {
     /// The words of the language, and what the functions use.
-    fn reserved(&self) -> &'static str {
-        "Float64Array Infinity Math NaN arguments async await break case catch class const continue \
+    fn reserved(&self) -> Cow<'static, str> {
+        Cow::Borrowed(
+            "Float64Array Infinity Math NaN arguments async await break case catch class const continue \
          debugger default delete do else enum eval export extends false finally for function get i if \
          implements import in instanceof interface k let lookup margin new null of package private protected \
          public return set static super switch this throw true try typeof undefined var void while \
-         with yield"
+         with yield",
+        )
     }
 
     fn number(&self, value: f64) -> Expression {

@@ -1,5 +1,6 @@
 //! Operators and numbers of a generic scalar `T`.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::literal::number;
@@ -12,8 +13,10 @@ pub(super) struct Rust<'s>(pub(super) &'s [Arc<Table>]);
 
 impl Syntax for Rust<'_> {
     /// Constants of a module, and what is no name in a pattern.
-    fn reserved(&self) -> &'static str {
-        "zero one FRAMES ERRORS VARIABLES PARAMETERS INPUTS EFFECTS DISTINCT SOURCES None Some Ok Err"
+    fn reserved(&self) -> Cow<'static, str> {
+        Cow::Borrowed(
+            "zero one FRAMES ERRORS VARIABLES PARAMETERS INPUTS EFFECTS DISTINCT SOURCES None Some Ok Err",
+        )
     }
 
     fn number(&self, value: f64) -> Expression {
