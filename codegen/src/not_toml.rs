@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 
-/// A file with more mistakes of syntax, and without the heading of a table, is something else.
+/// A file with more mistakes of syntax before the first heading of a table is something else.
 const MISTAKES: usize = 5;
 
 /// One mistake in place of many of syntax, if the text is no TOML at all.
@@ -11,6 +11,11 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     let start = lines().next()?;
     let separated = |line: &str| line.split([',', ';', '\t']).count() > 2 && !line.contains('=');
+    // A text about TOML may show some further down.
+    let before = |mistake: &Diagnostic| {
+        let end = mistake.span.as_ref().map_or(text.len(), |span| span.start);
+        text.get(..end).unwrap_or(text)
+    };
     let heading = |line: &str| line.starts_with('[') && line.ends_with(']') && !line.contains(',');
     let (what, help) = if start.starts_with('<') {
         ("XML", "write the joints of a URDF file as [[frame]] tables with `origin` and `axis`")
@@ -28,7 +33,7 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
         .all(|line| line.split_once(':').is_some_and(|(key, _)| !key.contains(['=', '"'])))
     {
         ("YAML", "in TOML, `key: value` is `key = value`, and a group is a `[table]`")
-    } else if found.len() > MISTAKES && !lines().any(heading) {
+    } else if found.len() > MISTAKES && !before(&found[MISTAKES]).lines().any(|line| heading(line.trim())) {
         ("something else", "the files of abbe are TOML: `key = value`, `[table]`")
     } else {
         return None;
