@@ -62,13 +62,36 @@ impl<'a> Setup<'a> {
 
     /// Seen from where the map says, or from `F_0` itself.
     pub(crate) fn at_home(manipulator: &'a dyn Manipulator, map: &Map) -> Result<Self, Diagnostics> {
+        Self::standing(manipulator, map, map.station_names())
+    }
+
+    /// The same for rows that are to be simulated, from every station that they name. An error if the map states some, and not
+    /// that one.
+    pub(crate) fn at_stations_of(
+        manipulator: &'a dyn Manipulator,
+        map: &Map,
+        data: &Data,
+    ) -> Result<Self, Diagnostics> {
+        let is_unstated = |name: &&String| map.stations.pose(name).is_none();
+        match data.stations.iter().find(is_unstated) {
+            Some(name) if !map.stations.stated.is_empty() => Err(unstated(map, data, name)),
+            _ if data.stations.is_empty() => Self::at_home(manipulator, map),
+            _ => Self::standing(manipulator, map, data.stations.clone()),
+        }
+    }
+
+    fn standing(
+        manipulator: &'a dyn Manipulator,
+        map: &Map,
+        names: Vec<String>,
+    ) -> Result<Self, Diagnostics> {
         let mut setup = Self::placed(manipulator, map, 0)?;
         let station = |name: String| Station {
             pose: map.stations.pose(&name).unwrap_or(Pose::IDENTITY),
             name,
             exact: map.base == Base::Exact,
         };
-        setup.stand_at(&map.station_names().into_iter().map(station).collect::<Vec<_>>());
+        setup.stand_at(&names.into_iter().map(station).collect::<Vec<_>>());
         Ok(setup)
     }
 

@@ -61,7 +61,10 @@ impl Simulate {
         let Self { machine, map, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
-        let setup = Setup::at_home(&interpreter, map)?;
+        let setup = match &self.at {
+            Places::Rows(data) => Setup::at_stations_of(&interpreter, map, data)?,
+            Places::Samples(_) => Setup::at_home(&interpreter, map)?,
+        };
         let sampled;
         let list = match &self.at {
             Places::Rows(data) => data,
