@@ -1,16 +1,20 @@
-//! Boxes of tool points, each reached by inverse kinematics: in reach, out of reach, and half and half.
+//! Boxes of tool points, each reached by inverse kinematics: in reach, out of reach, and half and half. What is reached, what limits
+//! stop and what is out of reach is measured apart.
 //!
 //! `cargo bench -p abbe-tests --bench reach`
 
 use std::time::Duration;
 
 use abbe::Manipulator;
-use abbe::analysis::{BLOCK, BaseBox, ToolOrientation, Workspace, base_box, sampling::grid};
+use abbe::analysis::{BLOCK, BaseBox, ReachError, ToolOrientation, Workspace, base_box, sampling::grid};
 use abbe_manipulators::{general6r::General6r, iiwa::Iiwa, pps::Pps, puma560::Puma560, ur5::Ur5};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// How many points along each side.
 const SIDE: usize = 8;
+
+/// What becomes of a point.
+const OUTCOMES: [&str; 3] = ["reached", "stopped by limits", "out of reach"];
 
 /// Sides in metres.
 type Sides = [[f64; 2]; 3];
@@ -18,6 +22,21 @@ type Sides = [[f64; 2]; 3];
 const NEAR: Sides = [[0.3, 0.5], [-0.2, 0.2], [0.3, 0.6]];
 const FAR: Sides = [[1.5, 2.5], [-1.0, 1.0], [0.0, 2.0]];
 const AROUND: Sides = [[-1.1, 1.1], [-1.1, 1.1], [-0.7, 1.5]];
+
+/// The outcome of each of these points.
+fn outcomes(workspace: &impl Workspace, indices: &[usize]) -> Vec<usize> {
+    let mut outcomes = Vec::with_capacity(indices.len());
+    for block in indices.chunks(BLOCK) {
+        workspace.fill_each(block, &mut |_, _, filled| {
+            outcomes.push(match filled {
+                Ok(()) => 0,
+                Err(ReachError::OutsideLimits { .. }) => 1,
+                Err(_) => 2,
+            });
+        });
+    }
+    outcomes
+}
 
 fn reach(criterion: &mut Criterion) {
     let pps = [
@@ -29,7 +48,6 @@ fn reach(criterion: &mut Criterion) {
     let robots: [(&dyn Manipulator, [Sides; 3]); 5] =
         [(&Iiwa, arm), (&General6r, arm), (&Ur5, arm), (&Puma560, arm), (&Pps, pps)];
     let mut group = criterion.benchmark_group("points");
-    group.throughput(Throughput::Elements(SIDE.pow(3) as u64));
     for (robot, boxes) in robots {
         let description = robot.description();
         for (name, sides) in ["in reach", "out of reach", "around"].into_iter().zip(boxes) {
@@ -41,17 +59,17 @@ fn reach(criterion: &mut Criterion) {
                     solved: (0..description.variables.len()).collect(),
                 };
                 let workspace = base_box(robot, &region).expect("its own variables");
-                let indices: Vec<usize> = (0..workspace.len()).collect();
-                group.bench_function(format!("{}/{name}{turned}", description.name), |bencher| {
-                    bencher.iter(|| {
-                        let mut reached = 0;
-                        for block in indices.chunks(BLOCK) {
-                            let mut show = |filled: Result<_, _>| reached += usize::from(filled.is_ok());
-                            workspace.fill_each(block, &mut |_, _, filled| show(filled));
-                        }
-                        reached
-                    });
-                });
+                let all: Vec<usize> = (0..workspace.len()).collect();
+                let found = outcomes(&workspace, &all);
+                for (outcome, what) in OUTCOMES.into_iter().enumerate() {
+                    let indices: Vec<usize> = all.iter().copied().filter(|i| found[*i] == outcome).collect();
+                    if indices.is_empty() {
+                        continue;
+                    }
+                    group.throughput(Throughput::Elements(indices.len() as u64));
+                    let id = format!("{}/{name}{turned}: {what}", description.name);
+                    group.bench_function(id, |bencher| bencher.iter(|| outcomes(&workspace, &indices)));
+                }
             }
         }
     }

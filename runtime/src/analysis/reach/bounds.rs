@@ -1,92 +1,118 @@
-//! Where the tool point of a chain of lower pairs can be at most: known without a search.
+//! Where the tool of a chain of lower pairs can be at most: known without a search.
 //!
-//! From the tip to the base, all points where the tool may be are enclosed by how far they are along the axis of a joint, off it,
-//! and away from its origin. A turn about the axis changes none of the three. Every step encloses at least what is there,
-//! so that a point outside is not reached: with limits of turns or without, as those are not looked at.
+//! From the tip to the base, all places of a point are enclosed by an [`Extent`] at the axis of each joint, without limits and
+//! within them. Every step encloses at least what is there, so that a point outside is not reached.
+//!
+//! The pose of the tool tells where more points are: those of the last axis, which its joint does not move. And of the chain from
+//! the tool to the base, `A_T⁻¹`, the same holds: the pose tells where base and first axis are, as seen from the tool.
 
 use super::Target;
-use super::joint_chain::{JointChain, scaled};
+use super::extent::{ANY, Extent, Interval, inside, sum, times};
+use super::joint_chain::{Joint, JointChain, scaled, shift};
 use super::quest::{Problem, Prospect};
-use crate::analysis::sampling::norm;
 use crate::{Pose, VariableKind};
 
-/// By how much bounds are widened, in arm lengths: more than what rounding and the numbers of the chain can make.
-const SLACK: f64 = 1e-7;
-
-type Interval = [f64; 2];
+/// Axes whose angle has a smaller squared sine are next to each other everywhere.
+const PARALLEL: f64 = 1e-4;
 
 /// Where a target can be.
 pub(super) struct Bounds {
     arm: f64,
-    /// Of the tool point: limits aside, and within those of the slides.
-    tool: [Region; 2],
-    /// Of the origin of the last joint, which the pose of the tool tells, and the way to it.
-    last: Option<(Pose, [Region; 2])>,
+    /// Points of the tool's frame, the tool point first, and where they are as seen from `F_0`.
+    of_tool: Vec<Bound>,
+    /// Points of `F_0`, as seen from the tool.
+    of_base: Vec<Bound>,
+}
+
+/// Where a point of the end of a chain can be.
+struct Bound {
+    point: [f64; 3],
+    /// Limits aside, and within them.
+    regions: [Region; 2],
 }
 
 /// Where a point at the end of a chain can be.
 struct Region {
-    /// From `F_0` to the first axis, and the extent about that.
+    /// From the base of the chain to the first axis, and the extent about that.
     to_axis: Pose,
     extent: Extent,
-    /// Along x, y and z of `F_0`: sharper where slides come first.
+    /// Along x, y and z of the base: sharper where slides come first.
     sides: [Interval; 3],
-}
-
-/// Points enclosed: distances along an axis, off it, and from its origin.
-#[derive(Clone, Copy, Debug)]
-struct Extent {
-    along: Interval,
-    off: Interval,
-    away: Interval,
 }
 
 impl Bounds {
     pub(super) fn new(problem: &Problem<'_>, chain: &JointChain) -> Self {
         let limits = |j: usize| problem.variable(j).limits.map(|limit| limit / problem.unit(j));
-        let regions = |chain: &JointChain| {
-            [Region::new(chain, &|_| [f64::NEG_INFINITY, f64::INFINITY]), Region::new(chain, &limits)]
-        };
-        let last = match chain.joints.split_last() {
-            Some((last, others)) if last.kind == VariableKind::Revolute => {
-                let shorter = JointChain { joints: others.to_vec(), tool: last.before };
-                Some((chain.tool.inverse(), regions(&shorter)))
-            }
-            _ => None,
-        };
-        Self { arm: problem.arm, tool: regions(chain), last }
+        let limits: Vec<Interval> = (0..chain.joints.len()).map(limits).collect();
+        let back: Vec<Interval> = limits.iter().rev().map(|[lower, upper]| [-upper, -lower]).collect();
+        let (of_tool, of_base) = (bounds(chain, &limits), bounds(&chain.reversed(), &back));
+        Self { arm: problem.arm, of_tool, of_base }
     }
 
     /// What is known of a target.
     pub(super) fn prospect(&self, target: &Target) -> Prospect {
-        let of = |regions: &[Region; 2], point: [f64; 3]| match regions.each_ref().map(|r| r.holds(point)) {
-            [false, _] => Prospect::Never,
-            [true, false] => Prospect::BeyondLimits,
-            [true, true] => Prospect::Open,
-        };
-        match (target, &self.last) {
-            (Target::Point(point), _) => of(&self.tool, point.map(|x| x / self.arm)),
-            (Target::Pose(pose), None) => of(&self.tool, scaled(pose, self.arm).position()),
-            (Target::Pose(pose), Some((back, regions))) => {
+        match target {
+            Target::Point(point) => self.of_tool[0].prospect(point.map(|x| x / self.arm)),
+            Target::Pose(pose) => {
                 let pose = scaled(pose, self.arm);
-                of(&self.tool, pose.position()).min(of(regions, pose.then(back).position()))
+                let back = pose.inverse();
+                let of_tool = self.of_tool.iter().map(|bound| bound.prospect(pose.apply(bound.point)));
+                let of_base = self.of_base.iter().map(|bound| bound.prospect(back.apply(bound.point)));
+                of_tool.chain(of_base).min().unwrap_or(Prospect::Open)
             }
         }
     }
 }
 
+/// Of the end of a chain, and of points of its last axis if it turns: next to the end, and next to the axis before.
+fn bounds(chain: &JointChain, limits: &[Interval]) -> Vec<Bound> {
+    let of = |point: [f64; 3], chain: &JointChain| Bound {
+        point,
+        regions: [Region::new(chain, &|_| ANY), Region::new(chain, &|j| limits[j])],
+    };
+    let mut bounds = vec![of([0.0; 3], chain)];
+    if let Some((last, others)) = chain.joints.split_last()
+        && last.kind == VariableKind::Revolute
+    {
+        let [_, _, [x, y, _], [at_x, at_y, _]] = last.before.0;
+        let to_end = chain.tool.position()[2];
+        let slope = x * x + y * y;
+        let to_axis_before = (slope > PARALLEL).then(|| -(x * at_x + y * at_y) / slope);
+        bounds.extend([Some(to_end), to_axis_before].into_iter().flatten().map(|height| {
+            let tool = last.before.then(&shift([0.0, 0.0, height]));
+            let shorter = JointChain { joints: others.to_vec(), tool };
+            of(chain.tool.inverse().apply([0.0, 0.0, height]), &shorter)
+        }));
+    }
+    bounds
+}
+
+impl Bound {
+    /// Of a target that has the point here, in arm lengths.
+    fn prospect(&self, here: [f64; 3]) -> Prospect {
+        let [anyhow, within] = &self.regions;
+        match (within.holds(here), anyhow.holds(here)) {
+            (true, _) => Prospect::Open,
+            (false, true) => Prospect::BeyondLimits,
+            (false, false) => Prospect::Never,
+        }
+    }
+}
+
 impl Region {
-    /// With slides between these limits.
+    /// With joints between these limits.
     fn new(chain: &JointChain, limits: &dyn Fn(usize) -> Interval) -> Self {
-        let slides = |joint: &&super::joint_chain::Joint| joint.kind == VariableKind::Prismatic;
+        let chain = chain.centred();
+        let slides = |joint: &&Joint| joint.kind == VariableKind::Prismatic;
         let first_turn = chain.joints.iter().take_while(slides).count();
         let mut extent = Extent::of(chain.tool.position());
-        // As seen from F_0, in front of the slides that come first.
+        // As seen from the base, in front of the slides that come first.
         let mut turned = (first_turn == chain.joints.len()).then_some(extent);
         for (j, joint) in chain.joints.iter().enumerate().rev() {
-            if joint.kind == VariableKind::Prismatic {
-                extent = extent.slid(limits(j));
-            }
+            extent = match joint.kind {
+                VariableKind::Revolute => extent.turned(limits(j)),
+                VariableKind::Prismatic => extent.slid(limits(j)),
+            };
             if j == first_turn {
                 turned = Some(extent);
             }
@@ -120,101 +146,14 @@ impl Region {
 
     /// Whether a point, in arm lengths, may be reached.
     fn holds(&self, point: [f64; 3]) -> bool {
-        let seen = self.to_axis.apply(point);
-        let Extent { along, off, away } = self.extent;
-        let inside = |value: f64, [least, most]: Interval| least - SLACK <= value && value <= most + SLACK;
-        inside(seen[2], along)
-            && inside(seen[0].hypot(seen[1]), off)
-            && inside(norm(seen), away)
+        self.extent.holds(self.to_axis.apply(point))
             && point.into_iter().zip(self.sides).all(|(value, side)| inside(value, side))
     }
 }
 
-impl Extent {
-    /// A point.
-    fn of(point: [f64; 3]) -> Self {
-        let [x, y, z] = point;
-        Self { along: [z; 2], off: [x.hypot(y); 2], away: [norm(point); 2] }
-    }
-
-    /// Along a direction: `u · x = u_z z + u_ρ ρ cos φ`, and no more than `r`.
-    fn along(&self, direction: [f64; 3]) -> Interval {
-        let across = times([-self.off[1], self.off[1]], direction[0].hypot(direction[1]));
-        let [least, most] = sum(times(self.along, direction[2]), across);
-        [least.max(-self.away[1]), most.min(self.away[1])]
-    }
-
-    /// Moved along the axis by anything between two limits.
-    fn slid(&self, limits: Interval) -> Self {
-        let along = sum(self.along, limits);
-        let away = [0, 1].map(|end| {
-            let z = if end == 0 { least_size(along) } else { largest_size(along) };
-            z.hypot(self.off[end])
-        });
-        Self { along, off: self.off, away }
-    }
-
-    /// As seen from the frame before, `x' = R x + d`.
-    ///
-    /// `z' = u · x + d_z` with `u` the z axis there; `r'² = (z + w_z)² + ρ² + w_ρ² + 2 w_ρ ρ cos φ` with `w = Rᵀ d`, so that
-    /// `(|z + w_z|, |ρ − w_ρ|)` is the least and `(|z + w_z|, ρ + w_ρ)` the most, and `|r − |d|| ≤ r' ≤ r + |d|`. What is off the
-    /// new axis is `ρ' = |d_⊥ + (R x)_⊥|`, with `(R x)_⊥² = r² − (u · x)²`, and `ρ'² = r'² − z'²`.
-    fn seen_from(&self, motion: &Pose) -> Self {
-        let back = motion.inverse();
-        let u = back.0[2];
-        let d = motion.position();
-        let w = back.turn(d);
-        let share = self.along(u);
-        let along = sum(share, [d[2]; 2]);
-
-        let (wide, shifted) = (w[0].hypot(w[1]), sum(self.along, [w[2]; 2]));
-        let across = sum(self.off, [-wide; 2]);
-        let (near, far) =
-            (least_size(shifted).hypot(least_size(across)), largest_size(shifted).hypot(self.off[1] + wide));
-        let length = norm(d);
-        let away = [near.max(least_size(sum(self.away, [-length; 2]))), far.min(self.away[1] + length)];
-
-        let parallel = u[0] == 0.0 && u[1] == 0.0;
-        let beside = if parallel { self.off } else { legs(self.away, share) };
-        let offset = d[0].hypot(d[1]);
-        let [least, most] = legs(away, along);
-        let off = [least.max(least_size(sum(beside, [-offset; 2]))), most.min(beside[1] + offset)];
-        Self { along, off, away }
-    }
-}
-
-/// What is left of hypotenuses beside legs of these sizes.
-fn legs(hypotenuse: Interval, leg: Interval) -> Interval {
-    let root = |hypotenuse: f64, leg: f64| (hypotenuse * hypotenuse - leg * leg).max(0.0).sqrt();
-    let most = if hypotenuse[1].is_finite() { root(hypotenuse[1], least_size(leg)) } else { f64::INFINITY };
-    [root(hypotenuse[0], largest_size(leg)), most]
-}
-
-fn sum(a: Interval, b: Interval) -> Interval {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-fn times(a: Interval, factor: f64) -> Interval {
-    if factor == 0.0 {
-        return [0.0; 2];
-    }
-    let [least, most] = a.map(|end| end * factor);
-    [least.min(most), least.max(most)]
-}
-
-/// The size of what is nearest to zero.
-fn least_size([least, most]: Interval) -> f64 {
-    least.max(-most).max(0.0)
-}
-
-/// The size of what is farthest from zero.
-fn largest_size([least, most]: Interval) -> f64 {
-    most.max(-least)
-}
-
 #[cfg(test)]
 mod tests {
-    use core::f64::consts::{PI, TAU};
+    use core::f64::consts::PI;
 
     use super::*;
     use crate::analysis::reach::joint_chain::Joint;
@@ -229,16 +168,11 @@ mod tests {
         Pose(columns)
     }
 
-    fn shift(by: [f64; 3]) -> Pose {
-        let Pose([x, y, z, _]) = Pose::IDENTITY;
-        Pose([x, y, z, by])
-    }
-
-    /// Chains of every mix of turns and slides, their axes in general position, parallel, at right angles and meeting; random
-    /// values of all turns, of slides within their limits and beyond: each point is where it may be.
+    /// Chains of every mix of turns and slides, their axes in general position, parallel, at right angles and meeting; values
+    /// within limits, narrow and wide, and beyond them: each point is where it may be, and so is the base as seen from the tool.
     #[test]
     fn what_is_reached_is_never_called_out_of_reach() {
-        for seed in 0..400 {
+        for seed in 0..1000 {
             let mut random = stream(seed, 0);
             let mut number = |from: f64, to: f64| from + (to - from) * random.random::<f64>();
             let count = 1 + number(0.0, 7.0) as usize;
@@ -262,24 +196,50 @@ mod tests {
                 Joint { before, kind }
             });
             let chain = JointChain { joints: joints.collect(), tool };
-            let limits: Vec<Interval> = (0..count).map(|_| [number(-1.0, 0.0), number(0.0, 1.0)]).collect();
-            let narrow = Region::new(&chain, &|j| limits[j]);
-            let wide = Region::new(&chain, &|_| [f64::NEG_INFINITY, f64::INFINITY]);
+            let wide = [1.0, 3.0][seed as usize % 2];
+            let limits: Vec<Interval> = (0..count).map(|_| [number(-wide, 0.0), number(0.0, wide)]).collect();
+            let back: Vec<Interval> = limits.iter().rev().map(|[lower, upper]| [-upper, -lower]).collect();
+            let (of_tool, of_base) = (bounds(&chain, &limits), bounds(&chain.reversed(), &back));
             for index in 0..300 {
+                // Both ends, too.
                 let q: Vec<f64> = (0..count)
-                    .map(|j| match chain.joints[j].kind {
-                        VariableKind::Revolute => TAU * halton(index, j),
-                        // Both ends, too.
-                        VariableKind::Prismatic => {
-                            let share = (1.2 * halton(index, j) - 0.1).clamp(0.0, 1.0);
-                            limits[j][0] + share * (limits[j][1] - limits[j][0])
-                        }
+                    .map(|j| {
+                        let share = (1.2 * halton(1 + index, j) - 0.1).clamp(0.0, 1.0);
+                        limits[j][0] + share * (limits[j][1] - limits[j][0])
                     })
                     .collect();
-                assert!(narrow.holds(chain.pose(&q).position()), "{seed}, {index}: {q:?}");
                 let further: Vec<f64> = q.iter().map(|value| 10.0 * value).collect();
-                assert!(wide.holds(chain.pose(&further).position()), "{seed}, {index}: {further:?}");
+                for (q, least) in [(q, Prospect::Open), (further, Prospect::BeyondLimits)] {
+                    let pose = chain.pose(&q);
+                    for (bounds, pose) in [(&of_tool, pose), (&of_base, pose.inverse())] {
+                        for bound in bounds {
+                            let prospect = bound.prospect(pose.apply(bound.point));
+                            assert!(prospect >= least, "{seed}, {index}: {q:?}, {:?}", bound.point);
+                        }
+                    }
+                }
             }
+        }
+    }
+
+    /// An elbow that does not fold: nothing is reached within what its limits leave, nor behind its shoulder's.
+    #[test]
+    fn limits_of_turns_are_looked_at() {
+        let joint = |at: f64| Joint { before: shift([at, 0.0, 0.0]), kind: VariableKind::Revolute };
+        let chain = JointChain { joints: vec![joint(0.0), joint(0.4)], tool: shift([0.3, 0.0, 0.0]) };
+        let region = Region::new(&chain, &|j| [[-2.0, 2.0], [-PI / 2.0, PI / 2.0]][j]);
+        // At right angles it reaches 0.5, and 0.6435 further round than the shoulder.
+        let at = |radius: f64, angle: f64| [radius * angle.cos(), radius * angle.sin(), 0.0];
+        for (radius, angle, held) in [
+            (0.51, 0.0, true),
+            (0.49, 0.0, false),
+            (0.49, -1.0, false),
+            (0.55, 2.6, true),
+            (0.55, -2.6, true),
+            (0.55, 2.7, false),
+            (0.55, PI, false),
+        ] {
+            assert_eq!(region.holds(at(radius, angle)), held, "{radius}, {angle}");
         }
     }
 
@@ -288,7 +248,7 @@ mod tests {
     fn a_ring_is_a_ring() {
         let joint = |at: f64| Joint { before: shift([at, 0.0, 0.0]), kind: VariableKind::Revolute };
         let chain = JointChain { joints: vec![joint(0.0), joint(0.5)], tool: shift([0.3, 0.0, 0.1]) };
-        let region = Region::new(&chain, &|_| [0.0; 2]);
+        let region = Region::new(&chain, &|_| ANY);
         for (radius, height, held) in [
             (0.2, 0.1, true),
             (0.8, 0.1, true),

@@ -9,8 +9,9 @@ use core::ops::ControlFlow;
 
 use super::bounds::Bounds;
 use super::joint_chain::{JointChain, scaled};
+use super::lane_chain::LaneChain;
 use super::quest::{Descent, Ended, ITERATIONS, Patience, Problem, Quest, REACHED, ROUNDING, STAGNATION};
-use super::residual::{LaneChain, Residual};
+use super::residual::Residual;
 use super::{ReachError, Target};
 use crate::lanes::{Kernel, Lanes, Register};
 use crate::{Error, Pose, Quantity, Scalar};
@@ -35,6 +36,8 @@ struct Lane {
     bounded: bool,
     patience: Patience,
     iteration: usize,
+    /// When it is looked at what was gained.
+    looked_at: usize,
     /// Whether nothing was evaluated yet.
     fresh: bool,
     /// Whether no variable can move.
@@ -55,6 +58,8 @@ struct Numbers<R: Register, const ROWS: usize> {
     target: [[Lanes<R>; 3]; 4],
     here: Residual<R, ROWS>,
     there: Residual<R, ROWS>,
+    /// The norm of what was evaluated last.
+    after: Lanes<R>,
 }
 
 impl<const ROWS: usize> Kernel for Descents<'_, ROWS> {
@@ -72,11 +77,13 @@ impl<const ROWS: usize> Kernel for Descents<'_, ROWS> {
         }
         while lanes.iter().any(Option::is_some) {
             numbers.there.evaluate(&chain, &numbers.candidate, &numbers.target);
+            numbers.after = numbers.there.norm;
             numbers.take_over(&lanes);
             for place in 0..R::WIDTH {
                 let Some(lane) = &mut lanes[place] else { continue };
                 let Some(ended) = lane.ended(&numbers, place, self.problem) else { continue };
-                match lane.quest.next(self.problem, ended) {
+                let prospect = || self.bounds.prospect(&self.targets[lane.target]);
+                match lane.quest.next(self.problem, ended, prospect) {
                     ControlFlow::Continue(descent) => {
                         lane.begin(&descent);
                         numbers.load(self.problem, place, &descent);
@@ -114,14 +121,14 @@ impl<const ROWS: usize> Descents<'_, ROWS> {
                 put(lanes, place, value);
             }
         }
-        let (quest, descent) =
-            Quest::new(self.problem, self.bounds.prospect(&self.targets[target]), self.start);
+        let (quest, descent) = Quest::new(self.problem, self.start);
         let mut lane = Lane {
             target,
             quest,
             bounded: true,
             patience: descent.patience,
             iteration: 0,
+            looked_at: 0,
             fresh: true,
             stuck: false,
             norm: f64::INFINITY,
@@ -137,7 +144,7 @@ impl<const ROWS: usize> Descents<'_, ROWS> {
 impl Lane {
     fn begin(&mut self, descent: &Descent) {
         (self.bounded, self.patience) = (descent.bounded, descent.patience);
-        (self.iteration, self.fresh, self.stuck) = (0, true, false);
+        (self.iteration, self.looked_at, self.fresh, self.stuck) = (0, 0, true, false);
         (self.norm, self.before, self.damping) = (f64::INFINITY, f64::INFINITY, 0.0);
     }
 
@@ -148,7 +155,7 @@ impl Lane {
         place: usize,
         problem: &Problem<'_>,
     ) -> Option<Result<Ended, Error>> {
-        let norm = numbers.there.norm.to_slice()[place];
+        let norm = numbers.after.to_slice()[place];
         let ended = || Some(Ok(numbers.ended(problem, place, self.bounded)));
         if self.fresh && !norm.is_finite() {
             return Some(Err(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }));
@@ -167,7 +174,8 @@ impl Lane {
         if self.norm <= ROUNDING || self.iteration == ITERATIONS {
             return ended();
         }
-        if self.iteration.is_multiple_of(self.patience.steps) {
+        if self.iteration == self.looked_at {
+            self.looked_at += self.patience.steps;
             if self.norm > self.before * (1.0 - self.patience.gain) {
                 return ended();
             }
@@ -196,6 +204,7 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
             target: [[zero; 3]; 4],
             here: Residual::new(count),
             there: Residual::new(count),
+            after: zero,
         }
     }
 
@@ -217,9 +226,15 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
     fn take_over(&mut self, lanes: &[Option<Lane>; WIDEST]) {
         let before = Lanes::<R>::from_fn(|place| match &lanes[place] {
             Some(lane) => lane.norm * (1.0 - STAGNATION),
-            None => f64::NEG_INFINITY,
+            None => f64::INFINITY,
         });
         let better = before.more_than(self.there.norm);
+        let (zero, one) = (Lanes::<R>::constant(0.0), Lanes::<R>::constant(1.0));
+        if !better.select(zero, one).more_than(zero).any() {
+            core::mem::swap(&mut self.q, &mut self.candidate);
+            core::mem::swap(&mut self.here, &mut self.there);
+            return;
+        }
         for (here, there) in self.q.iter_mut().zip(&self.candidate) {
             *here = better.select(*there, *here);
         }
@@ -297,6 +312,5 @@ impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
 
 /// Sets the value of a lane.
 fn put<R: Register>(lanes: &mut Lanes<R>, place: usize, value: f64) {
-    let before = *lanes;
-    *lanes = Lanes::from_fn(|lane| if lane == place { value } else { before.to_slice()[lane] });
+    bytemuck::cast_slice_mut::<Lanes<R>, f64>(core::slice::from_mut(lanes))[place] = value;
 }

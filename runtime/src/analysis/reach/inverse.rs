@@ -30,8 +30,9 @@ impl Target {
 /// Values of the variables in `free` that bring the tool to `target`, the others held as in `start`.
 ///
 /// Returns all of `q`, within its limits. Too many free variables are no harm: every step is the shortest one
-/// (angles in rad, lengths in arm lengths). The search begins at `start`, then at 32 points spread
-/// within the limits; only if it finds nothing does it look beyond them, to say which variable stops it.
+/// (angles in rad, lengths in arm lengths). The search begins at `start`, then, unless the chain proves that there is nothing, at 32
+/// points spread within the limits; only if it finds nothing does it look beyond them, to say which variable stops it: of the four
+/// solutions that it compares, the first one from where it came nearest within them.
 pub fn inverse(
     manipulator: &dyn Manipulator,
     s: &[f64],

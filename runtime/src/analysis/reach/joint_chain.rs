@@ -82,6 +82,33 @@ impl JointChain {
         (agrees && chain.joints.len() == free.len()).then_some(chain)
     }
 
+    /// From the tool to the base: `J(q)⁻¹ = J(−q)`.
+    pub(super) fn reversed(&self) -> Self {
+        let mut behind = self.tool.inverse();
+        let joints = self.joints.iter().rev().map(|joint| {
+            let before = core::mem::replace(&mut behind, joint.before.inverse());
+            Joint { before, kind: joint.kind }
+        });
+        Self { joints: joints.collect(), tool: behind }
+    }
+
+    /// The same with the origin on each axis next to that on the axis after it, from the tool point on.
+    pub(super) fn centred(&self) -> Self {
+        let Self { mut joints, mut tool } = self.clone();
+        let mut after = &mut tool;
+        for joint in joints.iter_mut().rev() {
+            let next = after.position();
+            let centre = match joint.kind {
+                VariableKind::Revolute => [0.0, 0.0, next[2]],
+                VariableKind::Prismatic => next,
+            };
+            *after = shift(centre.map(|x| -x)).then(after);
+            joint.before = joint.before.then(&shift(centre));
+            after = &mut joint.before;
+        }
+        Self { joints, tool }
+    }
+
     /// The pose of the tool point.
     pub(super) fn pose(&self, q: &[f64]) -> Pose {
         let joints = self.joints.iter().zip(q);
@@ -98,6 +125,12 @@ pub(super) fn scaled(pose: &Pose, arm: f64) -> Pose {
     Pose([x, y, z, position.map(|p| p / arm)])
 }
 
+/// A motion without a turn.
+pub(super) fn shift(by: [f64; 3]) -> Pose {
+    let Pose([x, y, z, _]) = Pose::IDENTITY;
+    Pose([x, y, z, by])
+}
+
 /// By how much a joint is moved to see its axis.
 fn size(kind: VariableKind) -> f64 {
     match kind {
@@ -107,7 +140,7 @@ fn size(kind: VariableKind) -> f64 {
 }
 
 /// A turn about z, or a slide along it.
-fn motion(kind: VariableKind, by: f64) -> Pose {
+pub(super) fn motion(kind: VariableKind, by: f64) -> Pose {
     let Pose([x, y, z, mut position]) = Pose::IDENTITY;
     match kind {
         VariableKind::Revolute => {

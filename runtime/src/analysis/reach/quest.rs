@@ -20,9 +20,12 @@ pub(super) const ITERATIONS: usize = 200;
 /// What creeps ends short of the target: where the search is to begin, this is seen late; at one of many starts, soon.
 const PATIENT: Patience = Patience { steps: 10, gain: 0.01 };
 const IMPATIENT: Patience = Patience { steps: 5, gain: 0.1 };
-const ENDLESS: Patience = Patience { steps: ITERATIONS, gain: 0.0 };
+/// How near it comes is told to six digits.
+const EXACT: Patience = Patience { steps: 10, gain: 1e-7 };
 /// Enough for a 6R arm to be brought to each of 1000 sampled poses; half as many miss one.
 const RESTARTS: usize = 32;
+/// So many solutions beyond the limits are compared: the first is the one next to where the limits stop it.
+const COMPARED: usize = 4;
 
 /// A manipulator, of which some variables are free.
 pub(super) struct Problem<'a> {
@@ -74,9 +77,14 @@ pub(super) enum Prospect {
 /// The search for one target.
 pub(super) struct Quest {
     stage: Stage,
-    prospect: Prospect,
-    /// Of all solutions outside the limits, the one that is least beyond: its worst variable, how far, its value.
+    /// Known once the first descent has failed.
+    prospect: Option<Prospect>,
+    /// Where it comes nearest within the limits.
+    stopped_at: Option<Ended>,
+    /// How many solutions outside the limits were found, and of the one that is least beyond: its worst variable, how far, its value.
+    solutions: usize,
     least: Option<(usize, f64, f64)>,
+    /// Where it comes nearest, limits aside.
     nearest: Option<Ended>,
     failure: Error,
 }
@@ -84,7 +92,7 @@ pub(super) struct Quest {
 enum Stage {
     /// Within the limits, from a start.
     Within(usize),
-    /// Without limits, from a start: to say what stops it.
+    /// Without limits, to say what stops it: from where it comes nearest within them, then from a start.
     Beyond(usize),
     /// From a solution beyond limits, brought back by whole turns.
     Turned(usize, Vec<f64>),
@@ -165,27 +173,52 @@ impl<'a> Problem<'a> {
 
 impl Quest {
     /// Begins with a start, which is not the first if that was tried.
-    pub(super) fn new(problem: &Problem<'_>, prospect: Prospect, start: usize) -> (Self, Descent) {
-        let within = prospect == Prospect::Open && start < problem.starts.len();
-        let stage = if within { Stage::Within(start) } else { Stage::Beyond(0) };
+    pub(super) fn new(problem: &Problem<'_>, start: usize) -> (Self, Descent) {
         let failure = Error::NotFinite { quantity: Quantity::Pose, index: 0 };
-        let q = problem.starts[if within { start } else { 0 }].clone();
-        let quest = Self { stage, prospect, least: None, nearest: None, failure };
-        (quest, Descent { q, bounded: within, patience: patience(start) })
+        let stage = Stage::Within(start);
+        let quest = Self {
+            stage,
+            prospect: None,
+            stopped_at: None,
+            solutions: 0,
+            least: None,
+            nearest: None,
+            failure,
+        };
+        (quest, from(problem, start, true))
     }
 
-    /// After a descent has ended.
-    pub(super) fn next(&mut self, problem: &Problem<'_>, ended: Result<Ended, Error>) -> Next {
+    /// After a descent has ended. What is known of the target is asked for if it was not reached at once.
+    pub(super) fn next(
+        &mut self,
+        problem: &Problem<'_>,
+        ended: Result<Ended, Error>,
+        prospect: impl FnOnce() -> Prospect,
+    ) -> Next {
         let reached = ended.as_ref().is_ok_and(|ended| ended.norm <= REACHED);
         match (core::mem::replace(&mut self.stage, Stage::Nearest), ended) {
             (Stage::Within(_) | Stage::Turned(..), Ok(ended)) if reached => ControlFlow::Break(Ok(ended.q)),
-            (Stage::Within(start), _) if start + 1 < problem.starts.len() => {
-                self.descend(problem, Stage::Within(start + 1), start + 1, true)
+            (Stage::Within(start), ended) => {
+                match ended {
+                    Ok(ended) => keep_nearer(&mut self.stopped_at, ended),
+                    Err(error) => self.failure = error,
+                }
+                match *self.prospect.get_or_insert_with(prospect) {
+                    Prospect::Open if start + 1 < problem.starts.len() => {
+                        self.stage = Stage::Within(start + 1);
+                        ControlFlow::Continue(from(problem, start + 1, true))
+                    }
+                    Prospect::Open | Prospect::BeyondLimits => self.beyond(problem, 0),
+                    Prospect::Never => {
+                        self.nearest = self.stopped_at.take();
+                        self.nearest(problem)
+                    }
+                }
             }
-            (Stage::Within(_), _) => self.descend(problem, Stage::Beyond(0), 0, false),
-            (Stage::Beyond(start), Ok(ended)) if reached => {
+            (stage @ (Stage::Beyond(_) | Stage::Nearest), Ok(ended)) if reached => {
+                let start = if let Stage::Beyond(start) = stage { start } else { problem.starts.len() };
                 let q = problem.turned(&ended.q);
-                if self.prospect == Prospect::BeyondLimits {
+                if self.prospect == Some(Prospect::BeyondLimits) {
                     return self.stopped(problem, start, &q);
                 }
                 // It may lie within the limits by whole turns, or just at one of them.
@@ -193,9 +226,7 @@ impl Quest {
                 ControlFlow::Continue(Descent { q, bounded: true, patience: PATIENT })
             }
             (Stage::Beyond(start), Ok(ended)) => {
-                if self.nearest.as_ref().is_none_or(|nearest| ended.norm < nearest.norm) {
-                    self.nearest = Some(ended);
-                }
+                keep_nearer(&mut self.nearest, ended);
                 self.beyond(problem, start + 1)
             }
             (Stage::Beyond(start), Err(error)) => {
@@ -207,51 +238,59 @@ impl Quest {
         }
     }
 
-    fn descend(&mut self, problem: &Problem<'_>, stage: Stage, start: usize, bounded: bool) -> Next {
-        self.stage = stage;
-        ControlFlow::Continue(Descent {
-            q: problem.starts[start].clone(),
-            bounded,
-            patience: patience(start),
-        })
-    }
-
     /// A solution that lies beyond limits.
     fn stopped(&mut self, problem: &Problem<'_>, start: usize, q: &[f64]) -> Next {
         let variables = &problem.description().variables;
         let beyond = |&i: &usize| (i, beyond(&variables[i], q[i]), q[i]);
         let worst = problem.free.iter().map(beyond).max_by(|a, b| a.1.total_cmp(&b.1));
         self.least = [self.least, worst].into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
+        self.solutions += 1;
         self.beyond(problem, start + 1)
     }
 
-    /// The next descent without limits. What never reaches it need not begin everywhere.
+    /// The next descent without limits.
     fn beyond(&mut self, problem: &Problem<'_>, start: usize) -> Next {
-        let enough = self.prospect == Prospect::Never && self.nearest.is_some();
-        if start < problem.starts.len() && !enough {
-            return self.descend(problem, Stage::Beyond(start), start, false);
+        if start <= problem.starts.len() && self.solutions < COMPARED {
+            self.stage = Stage::Beyond(start);
+            return match (start, &self.stopped_at) {
+                (0, None) => self.beyond(problem, 1),
+                (0, Some(Ended { q, .. })) => {
+                    ControlFlow::Continue(Descent { q: q.clone(), bounded: false, patience: PATIENT })
+                }
+                _ => ControlFlow::Continue(from(problem, start - 1, false)),
+            };
         }
         if let Some((variable, _, value)) = self.least {
             return ControlFlow::Break(Err(outside(&problem.description().variables, variable, value)));
         }
-        match &self.nearest {
-            None => ControlFlow::Break(Err(self.failure.into())),
-            // How near it comes is worth every step.
-            Some(nearest) => {
-                self.stage = Stage::Nearest;
-                let q = nearest.q.clone();
-                ControlFlow::Continue(Descent { q, bounded: false, patience: ENDLESS })
-            }
-        }
+        self.nearest(problem)
+    }
+
+    /// On from where it came nearest, limits aside.
+    fn nearest(&mut self, problem: &Problem<'_>) -> Next {
+        let q = self.nearest.as_ref().map_or(&problem.starts[0], |nearest| &nearest.q).clone();
+        self.stage = Stage::Nearest;
+        ControlFlow::Continue(Descent { q, bounded: false, patience: EXACT })
     }
 
     fn out_of_reach(&mut self, problem: &Problem<'_>, ended: Result<Ended, Error>) -> ReachError {
+        let failure = *ended.as_ref().err().unwrap_or(&self.failure);
         match ended.ok().or(self.nearest.take()) {
             Some(Ended { position, turn, .. }) => {
                 ReachError::OutOfReach { residual: position * problem.arm, turn }
             }
-            None => self.failure.into(),
+            None => failure.into(),
         }
+    }
+}
+
+fn from(problem: &Problem<'_>, start: usize, bounded: bool) -> Descent {
+    Descent { q: problem.starts[start].clone(), bounded, patience: patience(start) }
+}
+
+fn keep_nearer(nearest: &mut Option<Ended>, ended: Ended) {
+    if nearest.as_ref().is_none_or(|nearest| ended.norm < nearest.norm) {
+        *nearest = Some(ended);
     }
 }
 

@@ -4,39 +4,14 @@
 // Loops, and no closures: those could stay without the instruction set.
 #![allow(clippy::needless_range_loop)]
 
-use super::joint_chain::JointChain;
+use super::lane_chain::{LaneChain, Vector, apply, then};
+use crate::Scalar;
 use crate::lanes::{Lanes, Mask, Register};
-use crate::{Pose, Scalar, VariableKind};
 
 /// What is added to `J Jᵀ`, as a share of its trace: directions that do not move take no part.
 const FLOOR: f64 = 1e-13;
 /// The least cosine of half a turn that is divided by.
 const LEAST_COSINE: f64 = 1e-3;
-
-type Vector<R> = [Lanes<R>; 3];
-
-/// A chain whose numbers are in every lane.
-pub(super) struct LaneChain<R: Register> {
-    pub(super) joints: Vec<LaneJoint<R>>,
-    tool: [Vector<R>; 4],
-}
-
-/// A joint, and the way to it.
-pub(super) struct LaneJoint<R: Register> {
-    before: [Vector<R>; 4],
-    pub(super) turns: bool,
-}
-
-impl<R: Register> LaneChain<R> {
-    pub(super) fn new(chain: &JointChain) -> Self {
-        let everywhere = |pose: &Pose| pose.0.map(|column| column.map(Lanes::constant));
-        let joints = chain.joints.iter().map(|joint| LaneJoint {
-            before: everywhere(&joint.before),
-            turns: joint.kind == VariableKind::Revolute,
-        });
-        Self { joints: joints.collect(), tool: everywhere(&chain.tool) }
-    }
-}
 
 /// Rows 1–3 in arm lengths; rows 4–6, if there are any, the axis of the turn that is left times `2 sin θ/2`.
 pub(super) struct Residual<R: Register, const ROWS: usize> {
@@ -77,25 +52,17 @@ impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
     /// Of a chain at these values of its joints, which is to bring its tool to this target.
     #[inline(always)]
     pub(super) fn evaluate(&mut self, chain: &LaneChain<R>, q: &[Lanes<R>], target: &[Vector<R>; 4]) {
-        let (zero, one) = (Lanes::constant(0.0), Lanes::constant(1.0));
-        let mut frame = [[one, zero, zero], [zero, one, zero], [zero, zero, one], [zero; 3]];
+        let zero = Lanes::constant(0.0);
+        let mut frame = chain.base;
         for (i, joint) in chain.joints.iter().enumerate() {
-            then(&mut frame, &joint.before);
             self.axes[i] = [frame[2], frame[3]];
-            if joint.turns {
-                let (sine, cosine) = q[i].sin_cos();
-                for row in 0..3 {
-                    let (x, y) = (frame[0][row], frame[1][row]);
-                    frame[0][row] = x.mul_add(cosine, y * sine);
-                    frame[1][row] = x.neg_mul_add(sine, y * cosine);
-                }
-            } else {
-                for row in 0..3 {
-                    frame[3][row] = frame[2][row].mul_add(q[i], frame[3][row]);
-                }
-            }
+            joint.pass(&mut frame, q[i]);
         }
-        then(&mut frame, &chain.tool);
+        if ROWS == 6 {
+            then(&mut frame, &chain.tool);
+        } else {
+            frame[3] = apply(&frame, &chain.tool[3]);
+        }
         let tool = frame[3];
         for (i, joint) in chain.joints.iter().enumerate() {
             let [axis, at] = self.axes[i];
@@ -189,19 +156,6 @@ impl<R: Register, const ROWS: usize> Residual<R, ROWS> {
                 value = column[i].mul_add(y[i], value);
             }
             *step = value * *active;
-        }
-    }
-}
-
-/// Extends a frame by a motion.
-#[inline(always)]
-fn then<R: Register>(frame: &mut [Vector<R>; 4], motion: &[Vector<R>; 4]) {
-    let [x, y, z, position] = *frame;
-    for column in 0..4 {
-        let [a, b, c] = motion[column];
-        for row in 0..3 {
-            let sum = if column == 3 { x[row].mul_add(a, position[row]) } else { x[row] * a };
-            frame[column][row] = z[row].mul_add(c, y[row].mul_add(b, sum));
         }
     }
 }

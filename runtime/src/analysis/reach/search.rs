@@ -28,9 +28,9 @@ struct Point {
 impl Search<'_> {
     /// From start to end.
     pub(super) fn solve(&self) -> Result<Vec<f64>, ReachError> {
-        let (mut quest, mut descent) = Quest::new(self.problem, Prospect::Open, 0);
+        let (mut quest, mut descent) = Quest::new(self.problem, 0);
         loop {
-            match quest.next(self.problem, self.descend(&descent)) {
+            match quest.next(self.problem, self.descend(&descent), || Prospect::Open) {
                 ControlFlow::Continue(next) => descent = next,
                 ControlFlow::Break(found) => return found,
             }
@@ -39,7 +39,7 @@ impl Search<'_> {
 
     /// What is found from the first start alone.
     pub(super) fn nearby(&self) -> Option<Vec<f64>> {
-        let (_, descent) = Quest::new(self.problem, Prospect::Open, 0);
+        let (_, descent) = Quest::new(self.problem, 0);
         let ended = self.descend(&descent).ok()?;
         (ended.norm <= REACHED).then_some(ended.q)
     }
