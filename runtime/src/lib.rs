@@ -32,6 +32,7 @@ mod checked_functions;
 pub mod checks;
 pub mod compensator;
 mod component;
+mod delegate;
 mod description;
 pub mod distinct;
 #[cfg(feature = "std")]
@@ -71,6 +72,7 @@ pub mod laws;
 
 pub use chain::{chain, deviation, located, real_pose};
 pub use component::Component;
+pub use delegate::Delegate;
 pub use description::{
     Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
     Variable, VariableKind,

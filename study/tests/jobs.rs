@@ -1,7 +1,7 @@
 //! Jobs, called as anything but the command would call them.
 
 use abbe::lanes::{Batches, Tiles};
-use abbe::{Description, Error, Function, Manipulator, Pose};
+use abbe::{Delegate, Error, Function};
 use abbe_interpreter::Interpreter;
 use abbe_study::analyze::{Agreement, Analyze};
 use abbe_study::check::{Check, laws};
@@ -89,39 +89,11 @@ fn what_is_beyond_limits_is_noted_and_a_job_can_be_stopped() {
 /// A manipulator whose batches forget the last configuration.
 struct Forgetful(Interpreter);
 
-impl Manipulator for Forgetful {
-    fn description(&self) -> &Description {
-        self.0.description()
-    }
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        self.0.transforms(q, s, transforms)
-    }
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        self.0.pose(q, s)
-    }
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.error_jacobian(q, s, columns)
-    }
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.joint_jacobian(q, s, columns)
-    }
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.parameter_jacobian(q, s, columns)
-    }
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        self.0.effects(q, s, u, effects)
-    }
-    fn generalized_errors(
-        &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
-    ) -> Result<(), Error> {
-        self.0.generalized_errors(q, s, u, errors)
-    }
-    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], m: &[f64]) -> Result<Option<Pose>, Error> {
-        self.0.drawn_pose(q, s, u, m)
+impl Delegate for Forgetful {
+    type Original = Interpreter;
+
+    fn original(&self) -> &Interpreter {
+        &self.0
     }
 }
 

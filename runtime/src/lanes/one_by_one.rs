@@ -2,7 +2,9 @@
 
 use super::{Batches, Tiles, check};
 use crate::twist::{roll_cosine, twist};
-use crate::{Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, repeatable_magnitudes};
+use crate::{
+    Delegate, Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, repeatable_magnitudes,
+};
 
 /// Any manipulator, with batches: each configuration is evaluated by itself, by the methods of [`Manipulator`].
 ///
@@ -10,47 +12,11 @@ use crate::{Description, Error, Function, Manipulator, Pose, distinct, drawn_pos
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OneByOne<M>(pub M);
 
-impl<M: Manipulator> Manipulator for OneByOne<M> {
-    fn description(&self) -> &Description {
-        self.0.description()
-    }
+impl<M: Manipulator> Delegate for OneByOne<M> {
+    type Original = M;
 
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        self.0.transforms(q, s, transforms)
-    }
-
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        self.0.pose(q, s)
-    }
-
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.error_jacobian(q, s, columns)
-    }
-
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.joint_jacobian(q, s, columns)
-    }
-
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.parameter_jacobian(q, s, columns)
-    }
-
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        self.0.effects(q, s, u, effects)
-    }
-
-    fn generalized_errors(
-        &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
-    ) -> Result<(), Error> {
-        self.0.generalized_errors(q, s, u, errors)
-    }
-
-    fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
-        self.0.drawn_pose(q, s, u, magnitudes)
+    fn original(&self) -> &M {
+        &self.0
     }
 }
 

@@ -6,7 +6,7 @@ use super::quest::Problem;
 use super::search::Search;
 use crate::analysis::by_hand::{Pps, Puma};
 use crate::analysis::{Configuration, ReachError, sampling};
-use crate::{Description, Error, Frame, List, Manipulator, Pose};
+use crate::{Delegate, Description, Frame, List, Manipulator, Pose};
 
 /// A manipulator of which nothing is known but its functions.
 struct Opaque<'a>(&'a dyn Manipulator, Description);
@@ -20,43 +20,15 @@ impl<'a> Opaque<'a> {
     }
 }
 
-impl Manipulator for Opaque<'_> {
-    fn description(&self) -> &Description {
+impl<'a> Delegate for Opaque<'a> {
+    type Original = dyn Manipulator + 'a;
+
+    fn original(&self) -> &Self::Original {
+        self.0
+    }
+
+    fn described(&self) -> &Description {
         &self.1
-    }
-
-    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
-        self.0.transforms(q, s, transforms)
-    }
-
-    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
-        self.0.pose(q, s)
-    }
-
-    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.error_jacobian(q, s, columns)
-    }
-
-    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.joint_jacobian(q, s, columns)
-    }
-
-    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.0.parameter_jacobian(q, s, columns)
-    }
-
-    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        self.0.effects(q, s, u, effects)
-    }
-
-    fn generalized_errors(
-        &self,
-        q: &[f64],
-        s: &[f64],
-        u: &[f64],
-        errors: &mut [[f64; 6]],
-    ) -> Result<(), Error> {
-        self.0.generalized_errors(q, s, u, errors)
     }
 }
 
