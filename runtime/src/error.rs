@@ -9,6 +9,7 @@ pub const MINIMUM_MARGIN: f64 = 1e-6;
 
 /// Which argument or result an [`Error`] is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Quantity {
     /// The joint variables `q`.
     Variables,
@@ -60,6 +61,7 @@ impl fmt::Display for Quantity {
 
 /// Why a configuration could not be evaluated. Indices count from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Error {
     /// A slice has the wrong length.
     Count {

@@ -48,6 +48,25 @@ impl Changes {
         Ok(changes)
     }
 
+    /// Reads `NAME=VALUE` with a number in coherent units.
+    pub fn number(change: &str, spec: &Spec) -> Result<Self, Diagnostics> {
+        let (mut changes, mut document) = (Self::default(), Document::new("--set", change));
+        let Some((name, value)) = change.split_once('=') else {
+            document.mistake(Diagnostic::new(0..change.len(), "expected NAME=VALUE"));
+            return document.finish(None);
+        };
+        let span = name.len() + 1..change.len();
+        let symbol = find_symbol(&mut document, 0..name.len(), name, spec);
+        match (symbol, value.parse::<f64>()) {
+            (Some((symbol, _)), Ok(value)) if value.is_finite() => {
+                changes.set(&mut document, span, spec, symbol, value);
+            }
+            (Some(_), _) => document.mistake(Diagnostic::new(span, "expected a finite number")),
+            (None, _) => {}
+        }
+        document.finish(Some(changes))
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty() && self.switches.is_empty()

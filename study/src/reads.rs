@@ -27,6 +27,13 @@ impl Reads for () {
     }
 }
 
+/// Files that are named one by one.
+impl Reads for Vec<PathBuf> {
+    fn files(&self) -> Vec<PathBuf> {
+        self.clone()
+    }
+}
+
 impl Reads for Machine {
     fn files(&self) -> Vec<PathBuf> {
         self.file.iter().chain(&self.spec.beside).cloned().collect()

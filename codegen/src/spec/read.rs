@@ -56,7 +56,8 @@ impl Spec {
         Self::from_document(Document::new(path, text))
     }
 
-    fn from_document(mut document: Document) -> Result<Self, Diagnostics> {
+    /// Reads and checks a document.
+    pub fn from_document(mut document: Document) -> Result<Self, Diagnostics> {
         let text = Arc::clone(&document.text);
         let tables = document.tables(&text);
         let spec = tables.and_then(|tables| read(&Section::root(&tables), &mut document));

@@ -52,8 +52,9 @@ pub(crate) mod by_hand;
 mod tests;
 
 pub use budget::{
-    Admissible, Asked, Budget, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, OrientationErrors,
-    RemainingErrors, Residual, SourceErrors, Sphere, Watch, covariance, error_budget, variance,
+    Admissible, Asked, Budget, BudgetPart, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, Gap,
+    OrientationErrors, RemainingErrors, Residual, SourceErrors, Sphere, Survey, Watch, covariance,
+    error_budget, variance,
 };
 pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
 pub use measurand::Measurand;

@@ -2,7 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use rand::RngExt;
+
 use super::Observation;
+use crate::analysis::sampling::stream;
 
 /// Rows, those of one configuration after those of the other.
 pub(super) struct Groups {
@@ -37,6 +40,18 @@ impl Configurations {
     /// Those of these rows.
     pub fn new<'o>(rows: impl IntoIterator<Item = &'o Observation>) -> Self {
         Self::from_keys(rows.into_iter().map(|row| row.configuration))
+    }
+
+    /// The rows of as many configurations, drawn with replacement: one repetition of the bootstrap where rows depend on each other
+    /// (Davison and Hinkley, 1997, section 3.8). All rows of a configuration come as often as it is drawn, in their order.
+    /// Repetition `number` follows from the seed and its number alone.
+    pub fn resampled(&self, seed: u64, number: usize) -> Vec<usize> {
+        let (mut random, mut times) = (stream(seed, number), vec![0; self.count]);
+        for _ in 0..self.count {
+            times[random.random_range(0..self.count)] += 1;
+        }
+        let rows = self.number.iter().enumerate();
+        rows.flat_map(|(row, configuration)| core::iter::repeat_n(row, times[*configuration])).collect()
     }
 
     /// By configuration, how many numbers were measured of it: every one once at every station, however often it was visited.
@@ -77,5 +92,36 @@ impl Configurations {
             })
             .collect();
         Self { count: numbers.len(), number }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Configurations;
+
+    /// Of n configurations each is drawn once on average, and with a variance of 1 − 1/n: binomially.
+    #[test]
+    fn configurations_are_drawn_whole() {
+        let count = 50;
+        let rows = Configurations::from_keys((0..200).map(|row| row % count));
+        let (mut sum, mut squares) = (0, 0);
+        let repetitions = 400;
+        for number in 0..repetitions {
+            let drawn = rows.resampled(1, number);
+            assert!(drawn.is_sorted());
+            let times = |row: usize| drawn.iter().filter(|drawn| **drawn == row).count();
+            for configuration in 0..count {
+                let here = times(configuration);
+                assert!((1..4).all(|visit| times(configuration + visit * count) == here));
+                (sum, squares) = (sum + here, squares + here * here);
+            }
+        }
+        let all = count * repetitions;
+        assert_eq!(sum, all);
+        let variance = squares as f64 / all as f64 - 1.0;
+        assert!((variance - (1.0 - 1.0 / count as f64)).abs() < 0.05, "{variance}");
+        assert_eq!(rows.resampled(1, 3), rows.resampled(1, 3));
+        assert_ne!(rows.resampled(1, 3), rows.resampled(2, 3));
+        assert!(Configurations::from_keys([0; 0]).resampled(1, 0).is_empty());
     }
 }

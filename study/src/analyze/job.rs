@@ -1,23 +1,17 @@
 //! The question, and how it is answered.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
-use abbe::Description;
-use abbe::analysis::{
-    Admissible, Asked, Budget, Measurand, Row, Statement, Subset, Unevaluated, Watch, Workspace,
-    error_budget, errors_at, monte_carlo,
-};
+use abbe::analysis::{Asked, Budget, Row, Subset, Survey, Unevaluated, Workspace};
 use abbe_codegen::diagnostic::Diagnostics;
 
-use super::figures::Gathering;
-use super::first_order::FirstOrder;
-use super::judged::Judged;
-use super::report::{Drawn, Places, Report};
-use super::stated::Stated;
+use super::parts::Shard;
+use super::prepared::{Gathered, Prepared};
+use super::report::Report;
 use super::unreachable;
 use crate::changes::Changes;
 use crate::extrapolated::extrapolated;
-use crate::finite::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
 use crate::reads::Reads;
@@ -27,14 +21,11 @@ use crate::{mistake, number};
 /// At how many configurations it is looked whether errors are extrapolated.
 const EXTRAPOLATED: usize = 2000;
 
-/// The draws of verdicts and budgets are always the same: they are to be as good as integrals.
-pub(super) const SEED: u64 = 0;
-
 /// What does every source do?
 #[derive(Clone)]
 pub struct Analyze {
-    machine: Machine,
-    study: Study,
+    pub(super) machine: Machine,
+    pub(super) study: Study,
     /// How often all errors are drawn at the worst configuration and at home, if they are to be drawn.
     pub monte_carlo: Option<usize>,
     /// The seed of everything random: the draws, and the study's random samples. That of the study if not given.
@@ -71,6 +62,11 @@ impl Analyze {
         self.study.fix(self.machine.fixed_inputs());
     }
 
+    /// The study, but for inputs that are set.
+    pub fn study(&self) -> &Study {
+        &self.study
+    }
+
     /// The manipulator, with all changes.
     pub fn machine(&self) -> &Machine {
         &self.machine
@@ -97,91 +93,72 @@ impl Analyze {
         rows: Option<&mut dyn FnMut(&Row)>,
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
+        self.prepared(notes, |prepared, notes| {
+            let gathered = prepared.gather(0..prepared.survey.chunks(), rows, notes)?;
+            prepared.report(gathered, notes)
+        })
+    }
+
+    /// Sweeps some of the chunks of the workspace, of which there are as many as `chunks` is told.
+    pub(super) fn gather(
+        &self,
+        chunks: impl FnOnce(usize) -> Range<usize>,
+        notes: &mut dyn Notes,
+    ) -> Result<Gathered, Diagnostics> {
+        self.prepared(notes, |prepared, notes| prepared.gather(chunks(prepared.survey.chunks()), None, notes))
+    }
+
+    /// The report of what was gathered, shard after shard.
+    pub(super) fn finish(
+        &self,
+        parts: Vec<(String, Shard, Gathered)>,
+        notes: &mut dyn Notes,
+    ) -> Result<Report, Diagnostics> {
+        self.prepared(notes, |prepared, notes| {
+            let mut all: Option<Gathered> = None;
+            for (name, shard, part) in parts {
+                let fits = part.budget.chunks() == shard.chunks(prepared.survey.chunks())
+                    && prepared.survey.fits(&part.budget);
+                let put = match &mut all {
+                    Some(all) => fits && prepared.append(all, part),
+                    None => {
+                        all = Some(part);
+                        fits
+                    }
+                };
+                if !put {
+                    let message = "this part does not hold what its question asks for";
+                    return Err(mistake::with_help(name, message, "make it again"));
+                }
+            }
+            match all {
+                Some(all) => prepared.report(all, notes),
+                None => prepared.report(prepared.gather(0..0, None, notes)?, notes),
+            }
+        })
+    }
+
+    fn prepared<T>(
+        &self,
+        notes: &mut dyn Notes,
+        work: impl FnOnce(&Prepared<'_>, &mut dyn Notes) -> Result<T, Diagnostics>,
+    ) -> Result<T, Diagnostics> {
         let Self { machine, study, .. } = self;
         let manipulator = &*machine.evaluator(!self.interpret);
         let description = manipulator.description();
         let workspace = study.region.workspace(manipulator, self.seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
-        let gathering = self.figures.then(|| Gathering::new(study, description));
         notes.progress(0, workspace.len());
-        let mut watching = Watching { rows, gathering, notes, total: workspace.len() };
         let residuals = study.compensation.as_ref().map(|left| left.of(description));
         let tolerances = [study.tolerance, study.orientation_tolerance];
         let asked = Asked { residuals: residuals.as_deref(), tolerances };
-        let budget = error_budget(manipulator, workspace, asked, &mut watching);
-        let Watching { gathering, notes, total, .. } = watching;
-        notes.progress(total, total);
-        let refused = |refused: Unevaluated| self.not_evaluated(workspace, &refused, description);
-        let budget = budget.map_err(refused)?;
-        self.require_reached(&budget)?;
-        notes.go_on()?;
-
-        let first_order = FirstOrder::over(manipulator, workspace).map_err(refused)?;
-        let draw = |draws, index: Option<usize>| {
-            let configuration = index.and_then(|index| workspace.configuration(index).ok());
-            let configuration = configuration.unwrap_or_else(|| workspace.home().clone());
-            monte_carlo(manipulator, &configuration, draws, self.seed.unwrap_or(0))
-                .map_err(|error| refused(Unevaluated { configuration: index, error }))
-        };
-        let at = |index: Option<usize>| {
-            let configuration = index.and_then(|index| workspace.configuration(index).ok());
-            let configuration = configuration.unwrap_or_else(|| workspace.home().clone());
-            errors_at(manipulator, &configuration)
-                .map_err(|error| refused(Unevaluated { configuration: index, error }))
-        };
-        let mut judged = Vec::new();
-        for (measurand, tolerance) in Measurand::ALL.into_iter().zip(tolerances) {
-            if let Some(tolerance) = tolerance {
-                judged.push(Judged::new(&budget, measurand, (tolerance, study.probability), at)?);
-            }
-        }
-        let mut stated = Vec::new();
-        for measurand in Measurand::ALL {
-            let largest = budget.errors(measurand).1.standard_radius;
-            if largest.value > 0.0 {
-                let statement = Statement::new(&at(largest.configuration)?, measurand, SEED);
-                stated.push(Stated { statement, configuration: largest.configuration });
-            }
-        }
-        let drawn = match self.monte_carlo {
-            Some(draws) => Some(Drawn {
-                seed: self.seed.unwrap_or(0),
-                worst: draw(draws, budget.combined.radius.configuration)?,
-                home: draw(draws, None)?,
-            }),
-            None => None,
-        };
-        notes.go_on()?;
-        let gathered = match gathering {
-            Some(gathering) => Some(gathering.finish(manipulator, workspace.home(), &machine.spec)?),
-            None => None,
-        };
-        let report = Report {
-            spec: machine.spec.clone(),
-            study: study.clone(),
-            workspace: study.region.describe(&machine.spec),
-            home: workspace.home().clone(),
-            varying: self.varying(),
-            moving_inputs: self.moving_inputs(),
-            places: Places::new(&budget, &judged, workspace),
-            admissible: study.tolerance.map(|tolerance| Admissible::new(&budget, tolerance)),
-            admissible_orientation: study
-                .orientation_tolerance
-                .map(|tolerance| Admissible::of_measurand(&budget, Measurand::Orientation, tolerance)),
-            judged,
-            stated,
-            budget,
-            first_order,
-            monte_carlo: drawn,
-            figures: gathered,
-        };
-        report.warn_of_first_order(notes);
-        self.warn_of_extrapolation(workspace, notes);
-        finite(&machine.origin, report)
+        let survey = Survey::new(manipulator, workspace, asked);
+        let survey = survey.map_err(|refused| self.not_evaluated(workspace, &refused, description))?;
+        work(&Prepared { job: self, manipulator, workspace, tolerances, survey }, notes)
     }
 
     /// Looks at some configurations of a large workspace.
-    fn warn_of_extrapolation(&self, workspace: &dyn Workspace, notes: &mut dyn Notes) {
+    pub(super) fn warn_of_extrapolation(&self, workspace: &dyn Workspace, notes: &mut dyn Notes) {
         if self.machine.spec.fitted.is_empty() {
             return;
         }
@@ -191,7 +168,7 @@ impl Analyze {
         extrapolated(&self.machine.spec, &*manipulator, "configurations", places, notes);
     }
 
-    fn require_reached(&self, budget: &Budget) -> Result<(), Diagnostics> {
+    pub(super) fn require_reached(&self, budget: &Budget) -> Result<(), Diagnostics> {
         if budget.configurations > 0 {
             return Ok(());
         }
@@ -201,11 +178,11 @@ impl Analyze {
         Err(mistake::with_help(&self.machine.origin, message, help))
     }
 
-    fn not_evaluated(
+    pub(super) fn not_evaluated(
         &self,
         workspace: &dyn Workspace,
         refused: &Unevaluated,
-        description: &Description,
+        description: &abbe::Description,
     ) -> Diagnostics {
         let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
             Some(configuration) => {
@@ -214,28 +191,5 @@ impl Analyze {
             None => "home".to_owned(),
         };
         mistake::not_evaluated(&self.machine.origin, &at, &refused.error, description)
-    }
-}
-
-/// Who is shown every configuration, if anybody is, and how far the sweep is.
-struct Watching<'r, 'n, 'g> {
-    rows: Option<&'r mut dyn FnMut(&Row)>,
-    gathering: Option<Gathering<'g>>,
-    notes: &'n mut dyn Notes,
-    total: usize,
-}
-
-impl Watch for Watching<'_, '_, '_> {
-    fn rows(&self) -> bool {
-        self.rows.is_some() || self.gathering.is_some()
-    }
-
-    fn row(&mut self, row: &Row) {
-        self.rows.iter_mut().for_each(|show| show(row));
-        self.gathering.iter_mut().for_each(|gathering| gathering.add(row));
-    }
-
-    fn done(&mut self, before: usize) {
-        self.notes.progress(before, self.total);
     }
 }

@@ -3,7 +3,7 @@
 use abbe::analysis::{Budget, Compliance, ErrorsAt, Measurand, compliance, normal_compliance};
 use serde::Serialize;
 
-use super::job::SEED;
+use super::prepared::SEED;
 
 /// Whether a tolerance is met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

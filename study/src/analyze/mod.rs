@@ -1,6 +1,7 @@
 //! Section 5 of the paper: what every source does over a workspace, alone and together.
 //!
-//! `job` is the question, `report` the answer. The sweep runs once; `figures` gathers on the way what the figures show.
+//! `job` is the question, `prepared` how it is answered, `parts` the same on several machines, `report` the answer. The sweep runs
+//! once; `figures` gathers on the way what the figures show.
 //! `first_order` compares with the exact chain, `agreement` with published figures; `ledger` ranks the sources,
 //! `judged` holds them against the tolerance,
 //! `summary` answers in a few sentences and `verdict` says so, `stated` are budgets after the GUM and `uncertainty` their tables,
@@ -15,6 +16,8 @@ mod job;
 mod json;
 mod judged;
 mod ledger;
+pub mod parts;
+mod prepared;
 mod report;
 mod source_value;
 mod stated;

@@ -52,6 +52,14 @@ enum Columns {
 }
 
 impl Data {
+    /// The same measurements with configurations drawn with replacement, for the bootstrap: see
+    /// [`Configurations::resampled`].
+    pub fn resampled(&self, seed: u64, number: usize) -> Self {
+        let rows = Configurations::new(&self.observations).resampled(seed, number);
+        let observations = rows.into_iter().map(|row| self.observations[row].clone()).collect();
+        Self { observations, ..self.clone() }
+    }
+
     /// Reads what was commanded and what was measured. A row that was there before, digit by digit, is not used.
     pub fn read(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
         Self::rows(file, map, Columns::Measured, true)

@@ -1,8 +1,8 @@
 //! What all sources do together over the workspace.
 
 use super::Ellipsoid;
-use super::cloud::{self, Cloud};
-use super::enclosing_sphere::{Enclosing, Shell, Sphere};
+use super::enclosing_sphere::Sphere;
+use super::outline::{self, Outline, View};
 use super::peak::{self, Peak};
 use super::sums::Sums;
 use crate::Scalar;
@@ -10,6 +10,7 @@ use crate::lanes::{Lanes, Register};
 
 /// The largest value over the workspace, and where.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extreme {
     /// The value, in the length unit; 0 for an empty workspace.
     pub value: f64,
@@ -35,6 +36,7 @@ impl Extreme {
 ///
 /// Of positions in the length unit, of orientations in rad; all 0 for an empty workspace.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Combined {
     /// max ‖Σ repeatable‖: the radius of the error sphere about zero.
     pub repeatable_radius: Extreme,
@@ -99,35 +101,37 @@ impl Combined {
 }
 
 /// What was gathered over some configurations: [`Combined`] without the last steps.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gathered {
     combined: Combined,
-    /// The sums of squares of the three norms.
-    squares: [f64; 3],
-    cloud: Cloud,
+    outline: Outline,
 }
 
 impl Gathered {
     /// Of no configurations, beginning with the ellipsoid of some.
     pub(super) fn new(ellipsoid: Ellipsoid) -> Self {
         let combined = Combined { ellipsoid, ..Combined::default() };
-        Self { combined, squares: [0.0; 3], cloud: Cloud::default() }
+        Self { combined, outline: Outline::default() }
     }
 
-    /// Takes in what follows. The sphere is grown as it comes.
-    pub(super) fn merge(&mut self, other: &Self, sphere: &mut Enclosing) {
+    /// Takes in what follows.
+    pub(super) fn merge(&mut self, other: &Self) {
         self.combined.merge(&other.combined);
-        for (sum, other) in self.squares.iter_mut().zip(other.squares) {
-            *sum += other;
-        }
-        other.cloud.enclose(sphere);
+        self.outline.merge(&other.outline);
     }
 
-    /// The result for so many configurations.
-    pub(super) fn finish(self, count: usize, sphere: Enclosing) -> Combined {
+    /// Of the sum of the repeatable sources.
+    pub(super) fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// The result for so many configurations, with the sums of squares of the three norms, and some points.
+    pub(super) fn finish(self, count: usize, squares: [f64; 3], view: &View, known: &[[f64; 3]]) -> Combined {
         let mut combined = self.combined;
-        combined.rms = self.squares.map(|sum| (sum / count.max(1) as f64).sqrt());
+        combined.rms = squares.map(|sum| (sum / count.max(1) as f64).sqrt());
         if count > 0 {
-            combined.enclosing = sphere.finish();
+            combined.enclosing = self.outline.sphere(view, known);
         }
         combined
     }
@@ -135,7 +139,7 @@ impl Gathered {
 
 /// Gathers what all sources do together in lanes.
 pub(super) struct Lane<R: Register> {
-    cloud: cloud::Lane<R>,
+    outline: outline::Lane<R>,
     ellipsoid: Ellipsoid,
     repeatable_square: Peak<R>,
     random_square: Peak<R>,
@@ -151,11 +155,11 @@ pub(super) struct Lane<R: Register> {
 }
 
 impl<R: Register> Lane<R> {
-    /// Beginning with the ellipsoid and the sphere of some configurations from everywhere.
-    pub(super) fn new(ellipsoid: Ellipsoid, shell: Shell) -> Self {
+    /// Beginning with the ellipsoid of some configurations from everywhere, and the view of their errors.
+    pub(super) fn new(ellipsoid: Ellipsoid, view: View) -> Self {
         let zero = Lanes::constant(0.0);
         Self {
-            cloud: cloud::Lane::new(shell),
+            outline: outline::Lane::new(view),
             ellipsoid,
             repeatable_square: Peak::none(),
             random_square: Peak::none(),
@@ -197,7 +201,7 @@ impl<R: Register> Lane<R> {
         if self.may_be_longer(covariance) {
             self.longer(sums, &index);
         }
-        self.cloud.add(sums.repeatable, weight);
+        self.outline.add(sums.repeatable, weight);
     }
 
     /// Whether `λ I − Σ` with the largest eigenvalue λ so far is not positive definite somewhere (Sylvester).
@@ -235,8 +239,8 @@ impl<R: Register> Lane<R> {
         }
     }
 
-    /// What was gathered, with the indices of the places.
-    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Gathered {
+    /// What was gathered, with the indices of the places; and the sums of squares of the three norms.
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Gathered, [f64; 3]) {
         let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
             let (value, configuration) =
                 peak.finish().map(|(value, place)| (f(value), Some(index(place)))).unwrap_or_default();
@@ -257,7 +261,6 @@ impl<R: Register> Lane<R> {
             ellipsoid: self.ellipsoid,
             ..Combined::default()
         };
-        let squares = self.squares.map(peak::sum);
-        Gathered { combined, squares, cloud: self.cloud.finish() }
+        (Gathered { combined, outline: self.outline.finish() }, self.squares.map(peak::sum))
     }
 }

@@ -34,6 +34,7 @@ pub fn covariance(sources: &[Source], deviations: &[[f64; 6]], measurand: Measur
 
 /// The region that holds a normal error with 95 % probability.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ellipsoid {
     /// Half its lengths `√(χ² λ_i)`, the largest first, in the length unit; χ² is that of the rank.
     pub semi_axes: [f64; 3],

@@ -1,9 +1,10 @@
-//! The smallest sphere around a cloud of points that passes by once.
+//! The smallest sphere around points.
 
 use nalgebra::{Matrix3, Vector3};
 
 /// A sphere around all points of a cloud. Lengths in the length unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sphere {
     /// Its centre.
     pub centre: [f64; 3],
@@ -15,118 +16,38 @@ pub struct Sphere {
 
 /// A point this much outside, in shares of the radius, is inside.
 const ROUNDING: f64 = 1e-12;
-/// Points inside but this near to the sphere are kept, in shares of the radius.
-const SHELL: f64 = 0.1;
-/// The most of them that are kept: some 25 MB.
-const KEPT: usize = 1 << 20;
 
-/// The smallest sphere around points that come one by one.
-///
-/// A point outside the sphere so far becomes a candidate, and the sphere that of all candidates; its radius r is
-/// never larger than that of the smallest sphere. Points just inside are kept, and become candidates in the end.
-/// All others are forgotten; while the sphere had the centre c_j they were within a distance r_j of it, and so they
-/// are within `max_j ‖c − c_j‖ + r_j` of the centre in the end. Where this is no more than r, the sphere is the
-/// smallest. Beginning with points from everywhere keeps the centre from moving far.
-#[derive(Default)]
-pub(super) struct Enclosing {
-    candidates: Vec<Vector3<f64>>,
-    /// At most four of them, on the sphere.
-    support: Vec<Vector3<f64>>,
-    ball: Ball,
-    /// Points just inside.
-    shell: Vec<Vector3<f64>>,
-    /// The furthest point that was forgotten while the centre was where it is.
-    forgotten: f64,
-    /// The same for the centres before.
-    earlier: Vec<Ball>,
-}
-
-/// Points within the inner radius of the centre need not be kept.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Shell {
-    pub(super) centre: [f64; 3],
-    pub(super) inner: f64,
-}
-
+/// The smallest sphere around some points.
 #[derive(Clone, Copy, Debug, Default)]
-struct Ball {
-    centre: Vector3<f64>,
-    radius: f64,
+pub(super) struct Ball {
+    pub(super) centre: Vector3<f64>,
+    pub(super) radius: f64,
 }
 
 impl Ball {
-    fn holds(&self, point: &Vector3<f64>) -> bool {
-        (point - self.centre).norm() <= self.radius * (1.0 + ROUNDING)
-    }
-}
-
-impl Enclosing {
-    /// Of points that are all kept.
-    pub(super) fn new(points: impl Iterator<Item = [f64; 3]>) -> Self {
-        let mut sphere = Self { candidates: points.map(Vector3::from).collect(), ..Self::default() };
-        if let Some(first) = sphere.candidates.first().copied() {
-            sphere.support = vec![first];
-            sphere.ball = Ball { centre: first, radius: 0.0 };
-            sphere.grow();
-        }
-        sphere
-    }
-
-    /// Takes in a point.
-    pub(super) fn add(&mut self, point: [f64; 3]) {
-        let point = Vector3::from(point);
-        let distance = (point - self.ball.centre).norm();
-        if self.candidates.is_empty() {
-            *self = Self::new([point.into()].into_iter());
-        } else if !self.ball.holds(&point) {
-            self.earlier.push(Ball { centre: self.ball.centre, radius: self.forgotten });
-            self.forgotten = 0.0;
-            self.candidates.push(point);
-            self.grow();
-        } else if distance > (1.0 - SHELL) * self.ball.radius && self.shell.len() < KEPT {
-            self.shell.push(point);
-        } else {
-            self.forgotten = self.forgotten.max(distance);
-        }
-    }
-
-    /// What is certainly inside, and will be, as long as the sphere is where it is now.
-    pub(super) fn shell(&self) -> Shell {
-        Shell { centre: self.ball.centre.into(), inner: (1.0 - SHELL) * self.ball.radius }
-    }
-
-    /// Takes in points within a distance of the centre that the sphere began with.
-    pub(super) fn forget(&mut self, distance: f64) {
-        let first = self.earlier.first_mut().map_or(&mut self.forgotten, |first| &mut first.radius);
-        *first = first.max(distance);
-    }
-
-    pub(super) fn finish(mut self) -> Sphere {
-        self.earlier.push(Ball { centre: self.ball.centre, radius: self.forgotten });
-        self.candidates.append(&mut self.shell);
-        self.grow();
-        let Ball { centre, radius } = self.ball;
-        let reach = |earlier: &Ball| (centre - earlier.centre).norm() + earlier.radius;
-        let certain = self.earlier.iter().map(reach).fold(radius, f64::max);
-        Sphere { centre: centre.into(), radius: certain, excess: certain - radius }
-    }
-
-    /// Takes in the furthest candidate again and again until all are inside; the radius grows every time.
-    fn grow(&mut self) {
+    /// Takes in the furthest point again and again until all are inside; the radius grows every time.
+    pub(super) fn around(points: &[Vector3<f64>]) -> Self {
+        let Some(first) = points.first() else { return Self::default() };
+        // At most four of them, on the sphere.
+        let mut support = vec![*first];
+        let mut ball = Self { centre: *first, radius: 0.0 };
         loop {
-            let distance = |point: &&Vector3<f64>| (*point - self.ball.centre).norm_squared();
-            let furthest = self.candidates.iter().max_by(|a, b| distance(a).total_cmp(&distance(b)));
-            let Some(&furthest) = furthest.filter(|point| !self.ball.holds(point)) else { return };
-            let mut points = self.support.clone();
-            points.push(furthest);
-            let Some((ball, support)) = smallest(&points).filter(|(ball, _)| ball.radius > self.ball.radius)
+            let distance = |point: &&Vector3<f64>| (*point - ball.centre).norm_squared();
+            let furthest = points.iter().max_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let Some(&furthest) = furthest.filter(|point| !ball.holds(point)) else { return ball };
+            let mut tried = support.clone();
+            tried.push(furthest);
+            let Some((larger, on)) = smallest(&tried).filter(|(larger, _)| larger.radius > ball.radius)
             else {
                 // Rounding is all that is left: the sphere takes the point in about its centre.
-                self.ball.radius = (furthest - self.ball.centre).norm();
-                return;
+                return Self { radius: (furthest - ball.centre).norm(), ..ball };
             };
-            (self.ball, self.support) = (ball, support);
+            (ball, support) = (larger, on);
         }
+    }
+
+    fn holds(&self, point: &Vector3<f64>) -> bool {
+        (point - self.centre).norm() <= self.radius * (1.0 + ROUNDING)
     }
 }
 
@@ -162,51 +83,21 @@ fn circumscribed(points: &[Vector3<f64>]) -> Option<Ball> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::sampling::{halton, norm};
-
-    fn cloud(count: usize) -> impl Iterator<Item = [f64; 3]> {
-        (1..=count).map(|i| core::array::from_fn(|k| (k + 1) as f64 * (halton(i, k) - 0.5) + 10.0))
-    }
 
     #[test]
     fn corners_of_a_box_are_on_their_sphere() {
-        let corners = (0..8).map(|i| [0, 1, 2].map(|k| f64::from(k + 1) * f64::from(i >> k & 1)));
-        let sphere = Enclosing::new(corners).finish();
-        assert!((sphere.radius - 14_f64.sqrt() / 2.0).abs() < 1e-12 && sphere.excess == 0.0);
-        assert!(norm(core::array::from_fn(|k| sphere.centre[k] - (k + 1) as f64 / 2.0)) < 1e-12);
+        let corners =
+            (0..8).map(|i| Vector3::from([0, 1, 2].map(|k| f64::from(k + 1) * f64::from(i >> k & 1))));
+        let ball = Ball::around(&corners.collect::<Vec<_>>());
+        assert!((ball.radius - 14_f64.sqrt() / 2.0).abs() < 1e-12);
+        assert!((ball.centre - Vector3::new(0.5, 1.0, 1.5)).norm() < 1e-12);
     }
 
     #[test]
     fn one_point_equal_points_and_none() {
-        assert_eq!(Enclosing::default().finish(), Sphere::default());
-        let mut sphere = Enclosing::default();
-        for _ in 0..3 {
-            sphere.add([1.0, 2.0, 3.0]);
-        }
-        assert_eq!(sphere.finish(), Sphere { centre: [1.0, 2.0, 3.0], radius: 0.0, excess: 0.0 });
-    }
-
-    #[test]
-    fn a_stream_comes_within_what_it_says_of_the_smallest() {
-        let exact = Enclosing::new(cloud(5000)).finish();
-        let mut stream = Enclosing::new(cloud(5000).skip(7).step_by(25));
-        cloud(5000).for_each(|point| stream.add(point));
-        let found = stream.finish();
-        assert!(exact.excess == 0.0 && found.excess == 0.0, "{found:?}");
-        assert!((found.radius / exact.radius - 1.0).abs() < 1e-9);
-        // Without a good beginning it says how far off it may be.
-        let mut blind = Enclosing::default();
-        cloud(5000).for_each(|point| blind.add(point));
-        let blind = blind.finish();
-        assert!(blind.radius - blind.excess <= exact.radius * (1.0 + 1e-9));
-        assert!(
-            blind.radius >= exact.radius * (1.0 - 1e-9) && blind.excess < 0.5 * exact.radius,
-            "{blind:?}"
-        );
-        for point in cloud(5000) {
-            let from = |sphere: &Sphere| norm(core::array::from_fn(|k| point[k] - sphere.centre[k]));
-            assert!(from(&exact) <= exact.radius * (1.0 + 1e-9));
-            assert!(from(&found) <= found.radius * (1.0 + 1e-9));
-        }
+        assert_eq!(Ball::around(&[]).radius, 0.0);
+        let point = Vector3::new(1.0, 2.0, 3.0);
+        let ball = Ball::around(&[point; 3]);
+        assert_eq!((ball.centre, ball.radius), (point, 0.0));
     }
 }

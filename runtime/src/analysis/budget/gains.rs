@@ -12,6 +12,8 @@ const PERCENT: f64 = 0.01;
 ///
 /// `ρ_k = max_q ‖Σ r − r_k/100‖ + ‖RSS‖` for a repeatable source, and for a random one the root sum of squares with
 /// `0.99 b_k`. The maximum is looked for again, because it may move.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gains {
     remaining: Vec<f64>,
 }
@@ -27,6 +29,11 @@ impl Gains {
         for (remaining, other) in self.remaining.iter_mut().zip(&other.remaining) {
             *remaining = remaining.max(*other);
         }
+    }
+
+    /// Of how many sources it is.
+    pub(super) fn len(&self) -> usize {
+        self.remaining.len()
     }
 
     /// By how much the radius shrinks for each source; less than nothing where it counteracts the others.

@@ -1,10 +1,10 @@
 //! What is gathered of one measurand: position, or orientation.
 
-use super::cloud::{self, Cloud};
+use super::aligned_sums::AlignedSums;
 use super::combined::{self, Gathered};
-use super::enclosing_sphere::{Enclosing, Shell};
 use super::gains::{self, Gains};
 use super::least_likely::{self, LeastLikely};
+use super::outline::{self, Outline, View};
 use super::source_errors::{self, Tally};
 use super::sums::Sums;
 use super::{Combined, Ellipsoid, SourceErrors, covariance};
@@ -38,36 +38,24 @@ impl Scattered {
         }
     }
 
-    /// What every chunk begins with, and the spheres that grow.
-    pub(super) fn finish(
-        self,
-        classes: &[Class],
-        home: &[[f64; 6]],
-        tolerance: Option<f64>,
-    ) -> (Beginning, Spheres) {
+    /// What every chunk begins with.
+    pub(super) fn finish(self, classes: &[Class], home: &[[f64; 6]], tolerance: Option<f64>) -> Beginning {
         let Self { measurand, points, alone, ellipsoid } = self;
         // A little less, for the sweep to find where it is.
         let mut ellipsoid = Ellipsoid { principal: ellipsoid.principal, ..Ellipsoid::default() };
         ellipsoid.principal.deviations = ellipsoid.principal.deviations.map(|axis| axis * (1.0 - 1e-6));
-        let enclosing = |points: Vec<[f64; 3]>| Enclosing::new(points.into_iter());
-        let spheres = Spheres { all: enclosing(points), alone: alone.into_iter().map(enclosing).collect() };
-        let beginning = Beginning {
+        Beginning {
             measurand,
             tolerance,
             classes: classes.to_vec(),
             home: home.iter().map(|error| measurand.rows(error)).collect(),
             ellipsoid,
-            shell: spheres.all.shell(),
-            shells: spheres.alone.iter().map(Enclosing::shell).collect(),
-        };
-        (beginning, spheres)
+            view: View::of(&points),
+            views: alone.iter().map(|points| View::of(points)).collect(),
+            points,
+            alone,
+        }
     }
-}
-
-/// The smallest spheres around all errors, and around those of each source.
-pub(super) struct Spheres {
-    all: Enclosing,
-    alone: Vec<Enclosing>,
 }
 
 /// What every chunk begins with.
@@ -77,15 +65,22 @@ pub(super) struct Beginning {
     classes: Vec<Class>,
     home: Vec<[f64; 3]>,
     ellipsoid: Ellipsoid,
-    shell: Shell,
-    shells: Vec<Shell>,
+    /// Errors from everywhere, of all sources together and of each alone, and from where their outlines are seen.
+    points: Vec<[f64; 3]>,
+    alone: Vec<Vec<[f64; 3]>>,
+    view: View,
+    views: Vec<View>,
 }
 
 /// What some configurations came to.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Gathering {
     tallies: Vec<Tally>,
-    clouds: Vec<Cloud>,
+    outlines: Vec<Outline>,
     gathered: Gathered,
+    /// Of the norm of each source, then of the three norms of all together.
+    squares: AlignedSums,
     gains: Gains,
     least_likely: LeastLikely,
 }
@@ -95,22 +90,24 @@ impl Gathering {
     pub(super) fn new(sources: usize) -> Self {
         Self {
             tallies: vec![Tally::new(); sources],
-            clouds: Vec::new(),
+            outlines: vec![Outline::default(); sources],
             gathered: Gathered::new(Ellipsoid::default()),
+            squares: AlignedSums::default(),
             gains: Gains::new(sources),
             least_likely: LeastLikely::default(),
         }
     }
 
-    /// Takes in what follows. The spheres are grown as it comes.
-    pub(super) fn merge(&mut self, other: &Self, spheres: &mut Spheres) {
+    /// Takes in what follows.
+    pub(super) fn append(&mut self, other: Self) {
         for (tally, other) in self.tallies.iter_mut().zip(&other.tallies) {
             tally.merge(other);
         }
-        for (cloud, sphere) in other.clouds.iter().zip(&mut spheres.alone) {
-            cloud.enclose(sphere);
+        for (outline, other) in self.outlines.iter_mut().zip(&other.outlines) {
+            outline.merge(other);
         }
-        self.gathered.merge(&other.gathered, &mut spheres.all);
+        self.gathered.merge(&other.gathered);
+        self.squares.append(other.squares);
         self.gains.merge(&other.gains);
         self.least_likely.merge(&other.least_likely);
     }
@@ -120,18 +117,31 @@ impl Gathering {
     pub(super) fn finish(
         self,
         beginning: &Beginning,
-        spheres: Spheres,
         count: usize,
     ) -> (Vec<SourceErrors>, Combined, Vec<f64>, Vec<usize>) {
-        let sources = self.tallies.into_iter().zip(spheres.alone).enumerate();
-        let sources = sources.map(|(i, (tally, sphere))| {
+        let mut squares = self.squares.total();
+        squares.resize(beginning.classes.len() + 3, 0.0);
+        let (alone, together) = squares.split_at(beginning.classes.len());
+        let sources = self.tallies.into_iter().zip(self.outlines).enumerate();
+        let sources = sources.map(|(i, (tally, outline))| {
             let (class, home) = (beginning.classes[i], beginning.home[i]);
-            tally.finish(i, class, home, sphere, count)
+            let sphere = outline.sphere(&beginning.views[i], &beginning.alone[i]);
+            tally.finish(i, class, home, sphere, alone[i] / count.max(1) as f64)
         });
         let sources = sources.collect();
-        let combined = self.gathered.finish(count, spheres.all);
+        let together = core::array::from_fn(|i| together[i]);
+        let combined = self.gathered.finish(count, together, &beginning.view, &beginning.points);
         let gains = self.gains.gains(combined.radius.value);
         (sources, combined, gains, self.least_likely.finish())
+    }
+
+    /// Whether it is of so many sources.
+    pub(super) fn is_of(&self, sources: usize) -> bool {
+        let sound = self.outlines.iter().chain([self.gathered.outline()]).all(Outline::is_sound);
+        sound
+            && self.tallies.len() == sources
+            && self.outlines.len() == sources
+            && self.gains.len() == sources
     }
 }
 
@@ -139,7 +149,7 @@ impl Gathering {
 pub(super) struct Lane<R: Register> {
     measurand: Measurand,
     singles: Vec<source_errors::Lane<R>>,
-    clouds: Vec<Option<cloud::Lane<R>>>,
+    outlines: Vec<Option<outline::Lane<R>>>,
     all: combined::Lane<R>,
     shrunk: gains::Lane<R>,
     least_likely: Option<least_likely::Lane>,
@@ -149,17 +159,17 @@ pub(super) struct Lane<R: Register> {
 
 impl<R: Register> Lane<R> {
     pub(super) fn new(beginning: &Beginning) -> Self {
-        let Beginning { measurand, tolerance, classes, home, ellipsoid, shell, shells } = beginning;
+        let Beginning { measurand, tolerance, classes, home, ellipsoid, view, views, .. } = beginning;
         let singles = classes.iter().zip(home).map(|(class, home)| source_errors::Lane::new(*class, *home));
         let repeatable = |class: &Class| *class == Class::Repeatable;
-        let clouds = classes.iter().zip(shells);
+        let outlines = classes.iter().zip(views);
         Self {
             measurand: *measurand,
             singles: singles.collect(),
-            clouds: clouds
-                .map(|(class, shell)| repeatable(class).then(|| cloud::Lane::new(*shell)))
+            outlines: outlines
+                .map(|(class, view)| repeatable(class).then(|| outline::Lane::new(*view)))
                 .collect(),
-            all: combined::Lane::new(*ellipsoid, *shell),
+            all: combined::Lane::new(*ellipsoid, *view),
             shrunk: gains::Lane::new(classes.len()),
             least_likely: tolerance.map(least_likely::Lane::new),
             norm_of: vec![Lanes::constant(0.0); classes.len()],
@@ -172,8 +182,8 @@ impl<R: Register> Lane<R> {
         let first = 6 * k + self.measurand.first();
         let here = [rows[first], rows[first + 1], rows[first + 2]];
         self.singles[k].add(here, place, weight);
-        if let Some(cloud) = &mut self.clouds[k] {
-            cloud.add(here, weight);
+        if let Some(outline) = &mut self.outlines[k] {
+            outline.add(here, weight);
         }
     }
 
@@ -198,12 +208,19 @@ impl<R: Register> Lane<R> {
         sums
     }
 
-    pub(super) fn finish(self, index: impl Fn(usize) -> usize + Copy) -> Gathering {
-        let clouds = self.clouds.into_iter().map(|cloud| cloud.map(cloud::Lane::finish).unwrap_or_default());
+    /// What was gathered in the chunk of that number.
+    pub(super) fn finish(self, chunk: usize, index: impl Fn(usize) -> usize + Copy) -> Gathering {
+        let outlines = self.outlines.into_iter();
+        let outlines = outlines.map(|outline| outline.map(outline::Lane::finish).unwrap_or_default());
+        let singles = self.singles.into_iter().map(|single| single.finish(index));
+        let (tallies, mut squares): (Vec<_>, Vec<_>) = singles.unzip();
+        let (gathered, together) = self.all.finish(index);
+        squares.extend(together);
         Gathering {
-            tallies: self.singles.into_iter().map(|single| single.finish(index)).collect(),
-            clouds: clouds.collect(),
-            gathered: self.all.finish(index),
+            tallies,
+            outlines: outlines.collect(),
+            gathered,
+            squares: AlignedSums::of(chunk, squares),
             gains: self.shrunk.finish(),
             least_likely: self.least_likely.map(least_likely::Lane::finish).unwrap_or_default(),
         }

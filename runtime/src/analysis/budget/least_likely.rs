@@ -15,6 +15,7 @@ const NONE: f64 = 1e-24;
 /// `κ_2 = 2 tr C² + 4 bᵀ C b`. Its root is nearly normal, with the mean `√(κ_1 − κ_2/(4 κ_1))` and the standard deviation
 /// `√κ_2 / (2 √κ_1)`: configurations are ranked by how many of these T is above that mean.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct LeastLikely(Vec<(f64, usize)>);
 
 impl LeastLikely {

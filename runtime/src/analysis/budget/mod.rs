@@ -4,7 +4,7 @@
 //! tile, and what that comes to, which is merged chunk after chunk.
 
 mod admissible;
-mod cloud;
+mod aligned_sums;
 mod combined;
 mod ellipsoid;
 mod enclosing_sphere;
@@ -12,6 +12,8 @@ mod error_budget;
 mod gains;
 mod gathering;
 mod least_likely;
+mod outline;
+mod part;
 mod peak;
 mod remaining_errors;
 mod source_errors;
@@ -22,5 +24,6 @@ pub use combined::{Combined, Extreme};
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use enclosing_sphere::Sphere;
 pub use error_budget::{Asked, Budget, OrientationErrors, Watch, error_budget};
+pub use part::{BudgetPart, Gap, Survey};
 pub use remaining_errors::{RemainingErrors, Residual};
 pub use source_errors::{Figures, SourceErrors};

@@ -18,6 +18,7 @@ pub enum Residual {
 /// What compensation leaves of all sources, and the total absolute accuracy, gathered configuration by
 /// configuration. Random errors cannot be compensated: they remain as they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RemainingErrors {
     /// max √(Σ ρ_k²) with the residuals ρ_k of the repeatable sources: their signs are unknown and independent.
     pub residual: Extreme,

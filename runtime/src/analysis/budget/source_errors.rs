@@ -1,6 +1,6 @@
 //! What one source does alone over the workspace, in three metrics.
 
-use super::enclosing_sphere::Enclosing;
+use super::enclosing_sphere::Sphere;
 use super::peak::{self, Peak};
 use crate::lanes::{Lanes, Register};
 use crate::{Class, Scalar};
@@ -57,24 +57,18 @@ pub struct SourceErrors {
 
 /// What one source does over some configurations: [`SourceErrors`] without the last steps.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Tally {
     least: [f64; 3],
     largest: [f64; 4],
     worst: Option<usize>,
-    squares: f64,
     relative: f64,
 }
 
 impl Tally {
     /// Of no configurations.
     pub(super) fn new() -> Self {
-        Self {
-            least: [f64::INFINITY; 3],
-            largest: [f64::NEG_INFINITY; 4],
-            worst: None,
-            squares: 0.0,
-            relative: 0.0,
-        }
+        Self { least: [f64::INFINITY; 3], largest: [f64::NEG_INFINITY; 4], worst: None, relative: 0.0 }
     }
 
     /// Takes in what follows.
@@ -88,21 +82,19 @@ impl Tally {
         for (largest, other) in self.largest.iter_mut().zip(other.largest) {
             *largest = largest.max(other);
         }
-        self.squares += other.squares;
         self.relative = self.relative.max(other.relative);
     }
 
-    /// The errors of a source with this error (bound, if random) at home and this sphere around all, over so many
-    /// configurations.
+    /// The errors of a source with this error (bound, if random) at home, this sphere around all and this mean square.
     pub(super) fn finish(
         self,
         source: usize,
         class: Class,
         home: [f64; 3],
-        sphere: Enclosing,
-        count: usize,
+        sphere: Sphere,
+        mean_square: f64,
     ) -> SourceErrors {
-        let Self { least, largest, worst, squares, relative } = self;
+        let Self { least, largest, worst, relative } = self;
         let none = Figures::default();
         let (plain_max, half_peak_to_peak, relative_to_home) = if worst.is_none() {
             (none, none, none)
@@ -117,12 +109,12 @@ impl Tally {
                 Class::Random(_) => plain(i) + home[i].abs(),
             });
             let half = match class {
-                Class::Repeatable => [half(0), half(1), half(2), sphere.finish().radius].into(),
+                Class::Repeatable => [half(0), half(1), half(2), sphere.radius].into(),
                 Class::Random(_) => plain_max,
             };
             (plain_max, half, [x, y, z, relative].into())
         };
-        let rms = (squares / count.max(1) as f64).sqrt();
+        let rms = mean_square.sqrt();
         SourceErrors { source, class, plain_max, half_peak_to_peak, relative_to_home, rms, worst }
     }
 }
@@ -171,17 +163,17 @@ impl<R: Register> Lane<R> {
         }
     }
 
-    /// What was gathered, with the index of the place that is worst.
-    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> Tally {
+    /// What was gathered, with the index of the place that is worst; and the sum of the squares of the norm.
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Tally, f64) {
         let [a, b, c] = self.largest.map(peak::largest);
         let worst = self.square.finish();
         let root = |square: f64| square.max(0.0).sqrt();
-        Tally {
+        let tally = Tally {
             least: self.least.map(peak::least),
             largest: [a, b, c, worst.map_or(f64::NEG_INFINITY, |(square, _)| root(square))],
             worst: worst.map(|(_, place)| index(place)),
-            squares: peak::sum(self.squares),
             relative: root(peak::largest(self.relative)),
-        }
+        };
+        (tally, peak::sum(self.squares))
     }
 }

@@ -9,6 +9,7 @@ pub const FLAT: f64 = 1e-12;
 
 /// The principal axes of a covariance, the longest first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Principal {
     /// The standard deviations along them, 0 where there is none.
     pub deviations: [f64; 3],

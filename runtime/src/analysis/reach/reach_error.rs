@@ -6,6 +6,7 @@ use crate::Error;
 
 /// Why a target could not be reached. Lengths in the manipulator's unit, angles in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ReachError {
     /// No values of the free variables were found that reach it, with limits or without.
     OutOfReach {

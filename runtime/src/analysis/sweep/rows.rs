@@ -81,7 +81,7 @@ pub fn sweep(
             block.visit(&mut here, visit);
         },
     )?;
-    Ok(unreachables)
+    Ok(unreachables.finish())
 }
 
 /// Whether a workspace is that of a manipulator.

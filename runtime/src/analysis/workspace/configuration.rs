@@ -5,6 +5,7 @@ use crate::analysis::sampling;
 
 /// A configuration: joint variables, structural parameters (the tool point is one of those), and inputs.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Configuration {
     /// The joint variables.
     pub q: Vec<f64>,

@@ -7,6 +7,7 @@ use crate::analysis::ReachError;
 
 /// A configuration that was asked for and could not be had.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unreachable {
     /// Its index in the workspace.
     pub index: usize,
@@ -23,6 +24,7 @@ const LISTED: usize = 1000;
 
 /// What of a workspace could not be reached.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnreachableSummary {
     /// How many.
     pub count: usize,
@@ -36,20 +38,30 @@ pub struct UnreachableSummary {
 impl UnreachableSummary {
     pub(in crate::analysis) fn add(&mut self, unreachable: Unreachable) {
         self.count += 1;
-        let reason = unreachable.reason;
-        match self.reasons.iter().position(|(known, _)| alike(known, &reason)) {
-            Some(mut place) => {
-                self.reasons[place].1 += 1;
-                // Kept in order, of equals the earlier first.
-                while place > 0 && self.reasons[place - 1].1 < self.reasons[place].1 {
-                    self.reasons.swap(place - 1, place);
-                    place -= 1;
-                }
-            }
-            None => self.reasons.push((reason, 1)),
-        }
+        self.count_reason(unreachable.reason, 1);
         if self.first.len() < LISTED {
             self.first.push(unreachable);
+        }
+    }
+
+    /// Takes in what follows.
+    pub(in crate::analysis) fn append(&mut self, other: Self) {
+        self.count += other.count;
+        other.reasons.into_iter().for_each(|(reason, count)| self.count_reason(reason, count));
+        let room = LISTED - self.first.len();
+        self.first.extend(other.first.into_iter().take(room));
+    }
+
+    /// The most frequent kind first, of equals the earlier: so far they are in the order in which they came.
+    pub(in crate::analysis) fn finish(mut self) -> Self {
+        self.reasons.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
+        self
+    }
+
+    fn count_reason(&mut self, reason: ReachError, more: usize) {
+        match self.reasons.iter_mut().find(|(known, _)| alike(known, &reason)) {
+            Some((_, count)) => *count += more,
+            None => self.reasons.push((reason, more)),
         }
     }
 }

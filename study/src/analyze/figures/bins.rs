@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// What bins hold.
 pub trait Merge: Default {
@@ -12,8 +12,9 @@ pub trait Merge: Default {
 
 /// Bins of width 2^exponent, at most so many that are not empty.
 ///
-/// The narrowest that are few enough: what comes in decides the width, not the order in which it comes.
-#[derive(Clone, Debug)]
+/// The narrowest that are few enough: what comes in decides the width, not the order in which it comes. Serialized they can be
+/// read again; [`listed`] is what a report shows.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Bins<T> {
     finest: i32,
     exponent: i32,
@@ -123,10 +124,8 @@ impl<T: Merge> Bins<T> {
 }
 
 /// A list: the edges of every bin, and what it holds.
-impl<T: Merge + Serialize> Serialize for Bins<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.iter().map(|(key, content)| (self.edges(key), content)))
-    }
+pub fn listed<T: Merge + Serialize, S: Serializer>(bins: &Bins<T>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(bins.iter().map(|(key, content)| (bins.edges(key), content)))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The error of the tool point that a figure shows, and where.
 
 use abbe::analysis::Configuration;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The error of the tool point: the repeatable part, and the bound of the random one, plus or minus.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ pub fn norm(vector: [f64; 3]) -> f64 {
 }
 
 /// A configuration, serialized.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(remote = "Configuration")]
 pub(super) struct Place {
     q: Vec<f64>,

@@ -1,16 +1,16 @@
 //! The least and the largest errors within a bin, and where they are worst.
 
 use abbe::analysis::Configuration;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::bins::{Bins, Merge};
+use super::bins::{Bins, Merge, listed};
 use super::errors::{Errors, Place};
 
 /// The narrowest bins: a micrometre or a microradian.
 const FINEST: i32 = -20;
 
 /// From the least to the largest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Range {
     /// The lower end.
     pub least: f64,
@@ -49,7 +49,7 @@ impl Range {
 }
 
 /// A largest norm, and where.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Worst {
     /// In the length unit.
     pub norm: f64,
@@ -59,7 +59,7 @@ pub struct Worst {
 }
 
 /// What happens within a bin.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Extremes {
     /// Which values of the travel fell into it.
     pub travel: Range,
@@ -100,7 +100,7 @@ impl Merge for Extremes {
 
 /// The errors along a travel.
 #[derive(Clone, Debug, Serialize)]
-pub struct Envelope(pub Bins<Extremes>);
+pub struct Envelope(#[serde(serialize_with = "listed")] pub Bins<Extremes>);
 
 impl Envelope {
     /// So many different values are drawn as they are.
@@ -108,25 +108,25 @@ impl Envelope {
     /// Where there are more, so many bins of them.
     const TOGETHER: i64 = 48;
 
-    /// Ends the gathering.
-    pub(super) fn finish(&mut self) {
-        if self.0.are_wide() {
-            self.0.span_at_most(Self::TOGETHER);
-        }
+    /// Begins the gathering.
+    pub(super) fn bins() -> Bins<Extremes> {
+        Bins::new(FINEST, Self::APART)
     }
-}
 
-impl Default for Envelope {
-    fn default() -> Self {
-        Self(Bins::new(FINEST, Self::APART))
+    /// Ends the gathering.
+    pub(super) fn new(mut bins: Bins<Extremes>) -> Self {
+        if bins.are_wide() {
+            bins.span_at_most(Self::TOGETHER);
+        }
+        Self(bins)
     }
 }
 
 /// The errors over two travels: lines of bins, all of the same width in the end.
-#[derive(Clone, Debug)]
-pub(super) struct Grid(Bins<Line>);
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(in crate::analyze) struct Grid(Bins<Line>);
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Line {
     travel: Range,
     bins: Bins<Extremes>,
@@ -141,6 +141,11 @@ impl Grid {
         let line = self.0.at(first);
         line.travel.add(first);
         line.bins.at(second)
+    }
+
+    /// Takes in another one.
+    pub(super) fn merge(&mut self, other: Self) {
+        self.0.merge(other.0);
     }
 
     /// The values of both travels, and what happens there, line by line; nothing where nothing fell.

@@ -2,23 +2,42 @@
 
 use abbe::analysis::{Configuration, Row};
 use abbe::{Class, Description, Source};
+use serde::{Deserialize, Serialize};
 
+use super::bins::Bins;
 use super::errors::Errors;
-use super::extremes::{Envelope, Grid};
+use super::extremes::{Envelope, Extremes, Grid};
 use super::figure::Gathered;
-use super::histogram::Histogram;
+use super::histogram::{Count, Histogram};
 use super::points::Points;
 use crate::study_file::{Content, Figure, Over};
 
-/// What a figure shows.
-#[derive(Clone, Debug)]
-enum Data {
-    Travel(Envelope),
+/// What was gathered for a figure so far.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(in crate::analyze) enum Data {
+    Travel(Bins<Extremes>),
     Surface(Grid),
     Cloud(Points),
-    Histogram(Histogram),
+    Histogram([Bins<Count>; 4]),
     /// Nothing of single configurations.
     Whole,
+}
+
+impl Data {
+    /// Takes in what follows; says whether both are of one kind.
+    fn append(&mut self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Travel(here), Self::Travel(other)) => here.merge(other),
+            (Self::Surface(here), Self::Surface(other)) => here.merge(other),
+            (Self::Cloud(here), Self::Cloud(other)) => here.append(other),
+            (Self::Histogram(here), Self::Histogram(other)) => {
+                here.iter_mut().zip(other).for_each(|(here, other)| here.merge(other));
+            }
+            (Self::Whole, Self::Whole) => {}
+            _ => return false,
+        }
+        true
+    }
 }
 
 /// A figure in the making.
@@ -42,10 +61,10 @@ impl<'a> Gather<'a> {
             None => None,
         };
         let data = match figure.content {
-            Content::Travel(_) => Data::Travel(Envelope::default()),
+            Content::Travel(_) => Data::Travel(Envelope::bins()),
             Content::Surface(_) => Data::Surface(Grid::default()),
             Content::Cloud => Data::Cloud(Points::default()),
-            Content::Histogram => Data::Histogram(Histogram::default()),
+            Content::Histogram => Data::Histogram(Histogram::bins()),
             Content::Pareto | Content::Manipulator(_) => Data::Whole,
         };
         let is_random = |source: &Source| source.class != Class::Repeatable;
@@ -59,20 +78,30 @@ impl<'a> Gather<'a> {
         let errors = self.errors(row);
         let configuration = row.configuration;
         match (&mut self.data, self.figure.content) {
-            (Data::Travel(envelope), Content::Travel(over)) => {
+            (Data::Travel(bins), Content::Travel(over)) => {
                 let travel = value(over, configuration);
-                envelope.0.at(travel).add(travel, &errors, configuration);
+                bins.at(travel).add(travel, &errors, configuration);
             }
             (Data::Surface(grid), Content::Surface([first, second])) => {
                 let second = value(second, configuration);
                 grid.at(value(first, configuration), second).add(second, &errors, configuration);
             }
-            (Data::Cloud(points), _) => points.add(&errors, self.bounds, configuration),
-            (Data::Histogram(histogram), _) => {
-                histogram.add(if self.bounds { errors.random } else { errors.repeatable });
+            (Data::Cloud(points), _) => points.add(row.index, &errors, self.bounds, configuration),
+            (Data::Histogram(all), _) => {
+                Histogram::add(all, if self.bounds { errors.random } else { errors.repeatable });
             }
             _ => {}
         }
+    }
+
+    /// What was gathered so far.
+    pub(super) fn data(self) -> Data {
+        self.data
+    }
+
+    /// Takes in what follows; says whether it is of such a figure.
+    pub(super) fn append(&mut self, other: Data) -> bool {
+        self.data.append(other)
     }
 
     fn errors(&self, row: &Row) -> Errors {
@@ -87,16 +116,10 @@ impl<'a> Gather<'a> {
     /// What was gathered.
     pub(super) fn finish(self) -> Gathered {
         match self.data {
-            Data::Travel(mut envelope) => {
-                envelope.finish();
-                Gathered::Travel(envelope)
-            }
+            Data::Travel(bins) => Gathered::Travel(Envelope::new(bins)),
             Data::Surface(grid) => Gathered::Surface(grid.mesh()),
             Data::Cloud(points) => Gathered::Cloud(points),
-            Data::Histogram(mut histogram) => {
-                histogram.finish();
-                Gathered::Histogram(histogram)
-            }
+            Data::Histogram(all) => Gathered::Histogram(Histogram::new(all)),
             Data::Whole => Gathered::Pareto,
         }
     }

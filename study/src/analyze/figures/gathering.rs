@@ -6,7 +6,7 @@ use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 
 use super::figure::{Figure, Figures, Gathered};
-use super::gather::Gather;
+use super::gather::{Data, Gather};
 use super::stick::Stick;
 use crate::mistake;
 use crate::study_file::{Content, Study};
@@ -41,6 +41,17 @@ impl<'a> Gathering<'a> {
     pub(in crate::analyze) fn add(&mut self, row: &Row) {
         let here = self.figures.iter_mut().filter(|gather| gather.figure.region.is_none());
         here.for_each(|gather| gather.add(row));
+    }
+
+    /// What was gathered so far, figure by figure.
+    pub(in crate::analyze) fn data(self) -> Vec<Data> {
+        self.figures.into_iter().map(Gather::data).collect()
+    }
+
+    /// Takes in what follows; says whether it is of these figures.
+    pub(in crate::analyze) fn append(&mut self, data: Vec<Data>) -> bool {
+        let as_many = self.figures.len() == data.len();
+        as_many && self.figures.iter_mut().zip(data).all(|(gather, data)| gather.append(data))
     }
 
     /// Sweeps the workspaces that figures have of their own, and ends the gathering.

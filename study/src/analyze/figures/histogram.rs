@@ -1,16 +1,27 @@
 //! How often which error occurs.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize, Serializer};
 
-use super::bins::{Bins, Merge};
+use super::bins::{Bins, Merge, listed};
 use super::errors::norm;
 
 /// How often errors are in a bin: along x, y, z, and of the norm.
 #[derive(Clone, Debug, Serialize)]
-pub struct Histogram(pub [Bins<Count>; 4]);
+pub struct Histogram(#[serde(serialize_with = "all_listed")] pub [Bins<Count>; 4]);
+
+fn all_listed<S: Serializer>(all: &[Bins<Count>; 4], serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Listed<'a>(#[serde(serialize_with = "one_listed")] &'a Bins<Count>);
+
+    fn one_listed<S: Serializer>(bins: &&Bins<Count>, serializer: S) -> Result<S::Ok, S::Error> {
+        listed(bins, serializer)
+    }
+
+    serializer.collect_seq(all.iter().map(Listed))
+}
 
 /// How often.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Count(pub usize);
 
 impl Merge for Count {
@@ -19,23 +30,23 @@ impl Merge for Count {
     }
 }
 
-impl Default for Histogram {
-    fn default() -> Self {
-        // Finer than any error that matters, in m or mm.
-        Self(std::array::from_fn(|_| Bins::new(-50, 1024)))
-    }
-}
-
 impl Histogram {
+    /// Begins the gathering.
+    pub(super) fn bins() -> [Bins<Count>; 4] {
+        // Finer than any error that matters, in m or mm.
+        std::array::from_fn(|_| Bins::new(-50, 1024))
+    }
+
     /// Takes in an error.
-    pub(super) fn add(&mut self, error: [f64; 3]) {
+    pub(super) fn add(all: &mut [Bins<Count>; 4], error: [f64; 3]) {
         let [x, y, z] = error;
         let values = [x, y, z, norm(error)];
-        self.0.iter_mut().zip(values).for_each(|(bins, value)| bins.at(value).0 += 1);
+        all.iter_mut().zip(values).for_each(|(bins, value)| bins.at(value).0 += 1);
     }
 
     /// Ends the gathering: some twenty to forty bars.
-    pub(super) fn finish(&mut self) {
-        self.0.iter_mut().for_each(|bins| bins.span_at_most(40));
+    pub(super) fn new(mut all: [Bins<Count>; 4]) -> Self {
+        all.iter_mut().for_each(|bins| bins.span_at_most(40));
+        Self(all)
     }
 }

@@ -14,10 +14,11 @@ mod histogram;
 mod points;
 mod stick;
 
-pub use bins::{Bins, Merge};
+pub use bins::{Bins, Merge, listed};
 pub use errors::norm;
 pub use extremes::{Envelope, Extremes, Mesh, Range, Worst};
 pub use figure::{Figure, Figures, Gathered};
+pub(super) use gather::Data;
 pub(super) use gathering::Gathering;
 pub use histogram::{Count, Histogram};
 pub use points::{Point, Points};

@@ -1,13 +1,15 @@
 //! A part of the configurations, spread evenly over all of them.
 
 use abbe::analysis::Configuration;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::errors::{Errors, Place};
 
 /// An error in space.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
+    /// Its index in the workspace.
+    pub index: usize,
     /// Along x, y and z.
     pub error: [f64; 3],
     /// Where.
@@ -15,10 +17,10 @@ pub struct Point {
     pub configuration: Configuration,
 }
 
-/// Every so many configurations, and the worst of all.
-#[derive(Clone, Debug, Serialize)]
+/// Every so many configurations of the workspace, and the worst of all.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Points {
-    #[serde(skip)]
+    /// Those are kept whose index is a multiple of this, the least power of 2 that leaves few enough.
     stride: usize,
     seen: usize,
     /// Those that are kept.
@@ -31,27 +33,40 @@ impl Points {
     /// The most points that are kept.
     const MOST: usize = 5000;
 
-    /// Takes in the errors at the next configuration.
+    /// Takes in the errors at the configuration of that index.
     ///
     /// What is kept are the repeatable errors, or the bounds of the random ones.
-    pub(super) fn add(&mut self, errors: &Errors, bounds: bool, configuration: &Configuration) {
+    pub(super) fn add(&mut self, index: usize, errors: &Errors, bounds: bool, configuration: &Configuration) {
         let error = if bounds { errors.random } else { errors.repeatable };
-        let point = || Point { error, configuration: configuration.clone() };
-        if self.seen.is_multiple_of(self.stride) {
-            if self.kept.len() >= Self::MOST {
-                // Every other one of those that are there, and half as many of those to come.
-                let mut even = [true, false].into_iter().cycle();
-                self.kept.retain(|_| even.next().unwrap_or_default());
-                self.stride *= 2;
-            }
-            if self.seen.is_multiple_of(self.stride) {
-                self.kept.push(point());
-            }
+        let point = || Point { index, error, configuration: configuration.clone() };
+        if index.is_multiple_of(self.stride) {
+            self.kept.push(point());
+            self.thin();
         }
         self.seen += 1;
         let norm = errors.norm();
         if self.worst.as_ref().is_none_or(|(worst, _)| norm > *worst) {
             self.worst = Some((norm, point()));
+        }
+    }
+
+    /// Takes in what follows.
+    pub(super) fn append(&mut self, other: Self) {
+        self.stride = self.stride.max(other.stride);
+        self.kept.extend(other.kept);
+        self.kept.retain(|point| point.index.is_multiple_of(self.stride));
+        self.thin();
+        self.seen += other.seen;
+        let norm = |worst: &Option<(f64, Point)>| worst.as_ref().map(|(norm, _)| *norm);
+        if norm(&other.worst) > norm(&self.worst) {
+            self.worst = other.worst;
+        }
+    }
+
+    fn thin(&mut self) {
+        while self.kept.len() > Self::MOST {
+            self.stride *= 2;
+            self.kept.retain(|point| point.index.is_multiple_of(self.stride));
         }
     }
 
@@ -69,6 +84,8 @@ impl Default for Points {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::Range;
+
     use abbe::analysis::Configuration;
 
     use super::super::errors::Errors;
@@ -76,16 +93,25 @@ mod tests {
 
     #[test]
     fn they_are_few_and_evenly_spread() {
-        let mut points = Points::default();
         let configuration = Configuration { q: Vec::new(), s: Vec::new(), u: Vec::new() };
-        for i in 0..54_321 {
-            let repeatable = [f64::from(i), 0.0, 0.0];
-            points.add(&Errors { repeatable, random: [0.0; 3] }, false, &configuration);
-        }
+        let over = |range: Range<usize>| {
+            let mut points = Points::default();
+            for i in range {
+                let repeatable = [i as f64, 0.0, 0.0];
+                points.add(i, &Errors { repeatable, random: [0.0; 3] }, false, &configuration);
+            }
+            points
+        };
+        let points = over(0..54_321);
         assert!((2500..=5000).contains(&points.kept.len()), "{}", points.kept.len());
         for pair in points.kept.windows(2) {
             assert_eq!(pair[1].error[0] - pair[0].error[0], 16.0);
         }
-        assert_eq!(points.worst.map(|(norm, _)| norm), Some(54_320.0));
+        assert_eq!(points.worst.as_ref().map(|(norm, _)| *norm), Some(54_320.0));
+        // In parts they are the same.
+        let mut parts = over(0..17);
+        parts.append(over(17..40_001));
+        parts.append(over(40_001..54_321));
+        assert_eq!(format!("{parts:?}"), format!("{points:?}"));
     }
 }

@@ -1,0 +1,116 @@
+//! Puts parts together.
+
+use abbe_codegen::diagnostic::Diagnostics;
+
+use super::part::{Maker, Part};
+use super::shard::Shard;
+use crate::analyze::{Analyze, Report};
+use crate::mistake;
+use crate::notes::Notes;
+
+/// The report of all parts of an analysis, byte for byte that of one run, and the job that it answers. Each comes with what
+/// messages call it, in any order.
+pub fn merge(parts: Vec<(String, Part)>, notes: &mut dyn Notes) -> Result<(Analyze, Report), Diagnostics> {
+    let parts = in_order(parts)?;
+    // What is computed here must have the bits of what was computed there.
+    for (name, Part { made_by: Maker { version, machine }, .. }) in parts.iter().take(1) {
+        let here = Maker::here();
+        if (version, machine) != (&here.version, &here.machine) {
+            let message = format!(
+                "this part was made by abbe {version} on {machine}; this is abbe {} on {}",
+                here.version, here.machine
+            );
+            let help = "merge with that version of abbe, on a machine of that kind";
+            return Err(mistake::with_help(name, message, help));
+        }
+    }
+    let Some((name, first)) = parts.first() else {
+        return Err(mistake::with_help("merge", "there is no part", "give all parts of one analysis"));
+    };
+    let (name, question) = (name.clone(), first.question.clone());
+    let job = question.job(notes)?;
+    if question.identity(&job)? != first.identity {
+        let message =
+            "what the spec or the study read besides is no longer what it was when this part was made";
+        return Err(mistake::with_help(&name, message, "make all parts again"));
+    }
+    let named = parts.into_iter().map(|(name, part)| (name, part.shard, part.gathered));
+    let report = job.finish(named.collect(), notes)?;
+    Ok((job, report))
+}
+
+/// Whether the parts are all of one analysis, each once: in the order of their shards.
+fn in_order(mut parts: Vec<(String, Part)>) -> Result<Vec<(String, Part)>, Diagnostics> {
+    parts.sort_by_key(|(_, part)| part.shard);
+    let Some((first_name, first)) = parts.first() else { return Ok(parts) };
+    let Maker { version, machine } = &first.made_by;
+    for (name, part) in &parts {
+        let Maker { version: other, machine: another } = &part.made_by;
+        let (message, help) = if other != version {
+            let message = format!("this part was made by abbe {other}, {first_name} by abbe {version}");
+            (message, "make and merge all parts with one version of abbe".to_owned())
+        } else if another != machine {
+            let message =
+                format!("this part was made on {another}, {first_name} on {machine}: the last digits differ");
+            (message, "make all parts on machines of one kind".to_owned())
+        } else if part.identity != first.identity {
+            let message =
+                format!("this part and {first_name} are not of one analysis: {}", difference(first, part));
+            (message, "merge the parts of one spec, one study and the same options".to_owned())
+        } else if part.shard.of() != first.shard.of() {
+            let [one, other] = [first.shard.of(), part.shard.of()];
+            let message = format!("this is one of {other} parts, {first_name} one of {one}");
+            (message, "merge parts of one division: `--shard I/N` with the same N".to_owned())
+        } else {
+            continue;
+        };
+        return Err(mistake::with_help(name, message, help));
+    }
+    for ((one, a), (other, b)) in parts.iter().zip(parts.iter().skip(1)) {
+        if a.shard == b.shard {
+            let message = format!("this is part {}, as {one} is", b.shard);
+            return Err(mistake::with_help(other, message, "give every part once"));
+        }
+    }
+    let of = first.shard.of();
+    let missing = (1..=of)
+        .filter(|number| parts.binary_search_by_key(number, |(_, part)| part.shard.number()).is_err());
+    let missing = missing.filter_map(|number| Shard::new(number, of).ok()).collect::<Vec<_>>();
+    if let Some(shard) = missing.first() {
+        let shown = missing.iter().take(5).map(Shard::to_string).collect::<Vec<_>>().join(", ");
+        let more = if missing.len() > 5 { format!(" and {} more", missing.len() - 5) } else { String::new() };
+        let is = if missing.len() == 1 { "part" } else { "parts" };
+        let message = format!("missing: {is} {shown}{more}");
+        let help = format!(
+            "make it: `abbe analyze {} --shard {shard} --out FILE`, with the same options",
+            first.question.spec
+        );
+        return Err(mistake::with_help("merge", message, help));
+    }
+    Ok(parts)
+}
+
+/// In what two questions differ.
+fn difference(one: &Part, other: &Part) -> &'static str {
+    let (a, b) = (&one.question, &other.question);
+    let text = |written: &Option<super::Written>| written.as_ref().map(|written| written.text.clone());
+    if a.spec_text.is_none() && b.spec_text.is_none() && a.spec != b.spec
+        || text(&a.spec_text) != text(&b.spec_text)
+    {
+        "the specs differ"
+    } else if text(&a.study) != text(&b.study) {
+        "the studies differ"
+    } else if a.changes != b.changes {
+        "what was set, enabled or disabled differs"
+    } else if a.seed != b.seed {
+        "the seeds differ"
+    } else if a.monte_carlo != b.monte_carlo {
+        "the numbers of draws differ"
+    } else if a.figures != b.figures {
+        "one was made with figures, the other without"
+    } else if a.interpret != b.interpret {
+        "one was interpreted"
+    } else {
+        "files that they read besides differ"
+    }
+}
