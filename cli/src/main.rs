@@ -18,6 +18,7 @@ mod jacobian;
 mod list;
 mod man;
 mod measure;
+mod merge;
 mod monitor;
 mod number;
 mod output;
@@ -48,6 +49,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
+        Some(Command::Merge(arguments)) => merge::run(arguments),
         Some(Command::Generate(arguments)) => generate::run(arguments),
         Some(Command::Plan(arguments)) => plan::run(arguments),
         Some(Command::Simulate(arguments)) => simulate::run(arguments),

@@ -15,25 +15,28 @@ use crate::failure::Failure;
 use crate::output::{Outputs, Pending};
 
 /// The files of a folder; none appears before all are complete.
-pub(super) struct Files {
-    configurations: Writer<Pending>,
+pub(crate) struct Files {
+    /// Every configuration; parts hold none.
+    configurations: Option<Writer<Pending>>,
     sources: Writer<Pending>,
     unreachable: Writer<Pending>,
     /// What was drawn, if anything is to be.
     monte_carlo: Option<Writer<Pending>>,
+    /// The page that holds everything.
+    page: Pending,
     moved: Moved,
     /// The first thing that went wrong during the sweep.
     failure: Option<csv::Error>,
 }
 
 /// Which parameters and inputs a workspace moves.
-pub(super) struct Moved {
+pub(crate) struct Moved {
     parameters: Vec<usize>,
     inputs: Vec<usize>,
 }
 
 impl Moved {
-    pub(super) fn new(job: &Analyze) -> Self {
+    pub(crate) fn new(job: &Analyze) -> Self {
         Self { parameters: job.varying(), inputs: job.moving_inputs() }
     }
 }
@@ -48,15 +51,9 @@ impl Files {
         drawn: bool,
     ) -> Result<Self, Failure> {
         outputs.folder(folder)?;
-        let mut begin = |name: &str| outputs.file(&folder.join(name)).map(writer);
-        let mut files = Self {
-            configurations: begin("configurations.csv")?,
-            sources: begin("sources.csv")?,
-            unreachable: begin("unreachable.csv")?,
-            monte_carlo: if drawn { Some(begin("monte_carlo.csv")?) } else { None },
-            moved,
-            failure: None,
-        };
+        let configurations = writer(outputs.file(&folder.join("configurations.csv"))?);
+        let files = Self::begin(folder, outputs, moved, drawn)?;
+        let mut files = Self { configurations: Some(configurations), ..files };
         let unit = spec.length.symbol();
         let mut heading = vec!["configuration".to_owned()];
         heading.extend(names(spec, &files.moved));
@@ -66,8 +63,36 @@ impl Files {
                 ["x", "y", "z"].map(|axis| harmless(&format!("{what} {axis} ({unit})")).into_owned()),
             );
         }
-        files.keep(|files| files.configurations.write_record(&heading));
+        files.keep(|files| files.each(&heading));
         Ok(files)
+    }
+
+    /// Begins those that need no single configurations; makes the folder if there is none.
+    pub(crate) fn of_parts(
+        folder: &Path,
+        outputs: &mut Outputs,
+        moved: Moved,
+        drawn: bool,
+    ) -> Result<Self, Failure> {
+        outputs.folder(folder)?;
+        Self::begin(folder, outputs, moved, drawn)
+    }
+
+    fn begin(folder: &Path, outputs: &mut Outputs, moved: Moved, drawn: bool) -> Result<Self, Failure> {
+        let mut begin = |name: &str| outputs.file(&folder.join(name));
+        Ok(Self {
+            configurations: None,
+            sources: writer(begin("sources.csv")?),
+            unreachable: writer(begin("unreachable.csv")?),
+            monte_carlo: if drawn { Some(writer(begin("monte_carlo.csv")?)) } else { None },
+            page: begin(abbe_report::PAGE)?,
+            moved,
+            failure: None,
+        })
+    }
+
+    fn each(&mut self, record: &[String]) -> csv::Result<()> {
+        self.configurations.as_mut().map_or(Ok(()), |writer| writer.write_record(record))
     }
 
     /// Writes what the sweep sees.
@@ -78,11 +103,11 @@ impl Files {
         let together = row.repeatable[..3].iter().chain(&row.random[..3]);
         let numbers = pose.iter().chain(sources).chain(together).map(number);
         let record = std::iter::once(row.index.to_string()).chain(values).chain(numbers).collect::<Vec<_>>();
-        self.keep(|files| files.configurations.write_record(&record));
+        self.keep(|files| files.each(&record));
     }
 
-    /// Writes the other files. All are complete.
-    pub(super) fn finish(mut self, report: &Report) -> Result<Vec<Pending>, Failure> {
+    /// Writes the other files. All are complete but for the page.
+    pub(super) fn finish(mut self, report: &Report) -> Result<(Vec<Pending>, Pending), Failure> {
         self.keep(|files| write_sources(&mut files.sources, report));
         self.keep(|files| write_unreachable(&mut files.unreachable, report));
         self.keep(|files| match (&mut files.monte_carlo, &report.monte_carlo) {
@@ -92,9 +117,10 @@ impl Files {
         if let Some(error) = self.failure {
             return Err(Failure::of("--out", format!("cannot write the files: {error}")));
         }
-        let always = [self.configurations, self.sources, self.unreachable];
-        let all = always.into_iter().chain(self.monte_carlo).map(Writer::into_inner);
-        all.map(|file| file.map_err(|error| Failure::of("--out", error.error()))).collect()
+        let always = self.configurations.into_iter().chain([self.sources, self.unreachable]);
+        let all = always.chain(self.monte_carlo).map(Writer::into_inner);
+        let all = all.map(|file| file.map_err(|error| Failure::of("--out", error.error())));
+        Ok((all.collect::<Result<_, _>>()?, self.page))
     }
 
     fn keep(&mut self, write: impl FnOnce(&mut Self) -> csv::Result<()>) {

@@ -1,22 +1,31 @@
 //! `abbe analyze`: section 5 of the paper. What every source does over a workspace, alone and together.
 //!
-//! The job is asked and its report shown; `files` writes every configuration on the way, and the pictures in the end.
+//! The job is asked and its report shown; `files` writes every configuration on the way, and the pictures in the end. With
+//! `--shard` one part of the job is done, for `merge`.
 
 mod files;
 
+use std::io::Write;
+use std::path::Path;
+
 use abbe::analysis::Row;
+use abbe_study::Reads;
+use abbe_study::analyze::parts::{Part, Question, Shard};
 use abbe_study::analyze::{Analyze, Report, Verdict};
 
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
-use crate::output::{self, Outcome, Outputs, note};
+use crate::output::{self, Outcome, Outputs, cannot_write, note};
 
-use files::{Files, Moved};
+pub(crate) use files::{Files, Moved};
 
 pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
     arguments.running.start()?;
     let mut console = Console::default();
+    if let (Some(shard), Some(file)) = (arguments.shard, &arguments.out) {
+        return part(arguments, (shard, file), &mut console);
+    }
     let job = job(arguments, &mut console)?;
     let report = match &arguments.out {
         None => job.run(&mut console)?,
@@ -25,30 +34,75 @@ pub(crate) fn run(arguments: &arguments::Analyze) -> Result<Outcome, Failure> {
             let drawn = job.monte_carlo.is_some();
             let mut files =
                 Files::create(folder, &mut outputs, &job.machine().spec, Moved::new(&job), drawn)?;
-            let mut page = Some(outputs.file(&folder.join(abbe_report::PAGE))?);
             let mut show = |row: &Row| files.configuration(row);
             let report = job.run_showing(Some(&mut show), &mut console)?;
-            let mut complete = files.finish(&report)?;
-            for file in abbe_report::analysis(&report)? {
-                let begun = match page.take_if(|_| file.name == abbe_report::PAGE) {
-                    Some(page) => page,
-                    None => outputs.file(&folder.join(&file.name))?,
-                };
-                complete.push(begun.fill(&file.text)?);
-            }
-            outputs.finish(complete)?;
-            note_what_is_not_listed(&report);
+            write(folder, files, outputs, &report)?;
             report
         }
     };
-    let text =
-        if arguments.running.json { output::json(&report)? } else { abbe_report::text::analysis(&report) };
-    match (arguments.check, report.verdict()) {
+    shown(&report, arguments.running.json, arguments.check)
+}
+
+/// Writes what belongs to a report into its folder.
+pub(crate) fn write(
+    folder: &Path,
+    files: Files,
+    mut outputs: Outputs,
+    report: &Report,
+) -> Result<(), Failure> {
+    let (mut complete, page) = files.finish(report)?;
+    let mut page = Some(page);
+    for file in abbe_report::analysis(report)? {
+        let begun = match page.take_if(|_| file.name == abbe_report::PAGE) {
+            Some(page) => page,
+            None => outputs.file(&folder.join(&file.name))?,
+        };
+        complete.push(begun.fill(&file.text)?);
+    }
+    outputs.finish(complete)?;
+    note_what_is_not_listed(report);
+    Ok(())
+}
+
+/// The report as text or JSON, and whether tolerances are met, if that is asked.
+pub(crate) fn shown(report: &Report, json: bool, check: bool) -> Result<Outcome, Failure> {
+    let text = if json { output::json(report)? } else { abbe_report::text::analysis(report) };
+    match (check, report.verdict()) {
         (true, None) => Err(Failure::of("--check", "the study has no tolerance")
             .help("give one: tolerance = \"0.5 mm\" in its [study]")),
         (true, Some(Verdict::NotMet)) => Ok(Outcome::checked(text, false)),
         _ => Ok(Outcome::passed(text)),
     }
+}
+
+/// Sweeps one share of the workspace, and writes what was gathered.
+fn part(
+    arguments: &arguments::Analyze,
+    (shard, file): (Shard, &Path),
+    console: &mut Console,
+) -> Result<Outcome, Failure> {
+    let machine = arguments.subject.as_written()?;
+    let question = Question {
+        changes: arguments.subject.each_change(),
+        monte_carlo: arguments.monte_carlo.map(|draws| draws as usize),
+        seed: arguments.seed,
+        interpret: arguments.interpret,
+        figures: !arguments.no_figures,
+        ..Question::new(&machine, arguments.study.as_deref())?
+    };
+    let job = question.job(&mut ())?;
+    let study = arguments.study.iter().cloned();
+    let inputs = machine.files().into_iter().chain(job.files()).chain(study).collect::<Vec<_>>();
+    let mut outputs = Outputs::new(&inputs, arguments.writing.force);
+    let mut pending = outputs.file(file)?;
+    let part = Part::new(question, shard, console)?;
+    pending.write_all(&part.to_bytes()).map_err(|error| cannot_write(file, &error))?;
+    let printed = outputs.finish([pending])?;
+    let [reached, not] = part.configurations();
+    let name = &part.question().spec;
+    let text =
+        format!("part {shard} of {name}: {reached} configurations, and {not} that cannot be reached\n");
+    Ok(Outcome::passed(text).beside(printed))
 }
 
 fn job(arguments: &arguments::Analyze, console: &mut Console) -> Result<Analyze, Failure> {

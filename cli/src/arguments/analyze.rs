@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use abbe_study::analyze::parts::Shard;
 use clap::Args;
 
 use super::shared::{Running, Subject, Writing};
@@ -10,6 +11,8 @@ use super::shared::{Running, Subject, Writing};
   abbe analyze arm.toml --set payload=2kg --monte-carlo 10000
   abbe analyze arm.toml --study cell.toml --check
   abbe analyze arm.toml --out arm       pictures, too: arm/report.html opens offline
+  abbe analyze arm.toml --shard 1/2 --out 1.part
+  abbe analyze arm.toml --shard 2/2 --out 2.part    on another machine: see `abbe merge`
 ", "with --check: a tolerance of the study is not met"))]
 pub(crate) struct Analyze {
     #[command(flatten)]
@@ -31,9 +34,15 @@ pub(crate) struct Analyze {
     #[arg(long)]
     pub(crate) check: bool,
     /// Write into this folder: report.html, its figures as SVG, and configurations.csv, sources.csv,
-    /// unreachable.csv, with draws monte_carlo.csv
-    #[arg(long, value_name = "DIR")]
+    /// unreachable.csv, with draws monte_carlo.csv. With --shard: into this file
+    #[arg(long, value_name = "PATH")]
     pub(crate) out: Option<PathBuf>,
+    /// Sweep one of N shares of the workspace, I from 1 to N, and write what `abbe merge` needs of it
+    #[arg(long, value_name = "I/N", requires = "out", conflicts_with_all = ["json", "check"])]
+    pub(crate) shard: Option<Shard>,
+    /// With --shard: gather nothing for pictures, which is sooner; merged are the text and --json
+    #[arg(long, requires = "shard")]
+    pub(crate) no_figures: bool,
     #[command(flatten)]
     pub(crate) writing: Writing,
     #[command(flatten)]

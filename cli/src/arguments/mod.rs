@@ -12,6 +12,7 @@ mod jacobian;
 mod list;
 mod man;
 mod measure;
+mod merge;
 mod monitor;
 mod plan;
 mod shared;
@@ -28,6 +29,7 @@ pub(crate) use jacobian::Jacobian;
 pub(crate) use list::List;
 pub(crate) use man::Man;
 pub(crate) use measure::Measure;
+pub(crate) use merge::Merge;
 pub(crate) use monitor::Monitor;
 pub(crate) use plan::{Criterion, Plan};
 pub(crate) use shared::study;
@@ -67,6 +69,8 @@ pub(crate) enum Command {
     Jacobian(Jacobian),
     /// What every error source does over a workspace, alone and together
     Analyze(Analyze),
+    /// The report of an analysis that was made in parts, on one machine or on many
+    Merge(Merge),
     /// Generate code: pose, error Jacobian and sources in closed form
     Generate(Generate),
     /// Where to measure: sets of configurations, or the best of many

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
+use abbe_study::analyze::parts::Change;
 use abbe_study::{Machine, Study};
 use clap::{Args, ValueHint};
 
@@ -38,6 +39,14 @@ struct Changes {
 }
 
 impl Subject {
+    /// The changes, one by one.
+    pub(crate) fn each_change(&self) -> Vec<Change> {
+        let Changes { set, enable, disable } = &self.changes;
+        let set = set.iter().cloned().map(Change::Set);
+        let enable = enable.iter().cloned().map(Change::Enable);
+        set.chain(enable).chain(disable.iter().cloned().map(Change::Disable)).collect()
+    }
+
     /// The machine as its spec has it.
     pub(crate) fn as_written(&self) -> Result<Machine, Diagnostics> {
         Machine::find(&self.spec)

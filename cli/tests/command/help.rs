@@ -97,7 +97,7 @@ fn options_stand_wherever_they_make_sense() {
     let json: Vec<String> = commands().into_iter().filter(|name| !silent.contains(&name.as_str())).collect();
     assert_eq!(with("--json"), json);
     let measured = ["plan", "simulate", "measure", "identify", "compensate", "monitor"];
-    assert_eq!(with("--threads"), [&["analyze"][..], &measured].concat());
+    assert_eq!(with("--threads"), [&["analyze", "merge"][..], &measured].concat());
     assert_eq!(with("--set"), [&["check", "jacobian", "analyze"][..], &measured].concat());
     assert_eq!(with("--seed"), ["analyze", "plan", "simulate"]);
     for name in ["measure", "identify", "compensate", "monitor", "simulate"] {

@@ -13,6 +13,7 @@ mod inputs;
 mod jacobian;
 mod kills;
 mod measure;
+mod merge;
 mod monitor;
 mod outputs;
 mod pages;
