@@ -1,12 +1,12 @@
 # The compiled part: written by hand, held against the module by mypy's stubtest.
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Commands", "Machine", "Report", "SpecError", "__version__", "_restore", "load", "shipped"]
+__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "__version__", "_part", "_restore", "load", "merge", "shipped"]
 
 __version__: str
 
@@ -75,6 +75,7 @@ class Machine:
         self, q: _Joints, *, tolerance: _Length | None = None, progress: _Progress | None = None, **inputs: _Input
     ) -> Commands: ...
     def check(self) -> Report: ...
+    @overload
     def analyze(
         self,
         study: _Path | None = None,
@@ -83,9 +84,23 @@ class Machine:
         monte_carlo: int = 0,
         seed: int | None = None,
         figures: bool = True,
+        shard: None = None,
         threads: int | None = None,
         progress: _Progress | None = None,
     ) -> Report: ...
+    @overload
+    def analyze(
+        self,
+        study: _Path | None = None,
+        *,
+        study_text: str | None = None,
+        monte_carlo: int = 0,
+        seed: int | None = None,
+        figures: bool = True,
+        shard: tuple[int, int],
+        threads: int | None = None,
+        progress: _Progress | None = None,
+    ) -> Part: ...
     def measure(self, data: _Path, map: _Path, *, new_station: bool = False, accept: str | None = None) -> Report: ...
     def identify(
         self,
@@ -98,6 +113,7 @@ class Machine:
         prior: float | str | None = None,
         folds: int = 10,
         time: float | None = None,
+        resample: int | None = None,
         accept: str | None = None,
         threads: int | None = None,
         progress: _Progress | None = None,
@@ -160,6 +176,23 @@ class Report:
     def __dir__(self) -> list[str]: ...
     def _repr_html_(self) -> str | None: ...
 
+@final
+class Part:
+    @staticmethod
+    def load(file: _Path) -> Part: ...
+    def save(self, file: _Path) -> None: ...
+    @property
+    def shard(self) -> tuple[int, int]: ...
+    @property
+    def configurations(self) -> int: ...
+    @property
+    def unreachable(self) -> int: ...
+    def __reduce__(self) -> tuple[Any, tuple[bytes]]: ...
+
 def load(spec: str | PathLike[str] | None = None, *, text: str | None = None) -> Machine: ...
+def merge(
+    parts: Iterable[Part | _Path], *, threads: int | None = None, progress: _Progress | None = None
+) -> Report: ...
 def shipped() -> list[str]: ...
+def _part(bytes: bytes) -> Part: ...
 def _restore(origin: str, text: str | None, changes: list[tuple[str, str]]) -> Machine: ...

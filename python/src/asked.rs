@@ -1,7 +1,7 @@
 //! The jobs of a machine, as users ask for them: what the commands of the same names do, without their files.
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use abbe::identify::{Criterion, Loss};
@@ -10,6 +10,7 @@ use abbe_codegen::document::Document;
 use abbe_codegen::expr::{Dimension, parse_value};
 use abbe_codegen::spec::Spec;
 use abbe_report::{Provenance, text};
+use abbe_study::analyze::parts::{Part, Question, Shard, Written};
 use abbe_study::analyze::{self, Analyze};
 use abbe_study::check::Check;
 use abbe_study::data::{Data, Map};
@@ -28,6 +29,25 @@ use crate::failure::{guarded, spec_error};
 use crate::job::run;
 use crate::machine::Machine;
 use crate::report::{Pages, Report};
+
+impl Machine {
+    /// What an analysis asks, with the texts of its files, and no options.
+    fn question(&self, study: Option<&Path>, study_text: Option<&str>) -> Result<Question, Diagnostics> {
+        let folder = self.unchanged.file.as_deref().and_then(Path::parent);
+        let spec_text = self.text.clone().map(|text| Written {
+            name: self.unchanged.origin.clone(),
+            folder: folder.map(|folder| folder.to_string_lossy().into_owned()),
+            text,
+        });
+        let mut question =
+            Question { spec_text, changes: self.each_change(), ..Question::new(&self.unchanged, study)? };
+        if let (Some(text), None) = (study_text, study) {
+            let name = "study_text".to_owned();
+            question.study = Some(Written { name, folder: None, text: text.to_owned() });
+        }
+        Ok(question)
+    }
+}
 
 #[pymethods]
 impl Machine {
@@ -54,18 +74,32 @@ impl Machine {
     /// >>> report = abbe.load("pps").analyze()
     /// >>> print(f"{report.combined.radius:.3f}")
     /// 5.480
-    #[pyo3(signature = (study=None, *, study_text=None, monte_carlo=0, seed=None, figures=true, threads=None, progress=None))]
-    fn analyze(
+    ///
+    /// With `shard=(i, n)`, i from 1 to n, one of n shares of the workspace is swept, and a Part is given: `abbe.merge` of all
+    /// parts is the report.
+    #[pyo3(signature = (study=None, *, study_text=None, monte_carlo=0, seed=None, figures=true, shard=None, threads=None, progress=None))]
+    fn analyze<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         study: Option<PathBuf>,
         study_text: Option<&str>,
         monte_carlo: usize,
         seed: Option<u64>,
         figures: bool,
+        shard: Option<(u32, u32)>,
         threads: Option<usize>,
-        progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Report> {
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let monte_carlo = Some(monte_carlo).filter(|draws| *draws > 0);
+        if let Some((number, of)) = shard {
+            let shard = Shard::new(number, of)
+                .map_err(|message| PyValueError::new_err(format!("`shard`: {message}")))?;
+            let (part, _) = run(py, threads, progress, |notes| {
+                let question = self.question(study.as_deref(), study_text)?;
+                Part::new(Question { monte_carlo, seed, figures, ..question }, shard, notes)
+            })?;
+            return Ok(Bound::new(py, crate::part::Part(part))?.into_any());
+        }
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
             let study = match (study_text, &study) {
@@ -74,17 +108,12 @@ impl Machine {
             };
             let mut job = Analyze::new(machine, study);
             self.changes()?.iter().for_each(|changes| job.change(changes, notes));
-            job.monte_carlo = Some(monte_carlo).filter(|draws| *draws > 0);
+            job.monte_carlo = monte_carlo;
             job.seed = seed;
             job.figures = figures;
             job.run(notes)
         })?;
-        let shown = guarded(|| Ok((text::analysis(&report), budget(&report))))?;
-        let found = Report::new("analyze", &report, notes)?.shown(shown.0, shown.1);
-        Ok(found.with_pages(move || {
-            let files = abbe_report::analysis(&report)?;
-            Ok(files.into_iter().map(|file| (file.name, file.text)).collect())
-        }))
+        Ok(Bound::new(py, analysis(report, notes)?)?.into_any())
     }
 
     /// How good the machine is: what was measured against the ideal machine and against what its sources predict.
@@ -121,9 +150,10 @@ impl Machine {
     ///
     /// `data`, `test`: CSV files; `map`: what their columns are. `terms`: "auto" for all families of richer terms, or names of some:
     /// joint, load, elastic, backlash, product, drift. `robust`: "huber" or "tukey". `prior`: how large errors are expected to be, as
-    /// a share of the arm and in rad, or "spec" or "auto". `time`: seconds for richer terms. `.report(folder)` writes found.toml and
+    /// a share of the arm and in rad, or "spec" or "auto". `time`: seconds for richer terms. `resample=b`: repetition b of the bootstrap, with
+    /// configurations drawn with replacement (`abbe.fleet.bootstrap` does many). `.report(folder)` writes found.toml and
     /// found.map.toml, too. Fields as those of `abbe identify --json`.
-    #[pyo3(signature = (data, map, *, test=None, terms=None, robust=None, prior=None, folds=10, time=None, accept=None, threads=None, progress=None))]
+    #[pyo3(signature = (data, map, *, test=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
     fn identify(
         &self,
         py: Python<'_>,
@@ -135,6 +165,7 @@ impl Machine {
         prior: Option<&Bound<'_, PyAny>>,
         folds: usize,
         time: Option<f64>,
+        resample: Option<usize>,
         accept: Option<&str>,
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
@@ -167,6 +198,7 @@ impl Machine {
             let test = test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
             let accept = limits(accept, &machine.spec, &map)?;
             let data = Data::read(&data, &map)?;
+            let data = resample.map_or_else(|| data.clone(), |number| data.resampled(0, number));
             let job = Identify { machine, map, data, test, terms, harmonics: Vec::new(), settings, accept };
             let report = job.run(notes)?;
             Ok((job, report))
@@ -318,6 +350,16 @@ impl Machine {
         let files = run(py, None, None, |notes| job.run(notes))?.0;
         Ok(files.into_iter().map(|file| file.text).collect())
     }
+}
+
+/// The report of an analysis, with its text, its tables and its pages.
+pub(crate) fn analysis(report: analyze::Report, notes: Vec<String>) -> PyResult<Report> {
+    let (text, tables) = guarded(|| Ok((text::analysis(&report), budget(&report))))?;
+    let found = Report::new("analyze", &report, notes)?.shown(text, tables);
+    Ok(found.with_pages(move || {
+        let files = abbe_report::analysis(&report)?;
+        Ok(files.into_iter().map(|file| (file.name, file.text)).collect())
+    }))
 }
 
 /// The ledger and the uncertainty budgets as tables.

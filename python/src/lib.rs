@@ -2,7 +2,7 @@
 //!
 //! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `commands` single commands. `functions`
 //! evaluates: `layout` says where numbers go, `arrays` reads what users give, `batch` runs over many configurations. `job` runs a
-//! job beside Python, `report` is what it found; `failure` makes exceptions of mistakes.
+//! job beside Python, `report` is what it found, `part` a part of an analysis; `failure` makes exceptions of mistakes.
 
 mod arrays;
 mod asked;
@@ -14,6 +14,7 @@ mod functions;
 mod job;
 mod layout;
 mod machine;
+mod part;
 mod report;
 
 /// The compiled part of the package `abbe`.
@@ -27,6 +28,8 @@ mod _abbe {
     use super::failure::SpecError;
     #[pymodule_export]
     use super::machine::{Machine, load, restore, shipped};
+    #[pymodule_export]
+    use super::part::{Part, merge, restore as restore_part};
     #[pymodule_export]
     use super::report::Report;
 

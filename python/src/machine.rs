@@ -3,12 +3,12 @@
 use std::sync::OnceLock;
 
 use abbe::{Function, Manipulator};
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
-use abbe_codegen::document::Document;
+use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
-use abbe_study::{Changes, find_symbol};
+use abbe_study::Changes;
+use abbe_study::analyze::parts;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
@@ -52,7 +52,7 @@ impl Machine {
     ) -> PyResult<Self> {
         let mut machine = unchanged.clone();
         for (kind, change) in &changes {
-            let changes = changes_of(kind, change, &machine.spec);
+            let changes = change_of(kind, change).read(&machine.spec);
             machine.change(&changes.map_err(|mistakes| spec_error(py, &mistakes))?);
         }
         let interpreter = Interpreter::new(machine.spec.clone());
@@ -78,7 +78,12 @@ impl Machine {
     /// The changes, one by one, as a job takes them.
     pub(crate) fn changes(&self) -> Result<Vec<Changes>, Diagnostics> {
         let spec = &self.unchanged.spec;
-        self.changes.iter().map(|(kind, change)| changes_of(kind, change, spec)).collect()
+        self.changes.iter().map(|(kind, change)| change_of(kind, change).read(spec)).collect()
+    }
+
+    /// The changes, one by one, as parts of an analysis take them.
+    pub(crate) fn each_change(&self) -> Vec<parts::Change> {
+        self.changes.iter().map(|(kind, change)| change_of(kind, change)).collect()
     }
 
     /// The text of its spec, as it was before changes.
@@ -92,23 +97,14 @@ impl Machine {
 }
 
 /// One change to a spec; `number` is a value in coherent units, `set` one as it would be written.
-fn changes_of(kind: &str, change: &str, spec: &Spec) -> Result<Changes, Diagnostics> {
-    let ("number", Some((name, value))) = (kind, change.split_once('=')) else {
-        let [set, enable, disable] = ["set", "enable", "disable"]
-            .map(|one| if one == kind { vec![change.to_owned()] } else { Vec::new() });
-        return Changes::read(&set, &enable, &disable, spec);
-    };
-    let (mut changes, mut document) = (Changes::default(), Document::new("with_parameters", change));
-    let span = name.len() + 1..change.len();
-    let symbol = find_symbol(&mut document, 0..name.len(), name, spec);
-    match (symbol, value.parse::<f64>()) {
-        (Some((symbol, _)), Ok(value)) if value.is_finite() => {
-            changes.set(&mut document, span, spec, symbol, value);
-        }
-        (Some(_), _) => document.mistake(Diagnostic::new(span, "expected a finite number")),
-        (None, _) => {}
+pub(crate) fn change_of(kind: &str, change: &str) -> parts::Change {
+    let change = change.to_owned();
+    match kind {
+        "number" => parts::Change::Number(change),
+        "set" => parts::Change::Set(change),
+        "enable" => parts::Change::Enable(change),
+        _ => parts::Change::Disable(change),
     }
-    document.finish(Some(changes))
 }
 
 /// A shipped manipulator, or the spec with this text.
