@@ -45,6 +45,11 @@ impl Interpreter {
         &self.spec
     }
 
+    /// What it runs.
+    pub fn routines(&self) -> &Routines {
+        &self.routines
+    }
+
     /// A function, ready to run.
     fn tape(&self, function: Function) -> &Tape {
         self.tapes[function as usize].get_or_init(|| Tape::new(&self.routines, function))

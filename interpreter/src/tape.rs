@@ -1,5 +1,6 @@
 //! A function ready to run: every operand a slot of one array, slots used again once their value is done with.
 
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use abbe::Function;
@@ -60,9 +61,11 @@ impl Tape {
         let routine = routines.function(function);
         let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
         let arguments = given.map(|array| array.len(&routines.description)).sum();
-        let mut constants = vec![0.0, 1.0];
-        collect_constants(routines, routine, &mut constants);
-        let slots = arguments + constants.len();
+        let mut constants = Constants::default();
+        constants.add(0.0);
+        constants.add(1.0);
+        constants.collect(routines, routine);
+        let slots = arguments + constants.values.len();
         let mut packer =
             Packer { routines, arguments, constants, free: Vec::new(), slots, parts: Vec::new() };
         let mut first = 0;
@@ -75,28 +78,42 @@ impl Tape {
         let outputs = packer.routine(routine, places).concat();
         let Packer { parts, constants, slots, .. } = packer;
         let tables = routines.lookup_tables.clone();
-        Self { parts, constants, tables, outputs, slots, arguments }
+        Self { parts, constants: constants.values, tables, outputs, slots, arguments }
     }
 }
 
-/// All numbers in the programs of a routine and of those that it calls.
-fn collect_constants(routines: &Routines, routine: &Routine, constants: &mut Vec<f64>) {
-    let mut add = |operand: Operand| {
-        if let Operand::Constant(value) = operand
-            && !constants.iter().any(|known| known.to_bits() == value.to_bits())
-        {
-            constants.push(value);
-        }
-    };
-    for stage in &routine.stages {
-        if let Stage::Block(Block { program, .. }) = stage {
-            program.steps.iter().flat_map(|step| step.action.operands()).for_each(&mut add);
-            program.outputs.iter().copied().for_each(&mut add);
-        }
+/// The numbers of programs, each once, and the place of each by its bits.
+#[derive(Default)]
+struct Constants {
+    values: Vec<f64>,
+    places: HashMap<u64, usize>,
+}
+
+impl Constants {
+    fn add(&mut self, value: f64) {
+        self.places.entry(value.to_bits()).or_insert_with(|| {
+            self.values.push(value);
+            self.values.len() - 1
+        });
     }
-    for stage in &routine.stages {
-        if let Stage::Call { routine, .. } = stage {
-            collect_constants(routines, routines.named(routine), constants);
+
+    /// All numbers in the programs of a routine and of those that it calls.
+    fn collect(&mut self, routines: &Routines, routine: &Routine) {
+        let mut add = |operand: Operand| {
+            if let Operand::Constant(value) = operand {
+                self.add(value);
+            }
+        };
+        for stage in &routine.stages {
+            if let Stage::Block(Block { program, .. }) = stage {
+                program.steps.iter().flat_map(|step| step.action.operands()).for_each(&mut add);
+                program.outputs.iter().copied().for_each(&mut add);
+            }
+        }
+        for stage in &routine.stages {
+            if let Stage::Call { routine, .. } = stage {
+                self.collect(routines, routines.named(routine));
+            }
         }
     }
 }
@@ -104,7 +121,7 @@ fn collect_constants(routines: &Routines, routine: &Routine, constants: &mut Vec
 struct Packer<'r> {
     routines: &'r Routines,
     arguments: usize,
-    constants: Vec<f64>,
+    constants: Constants,
     free: Vec<Slot>,
     slots: usize,
     parts: Vec<Part>,
@@ -168,7 +185,8 @@ impl<'r> Packer<'r> {
         } else {
             let to = arrays.places[array].clone();
             let mut from = from.to_vec();
-            if from.iter().any(|slot| to.contains(slot)) {
+            let written: HashSet<Slot> = to.iter().copied().collect();
+            if from.iter().any(|slot| written.contains(slot)) {
                 // Nothing is written before it is read.
                 let between: Vec<Slot> = from.iter().map(|_| self.new_slot()).collect();
                 self.parts.push(Part::Move(from.iter().zip(&between).map(|(a, b)| [*a, *b]).collect()));
@@ -317,7 +335,7 @@ impl<'r> Packer<'r> {
             Operand::Symbol(Symbol::Magnitude(i)) => argument(&["magnitudes"], i),
             Operand::Symbol(Symbol::Local(i)) => locals[i],
             Operand::Constant(value) => {
-                let place = self.constants.iter().position(|known| known.to_bits() == value.to_bits());
+                let place = self.constants.places.get(&value.to_bits());
                 self.arguments + place.expect("constants were collected")
             }
         }

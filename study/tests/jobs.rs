@@ -108,8 +108,8 @@ impl Batches for Forgetful {
 #[test]
 fn a_batch_that_is_wrong_fails_its_law_and_no_other() {
     let spec = Machine::find("scara").unwrap().spec;
-    assert!(laws(&Interpreter::new(spec.clone()), 20).iter().all(|law| law.holds));
-    let failed = laws(&Forgetful(Interpreter::new(spec)), 20);
+    assert!(laws(&Interpreter::new(spec.clone()), 20, &mut ()).unwrap().iter().all(|law| law.holds));
+    let failed = laws(&Forgetful(Interpreter::new(spec)), 20, &mut ()).unwrap();
     let failed = failed.iter().filter(|law| !law.holds).map(|law| law.law).collect::<Vec<_>>();
     assert_eq!(failed, ["batches = single evaluations"]);
 }

@@ -22,6 +22,39 @@ pub fn general_chain(frames: usize) -> String {
     text
 }
 
+/// The spec of a chain of revolute joints, neighbouring axes askew.
+pub fn revolute_chain(frames: usize) -> String {
+    let mut text = "[manipulator]\nname = \"chain\"\nlength = \"m\"\n".to_owned();
+    for i in 0..frames {
+        let (name, d, twist) = (i + 1, 0.1 + 0.01 * (i % 7) as f64, 0.5 + 0.1 * (i % 11) as f64);
+        let _ = write!(
+            text,
+            "[[frame]]\nname = \"{name}\"\n\
+             variable = {{ name = \"q{name}\", kind = \"revolute\", limits = [\"-150 deg\", \"150 deg\"] }}\n\
+             dh = {{ theta = \"q{name}\", d = {d}, a = 0.3, alpha = {twist} }}\n"
+        );
+    }
+    text
+}
+
+/// The spec of an arm of six revolute joints with so many parameters, all of them in its lengths.
+pub fn many_parameters(count: usize) -> String {
+    let mut text = "[manipulator]\nname = \"many\"\nlength = \"m\"\n[parameters]\n".to_owned();
+    for i in 0..count {
+        let _ = writeln!(text, "p{i} = \"{} mm\"", 1 + i % 9);
+    }
+    for frame in 0..6 {
+        let own: Vec<String> = (frame..count).step_by(6).map(|i| format!("p{i}")).collect();
+        let sum = if own.is_empty() { "0 m".to_owned() } else { own.join(" + ") };
+        let _ = write!(
+            text,
+            "[[frame]]\nname = \"{frame}\"\nvariable = {{ name = \"q{frame}\", kind = \"revolute\" }}\n\
+             dh = {{ theta = \"q{frame}\", d = \"0.1 m + ({sum})/100\", a = 0.3, alpha = 0.7 }}\n"
+        );
+    }
+    text
+}
+
 /// A chain of 40 frames, long enough to be generated as loops: Euler rows, a parameter in two places, a variable in
 /// two, sources of both classes.
 pub fn long_chain() -> String {

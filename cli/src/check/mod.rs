@@ -126,7 +126,8 @@ fn identifiable(counted: &[Identifiable], configurations: usize) -> String {
     let text = format!(
         "Of the generalized errors of all frames, {pose} can be known from poses (or three targets), {point} from \
          tool points alone; with those of a base frame, {pose_base} and {point_base}. The others act together \
-         with these and cannot be told apart. Counted over {configurations} configurations with all joints moved.",
+         with these and cannot be told apart. Counted part by part of the chain, over {configurations} \
+         configurations with all joints moved.",
     );
     wrapped(&text, 0) + "\n"
 }

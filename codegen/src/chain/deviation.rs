@@ -7,7 +7,7 @@
 //! ```
 
 use super::local::Local;
-use super::symbol_jacobian::{twist, with_symbols};
+use super::symbol_jacobian::{Steps, twist};
 use super::walk::walk;
 use crate::expr::{Elementary, Function, Motion, Symbol};
 use crate::graph::{Graph, Node, Op, Vector};
@@ -44,28 +44,45 @@ pub fn frame_twists(graph: &mut Graph, spec: &Spec, number: ChainNumber) -> Vec<
             return vec![FrameTwist { frame, velocity: body.velocity, rotation: body.rotation }];
         }
     };
-    let mut twists = Vec::new();
-    for (frame, declared) in spec.frames.iter().enumerate() {
-        let mut body = Body::at_rest(graph);
-        for factor in &declared.factors {
-            body.go_through(graph, factor);
-            body.add_factor(graph, factor, symbol);
-        }
-        twists.push(FrameTwist { frame, velocity: body.velocity, rotation: body.rotation });
-    }
-    let mut steps = Vec::new();
-    let start = graph.identity();
-    walk(graph, start, &spec.tool, &mut steps);
-    let steps = with_symbols(graph, steps);
-    let origin = [graph.zero(); 3];
-    let [velocity, rotation] = twist(graph, &steps, symbol, origin);
+    let frames = 0..spec.frames.len();
+    let mut twists: Vec<FrameTwist> = frames.map(|frame| local_twist(graph, spec, symbol, frame)).collect();
     if let Some(last) = twists.last_mut() {
-        last.velocity = graph.add_vectors(last.velocity, velocity);
-        last.rotation = graph.add_vectors(last.rotation, rotation);
+        add_tool(graph, spec, symbol, last);
     }
     let at_rest = [graph.zero(); 3];
     twists.retain(|twist| [twist.velocity, twist.rotation] != [at_rest; 2]);
     twists
+}
+
+/// What a joint does to the frame that declares it; of the last frame with the tool's part.
+pub fn joint_twist(graph: &mut Graph, spec: &Spec, joint: usize) -> FrameTwist {
+    let (frame, symbol) = (spec.variables[joint].frame, Symbol::Variable(joint));
+    let mut twist = local_twist(graph, spec, symbol, frame);
+    if frame + 1 == spec.frames.len() {
+        add_tool(graph, spec, symbol, &mut twist);
+    }
+    twist
+}
+
+fn local_twist(graph: &mut Graph, spec: &Spec, symbol: Symbol, frame: usize) -> FrameTwist {
+    let mut body = Body::at_rest(graph);
+    for factor in &spec.frames[frame].factors {
+        body.go_through(graph, factor);
+        body.add_factor(graph, factor, symbol);
+    }
+    FrameTwist { frame, velocity: body.velocity, rotation: body.rotation }
+}
+
+/// The tool comes after the errors of the last frame.
+fn add_tool(graph: &mut Graph, spec: &Spec, symbol: Symbol, last: &mut FrameTwist) {
+    let mut steps = Vec::new();
+    let start = graph.identity();
+    walk(graph, start, &spec.tool, &mut steps);
+    let steps = Steps::new(graph, steps);
+    let origin = [graph.zero(); 3];
+    let [velocity, rotation] = twist(graph, &steps, symbol, origin);
+    last.velocity = graph.add_vectors(last.velocity, velocity);
+    last.rotation = graph.add_vectors(last.rotation, rotation);
 }
 
 /// The motion of a frame that goes through a product of factors, in the axes behind those it has gone through:

@@ -1,6 +1,8 @@
 //! What a symbol does to one transform by itself: for the loops of long chains.
 
-use super::symbol_jacobian::{twist, with_symbols};
+use std::collections::HashMap;
+
+use super::symbol_jacobian::{Steps, twist};
 use super::walk::walk;
 use crate::expr::Symbol;
 use crate::graph::{Graph, Node};
@@ -19,6 +21,8 @@ pub struct LocalTwist {
 
 /// Those that are not zero, transform by transform: `dA_i/dx A_i⁻¹`.
 pub(super) fn local_twists(graph: &mut Graph, spec: &Spec, symbols: &[Symbol]) -> Vec<LocalTwist> {
+    let columns: HashMap<Symbol, usize> =
+        symbols.iter().enumerate().map(|(i, symbol)| (*symbol, i)).collect();
     let mut found = Vec::new();
     let origin = [graph.zero(); 3];
     for (transform, factors) in spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]).enumerate()
@@ -26,10 +30,12 @@ pub(super) fn local_twists(graph: &mut Graph, spec: &Spec, symbols: &[Symbol]) -
         let mut steps = Vec::new();
         let identity = graph.identity();
         walk(graph, identity, factors, &mut steps);
-        let steps = with_symbols(graph, steps);
-        let moves = |symbol| steps.iter().any(|(_, of)| of.contains(symbol));
-        for (column, symbol) in symbols.iter().enumerate().filter(|(_, symbol)| moves(symbol)) {
-            let [velocity, turn] = twist(graph, &steps, *symbol, origin);
+        let steps = Steps::new(graph, steps);
+        let mut moved: Vec<usize> =
+            steps.symbols().filter_map(|symbol| columns.get(&symbol).copied()).collect();
+        moved.sort_unstable();
+        for column in moved {
+            let [velocity, turn] = twist(graph, &steps, symbols[column], origin);
             if [velocity, turn] != [origin; 2] {
                 let ([a, b, c], [d, e, f]) = (velocity, turn);
                 found.push(LocalTwist { transform, column, twist: [a, b, c, d, e, f] });

@@ -27,7 +27,7 @@ mod walk;
 
 pub(crate) use accumulate::Accumulated;
 pub(crate) use covariance::Covariance;
-pub use deviation::{FrameTwist, frame_twists};
+pub use deviation::{FrameTwist, frame_twists, joint_twist};
 pub(crate) use displacement::Displacement;
 pub(crate) use error_jacobian::Columns;
 pub(crate) use local::Local;

@@ -104,7 +104,7 @@ impl Model {
         let margin = rows.margin();
         let moments = Moments::new(g, &frames, &tool, &steps, &ends);
         let by_frame = error_jacobian::columns(g, &frames, moments, &rows);
-        let steps = symbol_jacobian::with_symbols(g, steps);
+        let steps = symbol_jacobian::Steps::new(g, steps);
         let columns = by_frame.iter().flat_map(|columns| columns.dense(g)).collect();
         let distinct = by_frame.iter().map(|columns| columns.distinct(&rows)).collect();
         let error_jacobian = Jacobian { columns, margin };

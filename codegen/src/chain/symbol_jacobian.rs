@@ -1,5 +1,7 @@
 //! `∂X_T/∂x` for a joint variable or structural parameter x that may stand anywhere in the chain.
 
+use indexmap::IndexMap;
+
 use super::walk::Step;
 use crate::expr::Symbol;
 use crate::graph::{Graph, Node, Vector};
@@ -12,16 +14,10 @@ use crate::graph::{Graph, Node, Vector};
 /// matrix (R, t) after T = (R₀, p₀)    ω = R₀ vee(∂R/∂x Rᵀ),  (R₀ ∂t/∂x + ω × (p_T − p₀ − R₀ t) ; ω)
 /// ```
 ///
-/// Each step comes with the symbols that it depends on.
-pub(super) fn twist(
-    graph: &mut Graph,
-    steps: &[(Step, Vec<Symbol>)],
-    symbol: Symbol,
-    tool: Vector,
-) -> [Vector; 2] {
+pub(super) fn twist(graph: &mut Graph, steps: &Steps, symbol: Symbol, tool: Vector) -> [Vector; 2] {
     let mut velocity = [graph.zero(); 3];
     let mut rotation = [graph.zero(); 3];
-    for (step, _) in steps.iter().filter(|(_, symbols)| symbols.contains(&symbol)) {
+    for step in steps.by_symbol.get(&symbol).into_iter().flatten().map(|at| &steps.list[*at]) {
         match step {
             Step::Translation { direction, amount } => {
                 let slope = graph.diff(*amount, symbol);
@@ -50,13 +46,27 @@ pub(super) fn twist(
     [velocity, rotation]
 }
 
-/// Steps with the symbols that each depends on.
-pub(super) fn with_symbols(graph: &Graph, steps: Vec<Step>) -> Vec<(Step, Vec<Symbol>)> {
-    let with = |step: Step| {
-        let symbols = step.symbols(graph);
-        (step, symbols)
-    };
-    steps.into_iter().map(with).collect()
+/// Steps, and which of them depend on a symbol: a chain has many of both.
+pub(super) struct Steps {
+    list: Vec<Step>,
+    by_symbol: IndexMap<Symbol, Vec<usize>>,
+}
+
+impl Steps {
+    pub(super) fn new(graph: &Graph, list: Vec<Step>) -> Self {
+        let mut by_symbol: IndexMap<Symbol, Vec<usize>> = IndexMap::new();
+        for (at, step) in list.iter().enumerate() {
+            for symbol in step.symbols(graph) {
+                by_symbol.entry(symbol).or_default().push(at);
+            }
+        }
+        Self { list, by_symbol }
+    }
+
+    /// The symbols that some step depends on.
+    pub(super) fn symbols(&self) -> impl Iterator<Item = Symbol> {
+        self.by_symbol.keys().copied()
+    }
 }
 
 /// `v + ω × (p_T − p)`.

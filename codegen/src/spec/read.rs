@@ -145,7 +145,7 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
 }
 
 /// The most frames of a manipulator.
-const MOST_FRAMES: usize = 2000;
+const MOST_FRAMES: usize = 10_000;
 
 struct Head {
     name: String,

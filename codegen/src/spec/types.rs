@@ -7,7 +7,7 @@ use abbe::{Class, Component, LengthUnit, Orientation, VariableKind};
 
 use super::{Covariance, Fitted};
 use crate::diagnostic::Span;
-use crate::expr::{Dimension, Elementary, Expression, Motion, Table};
+use crate::expr::{Dimension, Elementary, Expression, Motion, Symbol, Table};
 
 /// A manipulator as its file describes it.
 #[derive(Clone, Debug)]
@@ -153,6 +153,21 @@ impl Factor {
             Self::About { amount, .. } => vec![amount],
             Self::Matrix(matrix) => matrix.rows.iter().flatten().collect(),
         }
+    }
+}
+
+impl Spec {
+    /// The joint variables on which each of `A_1 … A_n` and `T` depends.
+    pub fn variables_of_transforms(&self) -> Vec<Vec<usize>> {
+        let variables = |factors: &Vec<Factor>| {
+            let symbols = factors.iter().flat_map(Factor::expressions).flat_map(Expression::symbols);
+            let variable = |symbol| match symbol {
+                Symbol::Variable(variable) => Some(variable),
+                _ => None,
+            };
+            symbols.filter_map(variable).collect()
+        };
+        self.frames.iter().map(|frame| &frame.factors).chain([&self.tool]).map(variables).collect()
     }
 }
 

@@ -4,10 +4,13 @@ use std::fmt;
 
 use abbe_study::Listing;
 use abbe_study::number::NO_BREAK;
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Row, TableStyle};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, TableStyle};
 
 /// The width that everything is set to, so that the same input gives the same text on every terminal.
 pub const WIDTH: usize = 100;
+
+/// How many letters of a word stand in a table.
+const LONGEST: usize = 2 * WIDTH;
 
 const STYLE: TableStyle =
     TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─').left('─').right('─'));
@@ -32,9 +35,10 @@ impl Table {
         Self(table)
     }
 
-    /// Adds a row. Lines of a cell stand beside the same lines of the others.
-    pub fn row<T: Into<Row>>(&mut self, cells: T) {
-        self.0.add_row(cells);
+    /// Adds a row. Lines of a cell stand beside the same lines of the others; of words that are longer than two lines of the
+    /// widest table stands the beginning.
+    pub fn row<T: Into<String>>(&mut self, cells: impl IntoIterator<Item = T>) {
+        self.0.add_row(cells.into_iter().map(|cell| cut(cell.into())));
     }
 
     /// Sets columns flush right: numbers, which are never wrapped.
@@ -59,6 +63,23 @@ impl Table {
     }
 }
 
+/// A text whose words are no longer than [`LONGEST`]: to set one takes time with the square of its length.
+fn cut(text: String) -> String {
+    let blank = |letter: char| letter == ' ' || letter == '\n';
+    if text.split(blank).all(|word| word.len() <= LONGEST) {
+        return text;
+    }
+    let mut cut = String::new();
+    for word in text.split_inclusive(blank) {
+        let letters = word.trim_end_matches(blank);
+        match letters.char_indices().nth(LONGEST) {
+            Some((end, _)) => cut.extend([&letters[..end], "…", &word[letters.len()..]]),
+            None => cut.push_str(word),
+        }
+    }
+    cut
+}
+
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.lines().try_for_each(|line| writeln!(f, "{}", line.trim_end().replace(NO_BREAK, " ")))
@@ -81,4 +102,21 @@ pub fn wrapped(text: &str, indent: usize) -> String {
         width += length;
     }
     lines.replace(NO_BREAK, " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_long_words_stands_the_beginning() {
+        let long = "ä".repeat(1_000_000);
+        let mut table = Table::new(&["name", "of"]);
+        table.row([format!("an {long}\n{long} end"), "it".to_owned()]);
+        let text = table.to_string();
+        assert_eq!(text.matches('ä').count(), 2 * LONGEST);
+        assert!(text.contains('…') && text.contains(" end") && text.contains(" it"), "{text}");
+        let whole = "a b".repeat(LONGEST);
+        assert_eq!(cut(whole.clone()), whole);
+    }
 }

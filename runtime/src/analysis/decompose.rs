@@ -6,7 +6,7 @@ use nalgebra::{DefaultAllocator, Dim, DimDiff, DimSub, OMatrix, SymmetricEigen, 
 use nalgebra::{Matrix3, SVD, U3};
 
 /// Some hundred times what matrices of this size take.
-const STEPS: usize = 100_000;
+pub(crate) const STEPS: usize = 100_000;
 
 /// `V Λ Vᵀ` of a symmetric matrix; none if a number is not finite.
 pub(crate) fn symmetric_eigen<D>(matrix: OMatrix<f64, D, D>) -> Option<SymmetricEigen<f64, D>>

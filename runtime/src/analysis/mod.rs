@@ -10,7 +10,8 @@
 //! | `uncertainty` | [`Statement`]: the budget of the GUM at one configuration; [`compliance()`]: how likely a tolerance is met |
 //! | `random` | [`monte_carlo`] draws errors on the exact chain |
 //!
-//! [`identifiable()`] counts which generalized errors measurements can tell apart.
+//! [`identifiable()`] counts which generalized errors measurements can tell apart, [`identifiable_in_parts`] those of a chain
+//! of any length.
 //!
 //! An error budget over 10,000 random configurations:
 //!
@@ -56,7 +57,9 @@ pub use budget::{
     OrientationErrors, RemainingErrors, Residual, SourceErrors, Sphere, Survey, Watch, covariance,
     error_budget, variance,
 };
-pub use identifiable::{Identifiability, Measurement, RANK_THRESHOLD, identifiable};
+pub use identifiable::{
+    Identifiability, Measurement, Parts, RANK_THRESHOLD, identifiable, identifiable_in_parts,
+};
 pub use measurand::Measurand;
 pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
 pub use random::{MonteCarlo, Quantile, monte_carlo};

@@ -3,9 +3,8 @@
 use super::differences::derivative;
 use super::samples::{Sample, Subject};
 use super::{Discrepancy, Failure};
-use crate::{
-    Component, Error, Manipulator, Orientation, Pose, VariableKind, chain, deviation, drawn_pose, real_pose,
-};
+use crate::chain::displacement;
+use crate::{Component, Error, Manipulator, Orientation, Pose, VariableKind, chain, deviation, drawn_pose};
 
 /// The first step of the differences: rad, or arm lengths.
 const STEP: f64 = 0.1;
@@ -17,73 +16,81 @@ const SHORT_STEP: f64 = 1e-4;
 /// From which difference on, relative to the larger number, short steps are tried.
 const DIFFERENT: f64 = 1e-9;
 
+/// How many derivatives are taken of a Jacobian by joints or parameters: one for each column, or for so many sums of columns.
+const DIRECTIONS: usize = 60;
+
 /// `J_e` against `∂(X_real − X_ideal)/∂ε`: central differences of equation (6) with true rotations.
 pub fn error_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let orientation = manipulator.description().orientation;
     let frames = manipulator.description().frames.len();
-    compare(manipulator, samples, 6 * frames, |subject, at, columns| {
+    compare(manipulator, samples, 6 * frames, |subject, _, at, columns| {
         manipulator.error_jacobian(&at.q, &subject.s, columns)?;
-        let each = (0..frames).flat_map(|frame| Component::ALL.map(|component| (frame, component)));
-        Ok(each
-            .map(|(frame, component)| {
+        // With one error, equation (6) is `(A_1 … A_i) E_i (A_{i+1} … T)`: what stands around it is multiplied once.
+        let mut after = at.transforms.clone();
+        for i in (1..after.len()).rev() {
+            after[i - 1] = after[i - 1].then(&after[i]);
+        }
+        let mut before = Pose::IDENTITY;
+        let mut expected = Vec::with_capacity(columns.len());
+        for (frame, columns) in columns.chunks_exact(6).enumerate() {
+            before = before.then(&at.transforms[frame]);
+            for (component, column) in Component::ALL.into_iter().zip(columns) {
                 let unit = if component.is_rotation() { 1.0 } else { subject.arm };
                 let real = |step: f64| {
-                    let mut errors = vec![[0.0; 6]; frames];
-                    errors[frame][component.index()] = step * unit;
-                    Some(real_pose(&at.transforms, &errors))
+                    let mut errors = [0.0; 6];
+                    errors[component.index()] = step * unit;
+                    Some(before.then(&displacement(&errors)).then(&after[frame + 1]))
                 };
-                let found = columns[6 * frame + component.index()].map(|entry| entry * unit);
-                (unit, differences(subject, orientation, at, found, real))
-            })
-            .collect())
+                let found = column.map(|entry| entry * unit);
+                expected.push((found, differences(subject, orientation, at, found, real)));
+            }
+        }
+        Ok(expected)
     })
 }
 
 /// `J_q` against `∂X_T/∂q`: central differences of the product of the transforms.
+///
+/// Of more than 60 joints, differences are taken along 60 directions, in which all joints move together: those of each
+/// configuration have every joint in one of them.
 pub fn joint_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
-    compare(manipulator, samples, description.variables.len(), |subject, at, columns| {
+    compare(manipulator, samples, description.variables.len(), |subject, sample, at, columns| {
         manipulator.joint_jacobian(&at.q, &subject.s, columns)?;
         let units = description.variables.iter().map(|variable| match variable.kind {
             VariableKind::Revolute => 1.0,
             VariableKind::Prismatic => subject.arm,
         });
-        Ok(units
-            .enumerate()
-            .map(|(i, unit)| {
-                let moved = |step: f64| {
-                    let mut q = at.q.clone();
-                    q[i] += step * unit;
-                    subject.transforms(&q, &subject.s).ok().map(|transforms| chain(&transforms))
-                };
-                let found = columns[i].map(|entry| entry * unit);
-                (unit, differences(subject, description.orientation, at, found, moved))
-            })
-            .collect())
+        let expected = directions(units, sample).into_iter().map(|direction| {
+            let moved = |step: f64| {
+                let q = direction.from(&at.q, step);
+                subject.transforms(&q, &subject.s).ok().map(|transforms| chain(&transforms))
+            };
+            let found = direction.sum(columns);
+            (found, differences(subject, description.orientation, at, found, moved))
+        });
+        Ok(expected.collect())
     })
 }
 
-/// `∂X_T/∂s` against central differences of the product of the transforms.
+/// `∂X_T/∂s` against central differences of the product of the transforms; of more than 60 parameters as [`joint_jacobian`].
 pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
-    compare(manipulator, samples, description.parameters.len(), |subject, at, columns| {
+    compare(manipulator, samples, description.parameters.len(), |subject, sample, at, columns| {
         manipulator.parameter_jacobian(&at.q, &subject.s, columns)?;
         let units = description
             .parameters
             .iter()
             .map(|parameter| if parameter.unit == description.length.symbol() { subject.arm } else { 1.0 });
-        Ok(units
-            .enumerate()
-            .map(|(i, unit)| {
-                let changed = |step: f64| {
-                    let mut s = subject.s.clone();
-                    s[i] += step * unit;
-                    subject.transforms(&at.q, &s).ok().map(|transforms| chain(&transforms))
-                };
-                let found = columns[i].map(|entry| entry * unit);
-                (unit, differences(subject, description.orientation, at, found, changed))
-            })
-            .collect())
+        let expected = directions(units, sample).into_iter().map(|direction| {
+            let changed = |step: f64| {
+                let s = direction.from(&subject.s, step);
+                subject.transforms(&at.q, &s).ok().map(|transforms| chain(&transforms))
+            };
+            let found = direction.sum(columns);
+            (found, differences(subject, description.orientation, at, found, changed))
+        });
+        Ok(expected.collect())
     })
 }
 
@@ -91,7 +98,7 @@ pub fn parameter_jacobian(manipulator: &dyn Manipulator, samples: usize) -> Resu
 pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Result<Discrepancy, Failure> {
     let description = manipulator.description();
     let sources = description.sources.len();
-    compare(manipulator, samples, sources, |subject, at, columns| {
+    compare(manipulator, samples, sources, |subject, _, at, columns| {
         let mut by_error = vec![[0.0; 6]; 6 * description.frames.len()];
         let mut effects = vec![0.0; description.effects.len()];
         manipulator.error_jacobian(&at.q, &subject.s, &mut by_error)?;
@@ -115,10 +122,46 @@ pub fn source_displacements(manipulator: &dyn Manipulator, samples: usize) -> Re
                 drawn_pose(manipulator, &at.q, &subject.s, &subject.u, &magnitudes).ok()
             };
             let found = columns[source].map(|entry| entry * unit);
-            (unit, differences(subject, description.orientation, at, found, real))
+            (found, differences(subject, description.orientation, at, found, real))
         });
         Ok(expected.collect())
     })
+}
+
+/// Numbers that change together, each by its share.
+struct Direction(Vec<(usize, f64)>);
+
+impl Direction {
+    /// So far in this direction.
+    fn from(&self, values: &[f64], step: f64) -> Vec<f64> {
+        let mut moved = values.to_vec();
+        self.0.iter().for_each(|(i, share)| moved[*i] += step * share);
+        moved
+    }
+
+    /// The derivative in this direction, from those by each number.
+    fn sum(&self, columns: &[[f64; 6]]) -> [f64; 6] {
+        let mut sum = [0.0; 6];
+        for (i, share) in &self.0 {
+            sum.iter_mut().zip(columns[*i]).for_each(|(sum, entry)| *sum += share * entry);
+        }
+        sum
+    }
+}
+
+/// One for each number, by its unit; of many numbers sums of them, others in each sample, in which each is once: a step is no
+/// longer than that of one alone.
+fn directions(units: impl ExactSizeIterator<Item = f64>, sample: usize) -> Vec<Direction> {
+    let count = units.len().min(DIRECTIONS);
+    let together = units.len().div_ceil(count.max(1)) as f64;
+    let mut directions: Vec<Direction> = (0..count).map(|_| Direction(Vec::new())).collect();
+    for (i, unit) in units.enumerate() {
+        let round = i / count;
+        let sign = if (round * (sample + 1) + i).is_multiple_of(2) { 1.0 } else { -1.0 };
+        let sign = if round == 0 { 1.0 } else { sign };
+        directions[(i + round * sample) % count].0.push((i, sign * unit / together.sqrt()));
+    }
+    directions
 }
 
 /// The derivative of a pose, lengths in arm lengths; if two are found, the one that is nearer to a column.
@@ -148,28 +191,27 @@ fn differences(
     }
 }
 
-/// The unit of each column's argument, and the column by differences.
-type Expected = Vec<(f64, Option<[f64; 6]>)>;
+/// Derivatives as they were found, and by differences.
+type Expected = Vec<([f64; 6], Option<[f64; 6]>)>;
 
-/// Compares the columns that `evaluate` fills with those that it returns.
+/// Compares the derivatives that `evaluate` finds, with columns to use, at each of the samples.
 fn compare(
     manipulator: &dyn Manipulator,
     samples: usize,
     count: usize,
-    evaluate: impl Fn(&Subject, &Sample, &mut [[f64; 6]]) -> Result<Expected, Error>,
+    evaluate: impl Fn(&Subject, usize, &Sample, &mut [[f64; 6]]) -> Result<Expected, Error>,
 ) -> Result<Discrepancy, Failure> {
     let subject = Subject::new(manipulator)?;
     let (samples, skipped) = subject.samples(samples)?;
     let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Discrepancy::default() };
     let mut columns = vec![[0.0; 6]; count];
-    for at in &samples {
-        let expected = evaluate(&subject, at, &mut columns)
+    for (sample, at) in samples.iter().enumerate() {
+        let compared = evaluate(&subject, sample, at, &mut columns)
             .map_err(|error| Failure::Evaluation { q: at.q.clone(), error })?;
         let (mut difference, mut largest) = (0.0, 0.0);
-        for (column, (unit, expected)) in columns.iter().zip(expected) {
+        for (found, expected) in compared {
             let expected = expected.unwrap_or([f64::NAN; 6]);
-            for (found, expected) in subject.scaled(*column).iter().zip(expected) {
-                let found = found * unit;
+            for (found, expected) in subject.scaled(found).iter().zip(expected) {
                 largest = f64::max(largest, expected.abs());
                 difference = larger(difference, (found - expected).abs());
             }

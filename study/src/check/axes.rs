@@ -3,10 +3,12 @@
 //! `E_i` stands after `A_i`: with `dh = { a = 400, … }` an `e_r` turns about an axis 400 mm from that of the frame's own
 //! joint. All of it at home; with rotation ω and translation v the axis of a small motion goes through `ω × v/|ω|²`.
 
-use abbe_codegen::chain::{effects, frame_twists, transform};
+use std::collections::BTreeMap;
+
+use abbe_codegen::chain::{EffectNode, effects, joint_twist, transform};
 use abbe_codegen::expr::Symbol;
-use abbe_codegen::graph::{Frame, Graph, Node};
-use abbe_codegen::spec::{Cause, ChainNumber, Component, Source, Spec, VariableKind};
+use abbe_codegen::graph::{Graph, Node};
+use abbe_codegen::spec::{Cause, Component, Source, Spec, VariableKind};
 
 use crate::number::digits;
 
@@ -26,48 +28,81 @@ struct Axis {
 pub(super) fn notes(spec: &Spec) -> Vec<String> {
     let plain = plain_errors(spec);
     let (mut graph, nodes) = effects(&plain);
-    let g = &mut graph;
-    let mut pose = g.identity();
-    let mut frames = Vec::new();
-    for frame in &spec.frames {
-        let local = transform(g, &frame.factors);
-        pose = g.then(&pose, &local);
-        frames.push(numbers(g, spec, &pose, true));
+    let turned = by_place(spec, &nodes);
+    if turned.is_empty() {
+        return Vec::new();
     }
-    let joints: Vec<Option<Axis>> =
-        (0..spec.variables.len()).map(|joint| joint_axis(g, spec, &frames, joint)).collect();
+    let frames = frames(&mut graph, spec);
+    let joints = joint_axes(&mut graph, spec, &frames);
+    let nodes: Vec<Node> = turned.values().flatten().flatten().copied().collect();
+    let both = [true, false].map(|nominal| values(&graph, spec, &nodes, nominal));
+    let mut first = 0;
     let mut notes = Vec::new();
-    for (source, declared) in plain.sources.iter().enumerate() {
-        for (frame, own) in spec.frames.iter().enumerate() {
-            let Some(joint) = own.variable.filter(|&j| spec.variables[j].kind == VariableKind::Revolute)
-            else {
-                continue;
-            };
-            let Some(expected) = &joints[joint] else { continue };
-            let mut errors = [None; 6];
-            for node in nodes.iter().filter(|node| (node.source, node.frame) == (source, frame)) {
-                errors[node.component as usize] = Some(node.value);
-            }
-            let Some(axis) = error_axis(g, spec, &frames[frame], errors) else { continue };
-            let name = &spec.variables[joint].name;
-            let other = joints.iter().position(|other| other.as_ref().is_some_and(|other| axis.is(other)));
-            let what = if axis.is(expected) {
-                continue;
-            } else if axis.is_parallel(expected) {
-                let distance = digits(axis.distance(expected), 4);
-                format!("an axis {distance} {} from that of {name}", spec.length.symbol())
-            } else if let Some(other) = other {
-                format!("the axis of {}, not of {name}", spec.variables[other].name)
-            } else {
-                continue;
-            };
-            notes.push(format!(
-                "`{}` at {} turns about {what}; if the joint's own error is meant, write `joint = \"{name}\"`.",
-                declared.name, own.name
-            ));
-        }
+    for ((source, frame), errors) in turned {
+        let range = first..first + errors.iter().flatten().count();
+        first = range.end;
+        let Some(joint) = spec.frames[frame].variable else { continue };
+        let Some(expected) = &joints[joint] else { continue };
+        // With inputs at the upper ends of their ranges where those at their nominal values turn nothing.
+        let axis = |values: &Vec<f64>| error_axis(&frames[frame], errors, &values[range.clone()]);
+        let Some(axis) = both.iter().find_map(axis) else { continue };
+        let name = &spec.variables[joint].name;
+        let other = joints.iter().position(|other| other.as_ref().is_some_and(|other| axis.is(other)));
+        let what = if axis.is(expected) {
+            continue;
+        } else if axis.is_parallel(expected) {
+            let distance = digits(axis.distance(expected), 4);
+            format!("an axis {distance} {} from that of {name}", spec.length.symbol())
+        } else if let Some(other) = other {
+            format!("the axis of {}, not of {name}", spec.variables[other].name)
+        } else {
+            continue;
+        };
+        notes.push(format!(
+            "`{}` at {} turns about {what}; if the joint's own error is meant, write `joint = \"{name}\"`.",
+            plain.sources[source].name, spec.frames[frame].name
+        ));
     }
     notes
+}
+
+/// The errors of a source at a frame, in order of both: those at frames with a revolute joint of their own.
+fn by_place(spec: &Spec, nodes: &[EffectNode]) -> BTreeMap<(usize, usize), [Option<Node>; 6]> {
+    let mut places = BTreeMap::new();
+    for node in nodes {
+        let variable = spec.frames[node.frame].variable.map(|joint| spec.variables[joint].kind);
+        if variable == Some(VariableKind::Revolute) {
+            let errors = places.entry((node.source, node.frame)).or_insert([None; 6]);
+            errors[node.component as usize] = Some(node.value);
+        }
+    }
+    places
+}
+
+/// Axes and origin of every frame at home.
+fn frames(graph: &mut Graph, spec: &Spec) -> Vec<[Vector; 4]> {
+    let mut pose = graph.identity();
+    let mut nodes = Vec::with_capacity(12 * spec.frames.len());
+    for frame in &spec.frames {
+        let local = transform(graph, &frame.factors);
+        pose = graph.then(&pose, &local);
+        nodes.extend(pose.axes.as_flattened());
+        nodes.extend(pose.position);
+    }
+    let numbers = values(graph, spec, &nodes, true);
+    numbers.chunks_exact(12).map(|twelve| std::array::from_fn(|i| vector(&twelve[3 * i..]))).collect()
+}
+
+/// The axis of every joint, at the frame that declares it.
+fn joint_axes(graph: &mut Graph, spec: &Spec, frames: &[[Vector; 4]]) -> Vec<Option<Axis>> {
+    let nodes = (0..spec.variables.len()).flat_map(|joint| {
+        let twist = joint_twist(graph, spec, joint);
+        [twist.velocity, twist.rotation].concat()
+    });
+    let nodes: Vec<Node> = nodes.collect();
+    let numbers = values(graph, spec, &nodes, true);
+    let twists = numbers.chunks_exact(6).zip(&spec.variables);
+    twists.map(|(six, joint)| Axis::new(&frames[joint.frame], vector(six), vector(&six[3..]))).collect()
 }
 
 /// The spec with all its sources, and of these only what they say of frames as errors e_x … e_p.
@@ -85,27 +120,15 @@ fn plain_errors(spec: &Spec) -> Spec {
     Spec { sources: spec.sources.iter().map(plain).collect(), ..spec.clone() }
 }
 
-/// The axis of a joint, at the first frame that it turns.
-fn joint_axis(graph: &mut Graph, spec: &Spec, frames: &[[Vector; 4]], joint: usize) -> Option<Axis> {
-    let twists = frame_twists(graph, spec, ChainNumber::Joint(joint));
-    let twist = twists.iter().find(|twist| twist.frame == spec.variables[joint].frame)?;
-    let evaluated = values(graph, spec, &[twist.velocity, twist.rotation].concat(), true);
-    Axis::new(&frames[twist.frame], vector(&evaluated[..3]), vector(&evaluated[3..]))
-}
-
-/// The axis of the errors of a frame, with inputs at the upper ends of their ranges where those at their nominal values
-/// turn nothing.
-fn error_axis(graph: &Graph, spec: &Spec, frame: &[Vector; 4], errors: [Option<Node>; 6]) -> Option<Axis> {
-    [true, false].into_iter().find_map(|nominal| {
-        let (mut velocity, mut rotation) = ([0.0; 3], [0.0; 3]);
-        for (component, node) in Component::ALL.into_iter().zip(errors) {
-            let Some(node) = node else { continue };
-            let value = values(graph, spec, &[node], nominal)[0];
-            let part = if component.is_rotation() { &mut rotation } else { &mut velocity };
-            part[component.axis()] = value;
-        }
-        Axis::new(frame, velocity, rotation)
-    })
+/// The axis of the errors of a frame, from their values one after the other.
+fn error_axis(frame: &[Vector; 4], errors: [Option<Node>; 6], values: &[f64]) -> Option<Axis> {
+    let (mut velocity, mut rotation) = ([0.0; 3], [0.0; 3]);
+    let given = Component::ALL.into_iter().zip(errors).filter(|(_, error)| error.is_some());
+    for ((component, _), value) in given.zip(values) {
+        let part = if component.is_rotation() { &mut rotation } else { &mut velocity };
+        part[component.axis()] = *value;
+    }
+    Axis::new(frame, velocity, rotation)
 }
 
 impl Axis {
@@ -142,13 +165,6 @@ impl Axis {
         let size = dot(self.point, self.point).sqrt() + dot(other.point, other.point).sqrt();
         self.is_parallel(other) && self.distance(other) <= 1e-6 * size
     }
-}
-
-/// Axes and origin of a frame at home.
-fn numbers(graph: &Graph, spec: &Spec, frame: &Frame, nominal: bool) -> [Vector; 4] {
-    let nodes = [&frame.axes[..], &[frame.position]].concat().concat();
-    let evaluated = values(graph, spec, &nodes, nominal);
-    std::array::from_fn(|column| vector(&evaluated[3 * column..3 * column + 3]))
 }
 
 /// At home, with inputs at their nominal values or the upper ends of their ranges.

@@ -1,8 +1,9 @@
 //! What a spec says, in the order of the file.
 
-use abbe_codegen::chain::{Model, effects};
+use abbe_codegen::chain::effects;
 use abbe_codegen::program::{Operations, Routines};
 use abbe_codegen::spec::{Class, Distribution, Orientation, Spec, VariableKind};
+use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
 /// What a spec says, and how many operations its functions take.
@@ -108,7 +109,8 @@ pub struct Function {
 }
 
 impl Facts {
-    pub(super) fn new(spec: &Spec, origin: &str) -> Self {
+    pub(super) fn new(interpreter: &Interpreter, origin: &str) -> Self {
+        let spec = interpreter.spec();
         let frames = spec.frames.iter().map(|frame| Frame {
             name: frame.name.clone(),
             variable: frame.variable.map(|i| spec.variables[i].name.clone()),
@@ -133,12 +135,14 @@ impl Facts {
         });
         let all =
             spec.sources.iter().map(|source| abbe_codegen::spec::Source { enabled: true, ..source.clone() });
-        let (_, effects) = effects(&Spec { sources: all.collect(), ..spec.clone() });
-        let sources = spec.sources.iter().enumerate().map(|(i, source)| Source {
+        let (_, effects) = effects(&Spec { sources: all.collect(), ..Spec::clone(spec) });
+        let mut counts = vec![0; spec.sources.len()];
+        effects.iter().for_each(|effect| counts[effect.source] += 1);
+        let sources = spec.sources.iter().zip(counts).map(|(source, effects)| Source {
             name: source.name.clone(),
             class: class(source.class),
             at: spec.place(source),
-            effects: effects.iter().filter(|effect| effect.source == i).count(),
+            effects,
             enabled: source.enabled,
         });
         Self {
@@ -155,7 +159,7 @@ impl Facts {
             parameters: parameters.collect(),
             inputs: inputs.collect(),
             sources: sources.collect(),
-            operations: operations(spec),
+            operations: operations(interpreter.routines()),
         }
     }
 }
@@ -182,9 +186,8 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-fn operations(spec: &Spec) -> Vec<Function> {
-    let routines = Routines::new(spec, &Model::new(spec));
-    let functions = routines.list.into_iter().filter(|routine| routine.function.is_some());
+fn operations(routines: &Routines) -> Vec<Function> {
+    let functions = routines.list.iter().filter(|routine| routine.function.is_some());
     let counted = functions.map(|routine| {
         let operations = routine.operations;
         let Operations { mul, add, neg, div, sincos, sqrt, other } = operations;

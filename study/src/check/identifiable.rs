@@ -1,14 +1,19 @@
 //! How many of the generalized errors measurements can tell apart.
 
 use abbe::Manipulator;
-use abbe::analysis::{Measurement, Workspace, identifiable, joint_samples};
-use abbe_codegen::spec::{Orientation, Spec};
+use abbe::analysis::{Measurement, Parts, Workspace, identifiable_in_parts, random_joint_samples};
+use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
-/// How many configurations show the rank: 60 that of any arm, more that of a very long chain.
-pub(super) fn configurations(frames: usize) -> usize {
-    (10 * frames).max(60)
+use crate::notes::Notes;
+
+/// Of the configurations.
+const SEED: u64 = 1;
+
+/// How many configurations show the rank of a chain whose longest part has so many transforms.
+fn configurations(longest: usize) -> usize {
+    (3 * longest).max(60)
 }
 
 /// One way to measure.
@@ -27,16 +32,16 @@ pub struct Identifiable {
     pub reason: String,
 }
 
-/// Counts what can be identified when all joints are moved.
-///
-/// What measurements tell does not depend on how orientations are written: small rotations are taken, which exist
-/// everywhere, also where Euler rows do not.
-pub(super) fn count(spec: &Spec) -> Vec<Identifiable> {
-    let spec = Spec { orientation: Orientation::RotationVector, ..spec.clone() };
-    let manipulator = &Interpreter::new(spec);
+/// Counts what can be identified when all joints are moved, and over how many configurations.
+pub(super) fn count(
+    manipulator: &Interpreter,
+    notes: &mut dyn Notes,
+) -> Result<(Vec<Identifiable>, usize), Diagnostics> {
     let description = manipulator.description();
+    let parts = Parts::new(&manipulator.spec().variables_of_transforms());
     let moved = (0..description.variables.len()).collect::<Vec<_>>();
-    let samples = joint_samples(manipulator, &moved, configurations(description.frames.len()))
+    let configurations = configurations(parts.longest());
+    let samples = random_joint_samples(manipulator, &moved, configurations, SEED)
         .map(|workspace| workspace.reached())
         .map_err(|error| error.to_string());
     let ways = [
@@ -45,17 +50,20 @@ pub(super) fn count(spec: &Spec) -> Vec<Identifiable> {
         ("point", Measurement::Point, false),
         ("point", Measurement::Point, true),
     ];
-    let counted = ways.into_iter().map(|(name, measurement, base)| {
+    let mut counted = Vec::with_capacity(ways.len());
+    for (name, measurement, base) in ways {
+        notes.go_on()?;
         let found = samples.as_ref().map_err(String::clone).and_then(|samples| {
-            identifiable(manipulator, samples, measurement, base).map_err(|error| error.to_string())
+            identifiable_in_parts(manipulator, &parts, samples, measurement, base)
+                .map_err(|error| error.to_string())
         });
-        Identifiable {
+        counted.push(Identifiable {
             measurement: name,
             base,
             rank: found.as_ref().ok().map(|found| found.rank),
             reason: found.err().unwrap_or_default(),
             unknowns: 6 * (description.frames.len() + usize::from(base)),
-        }
-    });
-    counted.collect()
+        });
+    }
+    Ok((counted, configurations))
 }

@@ -2,8 +2,11 @@
 
 use abbe::lanes::Batches;
 use abbe::laws::{self, Discrepancy, Failure};
+use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 use serde::Serialize;
+
+use crate::notes::Notes;
 
 /// One law and how well it holds.
 #[derive(Clone, Debug, Serialize)]
@@ -23,13 +26,19 @@ pub struct Law {
     pub failure: Option<String>,
 }
 
-/// How many configurations are looked at; fewer of a very long chain, whose laws take the square of its length.
+/// How many configurations are looked at; fewer of a very long chain, and of one with very many parameters: a configuration
+/// takes as long as these are many.
 pub(super) fn configurations(spec: &Spec) -> usize {
-    (20 * laws::SAMPLES / spec.frames.len().max(20)).max(10)
+    let size = spec.frames.len().max(spec.parameters.len() / 5);
+    (20 * laws::SAMPLES / size.max(20)).max(10)
 }
 
-/// Every law of a manipulator, at that many configurations.
-pub fn laws(manipulator: &dyn Batches, configurations: usize) -> Vec<Law> {
+/// Every law of a manipulator, at that many configurations; an error if it is to stop.
+pub fn laws(
+    manipulator: &dyn Batches,
+    configurations: usize,
+    notes: &mut dyn Notes,
+) -> Result<Vec<Law>, Diagnostics> {
     type Compare = fn(&dyn Batches, usize) -> Result<Discrepancy, Failure>;
     let compared: [(&'static str, Compare, f64); 6] = [
         (
@@ -56,17 +65,24 @@ pub fn laws(manipulator: &dyn Batches, configurations: usize) -> Vec<Law> {
         ),
     ];
     let mut checked = Vec::new();
-    for (law, compare, tolerance) in compared {
+    let mut done = |laws: usize| {
+        notes.progress(laws * configurations, (compared.len() + 1) * configurations);
+        notes.go_on()
+    };
+    for (i, (law, compare, tolerance)) in compared.into_iter().enumerate() {
+        done(i)?;
         let found = compare(manipulator, configurations);
         let value = found.as_ref().ok().map(|found| found.relative);
         let verdict = found.and_then(|found| found.within(law, tolerance));
         checked.push(Law::new(law, value, 0.0, tolerance, verdict));
     }
+    done(compared.len())?;
     let found = laws::remainder_slope(manipulator, configurations);
     let value = found.as_ref().ok().map(|found| found.slope);
     let verdict = found.and_then(|found| found.within(laws::SLOPE_TOLERANCE));
     checked.push(Law::new("slope of what first order neglects", value, 2.0, laws::SLOPE_TOLERANCE, verdict));
-    checked
+    done(compared.len() + 1)?;
+    Ok(checked)
 }
 
 impl Law {

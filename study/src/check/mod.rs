@@ -65,10 +65,10 @@ impl Check {
     /// Checks everything.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let spec = &self.machine.spec;
-        let facts = Facts::new(spec, &self.machine.origin);
         let interpreter = Interpreter::new(Arc::clone(spec));
+        let facts = Facts::new(&interpreter, &self.machine.origin);
         notes.go_on()?;
-        let identifiable = identifiable::count(spec);
+        let (identifiable, moved) = identifiable::count(&interpreter, notes)?;
         notes.go_on()?;
         let configurations = laws::configurations(spec);
         let report = Report {
@@ -78,8 +78,8 @@ impl Check {
             notes: axes::notes(spec),
             identifiable,
             configurations,
-            laws: laws(&interpreter, configurations),
-            moved: identifiable::configurations(spec.frames.len()),
+            laws: laws(&interpreter, configurations, notes)?,
+            moved,
             spec: Arc::clone(spec),
         };
         finite(&self.machine.origin, report)

@@ -4,6 +4,7 @@ mod draw;
 mod streams;
 
 use core::f64::consts::PI;
+use std::sync::LazyLock;
 
 pub(crate) use draw::draw;
 pub(crate) use streams::stream;
@@ -36,8 +37,26 @@ pub(in crate::analysis) fn radical_inverse(index: usize, base: usize) -> f64 {
 
 /// Prime number `index`: 2, 3, 5, …
 pub(in crate::analysis) fn prime(index: usize) -> usize {
+    /// More than chains have variables: they are asked for again and again.
+    static FIRST: LazyLock<Vec<usize>> = LazyLock::new(|| sieved(1 << 17));
     let is_prime = |n: usize| (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d));
-    (2..).filter(|&n| is_prime(n)).nth(index).unwrap_or(2)
+    match FIRST.get(index) {
+        Some(prime) => *prime,
+        None => (1 << 17..).filter(|&n| is_prime(n)).nth(index - FIRST.len()).unwrap_or(2),
+    }
+}
+
+/// The primes below an end, by the sieve of Eratosthenes.
+fn sieved(end: usize) -> Vec<usize> {
+    let mut is_multiple = vec![false; end];
+    let mut primes = Vec::new();
+    for n in 2..end {
+        if !is_multiple[n] {
+            primes.push(n);
+            (n * n..end).step_by(n).for_each(|multiple| is_multiple[multiple] = true);
+        }
+    }
+    primes
 }
 
 /// `count` equally spaced values from one end of a range to the other; a single one is the middle.
@@ -109,4 +128,17 @@ pub fn joint_sample(description: &Description, arm: f64, moved: &[usize], index:
 /// The Euclidean norm of a vector.
 pub(crate) fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|component| component * component).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn primes_are_those_of_trial_division() {
+        let is_prime = |n: &usize| (2..).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
+        assert!(sieved(1 << 17).into_iter().eq((2..1 << 17).filter(is_prime)));
+        // The last that is kept and the first that is not.
+        assert_eq!([prime(0), prime(12_250), prime(12_251), prime(12_252)], [2, 131_071, 131_101, 131_111]);
+    }
 }
