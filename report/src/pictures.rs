@@ -4,6 +4,7 @@ use abbe_codegen::diagnostic::Diagnostics;
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Figures;
 use abbe_study::mistake;
+use plotly::Plot;
 
 use super::figure::Named;
 use super::html;
@@ -21,6 +22,37 @@ pub struct File {
     pub text: String,
 }
 
+/// A figure of an analysis.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// The name of its file, without the ending.
+    pub name: String,
+    /// What it is called.
+    pub title: String,
+    /// As SVG.
+    pub svg: String,
+    /// To rotate, to zoom and to point at: what Plotly draws, as JSON; several stand side by side.
+    pub plots: Vec<String>,
+}
+
+/// The figures of an analysis, in the order of its page.
+///
+/// Only what was gathered is drawn: a report without figures has none.
+pub fn figures(report: &Report) -> Result<Vec<Picture>, Diagnostics> {
+    let gathered = report.figures.as_ref().map_or(&[][..], |figures| &figures.figures);
+    let picture = |figure: Named| {
+        let svg = drawn(&figure, report)?;
+        let plots = html::interactive(&figure, report).iter().map(Plot::to_json).collect();
+        Ok(Picture { name: figure.name, title: figure.title, svg, plots })
+    };
+    Named::all(gathered, report).into_iter().map(picture).collect()
+}
+
+fn drawn(figure: &Named, report: &Report) -> Result<String, Diagnostics> {
+    svg::draw(figure, report)
+        .map_err(|error| mistake::with_help(&figure.name, error, "leave this figure out of the study"))
+}
+
 /// The figures of an analysis as SVG, and `report.html`, which shows them and says everything else.
 ///
 /// Only what was gathered is drawn: a report without figures is a page without pictures.
@@ -28,11 +60,7 @@ pub fn analysis(report: &Report) -> Result<Vec<File>, Diagnostics> {
     let none = Figures::default();
     let Figures { figures, left_out } = report.figures.as_ref().unwrap_or(&none);
     let figures = Named::all(figures, report);
-    let draw = |figure: &Named| {
-        svg::draw(figure, report)
-            .map_err(|error| mistake::with_help(&figure.name, error, "leave this figure out of the study"))
-    };
-    let drawings = figures.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
+    let drawings = figures.iter().map(|figure| drawn(figure, report)).collect::<Result<Vec<_>, _>>()?;
     let page = html::page(&figures, &drawings, left_out, report);
     let names = figures.iter().map(|figure| format!("{}.svg", figure.name));
     let mut files = names.zip(drawings).map(|(name, text)| File { name, text }).collect::<Vec<_>>();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use abbe::identify::{Criterion, Loss, Measurement, Observation};
 use abbe_codegen::spec::Spec;
 use abbe_study::compensate::Compensate;
-use abbe_study::data::{Data, Map};
+use abbe_study::data::{Cells, Columns, Data, Map, Source};
 use abbe_study::identify::{Family, Identify, Prior, Settings};
 use abbe_study::measure::Measure;
 use abbe_study::plan::{Choice, Plan};
@@ -207,6 +207,34 @@ fn rows_are_grouped_and_ordered_by_columns() {
         (1..=6).map(|i| format!("q{i} = {{ column = \"j{i}\", unit = \"deg\" }}\n")).collect();
     let grouped = Map::parse("map.toml", &format!("{text}{joints}{POINT}"), &ur5().spec).unwrap();
     assert_eq!(numbers(&grouped), [(0, Some(3.0)), (1, Some(2.0)), (0, Some(1.0))]);
+
+    // Columns in memory say the same, but that their rows are counted from 0.
+    let heading = ["j1", "j2", "j3", "j4", "j5", "j6", "x", "y", "z", "minute"];
+    let values = [[1.0, 1.0, 9.0], [2.0; 3], [3.0; 3], [4.0; 3], [5.0; 3], [6.0, 6.001, 6.0]];
+    let values = values.into_iter().chain([[7.0; 3], [8.0; 3], [9.0; 3], [3.0, 2.0, 1.0]]);
+    let numbers =
+        heading.iter().zip(values).map(|(name, values)| ((*name).into(), Cells::Numbers(values.into())));
+    let group = ("pose".to_owned(), Cells::Texts(["a", "b", "a"].map(str::to_owned).into()));
+    let columns: Vec<_> = numbers.chain([group]).collect();
+    let table =
+        |columns: &[(String, Cells)]| Columns::new("data", columns.to_vec(), vec!["other".to_owned()]);
+    let from = |data: Data, first: u64| -> Vec<Observation> {
+        data.observations.into_iter().map(|row| Observation { line: row.line - first, ..row }).collect()
+    };
+    let data = Data::read(&table(&columns).unwrap(), &grouped).unwrap();
+    assert_eq!((data.file.as_str(), data.files.len(), data.place(2)), ("data", 0, "row 2".to_owned()));
+    assert_eq!(from(data, 0), from(Data::read(&path, &grouped).unwrap(), 2));
+
+    let mut hidden = columns.clone();
+    hidden[6].1 = Cells::Numbers(vec![7.0, f64::NAN, f64::INFINITY]);
+    let lines = Data::read(&table(&hidden).unwrap(), &grouped).unwrap().summary().lines();
+    assert_eq!(lines[1..], ["  row 1: `x` is missing", "  row 2: `x` is `inf`"]);
+    let hash = |columns| Source::from(&table(columns).unwrap()).hash().unwrap();
+    assert_ne!(hash(&hidden), hash(&columns));
+    assert!(table(&columns[1..]).is_ok_and(|table| Data::read(&table, &grouped).is_err()));
+    hidden[0].1 = Cells::Numbers(vec![1.0]);
+    let mistake = table(&hidden).unwrap_err().to_string();
+    assert!(mistake.contains("`j2` has 3 rows, and `j1` has 1"), "{mistake}");
 }
 
 /// Rows with a hidden target have fewer numbers; lines end as on Windows; comments and empty lines count.

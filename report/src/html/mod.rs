@@ -27,6 +27,16 @@ use page::{document, section};
 use plots::style;
 pub use provenance::Provenance;
 
+use abbe_study::analyze::Report;
+use plotly::Plot;
+
+use crate::figure::Named;
+
+/// The plots of a figure, those that stand side by side.
+pub(super) fn interactive(figure: &Named, report: &Report) -> Vec<Plot> {
+    plots::of(figure, report).plots
+}
+
 /// Text as HTML has it.
 pub(super) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");

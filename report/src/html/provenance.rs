@@ -1,11 +1,10 @@
 //! What a page of measurements rests on: the instrument, the files, the date that was given.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
-use abbe_study::data::{Base, Layout, Map};
-use abbe_study::hash;
+use abbe_study::data::{Base, Layout, Map, Source};
 use abbe_study::number::{self, short};
 
 use super::escaped;
@@ -15,23 +14,25 @@ use super::escaped;
 pub struct Provenance {
     /// The date as the user gave it; pages know no clock.
     pub date: Option<String>,
-    /// What a file is, its name, and the SHA-256 of what is in it.
+    /// What a file or table is, its name, and the SHA-256 of what is in it.
     pub files: Vec<(&'static str, String, String)>,
 }
 
 impl Provenance {
-    /// The spec, the map if there is one, and files by what they are.
+    /// The spec, the map if there is one, and files or tables by what they are.
     pub fn new<'f>(
         spec: &Spec,
         map: Option<&Map>,
-        files: impl IntoIterator<Item = (&'static str, &'f PathBuf)>,
+        files: impl IntoIterator<Item = (&'static str, impl Into<Source<'f>>)>,
         date: Option<&String>,
     ) -> Result<Self, Diagnostics> {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let mut all = vec![("spec", spec.file.clone(), spec.hash.clone())];
         all.extend(map.map(|map| ("map", name(Path::new(map.path())), map.hash())));
-        for (kind, file) in files {
-            all.push((kind, name(file), hash::of_file(file)?));
+        for (kind, source) in files {
+            let source = source.into();
+            let name = source.file().map_or_else(|| format!("{}, a table", source.name()), name);
+            all.push((kind, name, source.hash()?));
         }
         Ok(Self { date: date.cloned(), files: all })
     }

@@ -124,7 +124,7 @@ pub(super) fn rows(task: &Task<'_>, data: &mut Data, notes: &mut dyn Notes) -> R
         }
     }
     if rows.is_empty() {
-        let why = data.unusable.first().map(|row| format!(": line {}: {}", row.line, row.reason));
+        let why = data.unusable.first().map(|row| format!(": {}: {}", data.place(row.line), row.reason));
         let message = format!("no row can be compensated{}", why.unwrap_or_default());
         return Err(mistake::with_help(
             &data.file,

@@ -7,12 +7,10 @@ use std::sync::Arc;
 use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::LARGEST;
-use csv::StringRecord;
 
-use super::date::parse_date;
 use super::dialect::Dialect;
 use super::lines::{Lines, Watched};
+use super::record::Record;
 use crate::mistake;
 
 const WANTED: &str = "give a CSV file with a heading in its first line";
@@ -27,7 +25,7 @@ const HEAD: u64 = 1 << 18;
 const MOST_COLUMNS: usize = 10_000;
 
 /// The most rows of a file.
-const MOST_ROWS: usize = 2_000_000;
+pub(super) const MOST_ROWS: usize = 2_000_000;
 
 /// A file with a heading.
 pub(super) struct File {
@@ -36,15 +34,6 @@ pub(super) struct File {
     lines: Lines,
     pub(super) dialect: Dialect,
     pub(super) heading: Arc<[String]>,
-}
-
-/// A record below the heading.
-pub(super) struct Record {
-    /// Its line in the file, from 1.
-    pub(super) line: u64,
-    heading: Arc<[String]>,
-    dialect: Dialect,
-    fields: StringRecord,
 }
 
 impl File {
@@ -81,7 +70,7 @@ impl File {
                 let help = "split it, or take every second row";
                 return Err(mistake::with_help(&file, message, help));
             }
-            Ok(Record { line, heading: Arc::clone(&heading), dialect, fields })
+            Ok(Record::written(line, Arc::clone(&heading), dialect, fields))
         })
     }
 }
@@ -104,61 +93,6 @@ fn other_text(head: &[u8]) -> Option<Unfit> {
         return None;
     };
     Some(Unfit::new(format!("this file is no table; it seems to be {what}"), help))
-}
-
-impl Record {
-    /// Whether there are cells beyond the heading, and how many in all. Empty ones do not count.
-    pub(super) fn too_long(&self) -> Option<String> {
-        let cells = (1..=self.fields.len()).rev().find(|cells| !self.is_empty(cells - 1))?;
-        let columns = self.heading.len();
-        (cells > columns).then(|| {
-            let between = self.dialect.delimiter();
-            format!(
-                "it has {cells} cells, the heading {columns}: is there one of the {between} inside a cell?"
-            )
-        })
-    }
-
-    /// Whether there is nothing at a place.
-    pub(super) fn is_empty(&self, place: usize) -> bool {
-        self.fields.get(place).is_none_or(str::is_empty)
-    }
-
-    /// The finite numbers at some places, or why one is none.
-    pub(super) fn numbers(&self, places: &[usize]) -> Result<Vec<f64>, String> {
-        places.iter().map(|place| self.number(*place)).collect()
-    }
-
-    /// What stands at a place.
-    pub(super) fn text(&self, place: usize) -> &str {
-        self.fields.get(place).map_or("", meant)
-    }
-
-    /// The time at a place: a number, or of a date the days since 1970.
-    pub(super) fn time(&self, place: usize) -> Result<f64, String> {
-        let text = self.text(place);
-        let time = parse_date(text).map(|(_, time)| time).or_else(|| self.dialect.number(text));
-        time.filter(|time| time.abs() <= LARGEST).ok_or_else(|| {
-            format!("`{}` is `{}`, no date and no number", self.heading[place], text.escape_debug())
-        })
-    }
-
-    /// The finite number at a place, or why it is none.
-    pub(super) fn number(&self, place: usize) -> Result<f64, String> {
-        let name = &self.heading[place];
-        match self.fields.get(place) {
-            None => Err(format!("it ends before `{name}`")),
-            Some("") => Err(format!("`{name}` is missing")),
-            Some(text) => match self.dialect.number(text) {
-                Some(value) if value.abs() <= LARGEST => Ok(value),
-                Some(value) if value.is_finite() => {
-                    Err(format!("`{name}` is `{value:e}`: numbers go up to 1e150"))
-                }
-                Some(_) => Err(format!("`{name}` is `{}`", text.escape_debug())),
-                None => Err(format!("`{name}` is `{}`, not a number", text.escape_debug())),
-            },
-        }
-    }
 }
 
 fn unreadable(file: &str, error: &csv::Error) -> Diagnostics {

@@ -154,6 +154,13 @@ impl Map {
         if names.is_empty() { vec![String::new()] } else { names }
     }
 
+    /// The names of all columns that it names.
+    pub fn columns(&self) -> Vec<&str> {
+        let beside = [&self.group, &self.direction, &self.time, &self.stations.column];
+        let beside = beside.into_iter().flatten().chain(self.setup());
+        self.commanded().chain(self.measured()).chain(beside).map(|column| &*column.name).collect()
+    }
+
     /// The same for instruments that stand elsewhere, and look at something else: where, the data are to tell.
     pub fn newly_stationed(self) -> Self {
         let stations = Stations { stated: Vec::new(), ..self.stations };

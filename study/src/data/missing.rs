@@ -1,7 +1,5 @@
 //! Columns that a map names and a file has not.
 
-use std::path::Path;
-
 use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
 
 use super::column::Column;
@@ -9,7 +7,7 @@ use super::map::Map;
 
 impl Map {
     /// The mistake that columns are missing: all of them, each where the map names it.
-    pub(super) fn missing(&self, file: &Path, columns: &[&Column], header: &[String]) -> Diagnostics {
+    pub(super) fn missing(&self, file: &str, columns: &[&Column], header: &[String]) -> Diagnostics {
         let there_are = first_of(header);
         let wanted: Vec<&str> =
             self.commanded().chain(self.measured()).map(|column| column.name.as_str()).collect();
@@ -21,7 +19,7 @@ impl Map {
             let message = format!(
                 "{} columns of the map are not in {}: `{}` … `{}`",
                 columns.len(),
-                file.display(),
+                file,
                 name(first),
                 name(last)
             );
@@ -48,8 +46,7 @@ impl Map {
                 Some(name) => format!("did you mean `{name}`? there are: {there_are}"),
                 None => format!("there are: {there_are}"),
             };
-            let message =
-                format!("there is no column `{}` in {}", column.name.escape_debug(), file.display());
+            let message = format!("there is no column `{}` in {}", column.name.escape_debug(), file);
             let span = column.span.clone();
             Diagnostic { span, ..Diagnostic::whole_file(message) }.label("the map wants it").help(help)
         });

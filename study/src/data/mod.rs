@@ -1,4 +1,4 @@
-//! Measurements: a CSV file, and a map (TOML) that says what its columns are.
+//! Measurements: a CSV file or columns in memory, and a map (TOML) that says what its columns are.
 //!
 //! `docs/reference/map.md` has every key.
 
@@ -20,8 +20,10 @@ mod read_channels;
 mod read_instruments;
 mod read_places;
 mod read_values;
+mod record;
 mod rotation;
 mod rows;
+mod source;
 mod station;
 mod table;
 mod turn;
@@ -37,6 +39,7 @@ pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use rotation::reread;
 pub use rows::{Data, Summary, Unusable};
+pub use source::{Cells, Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
 pub use table::Table;
 pub use turn::{Order, Turn};

@@ -11,24 +11,25 @@ use serde::Serialize;
 
 use super::column::{Channel, Column};
 use super::configurations::number_configurations;
-use super::file::{File, Record};
 use super::instrument::{Instruments, NOTHING_READ};
 use super::map::{Layout, Map};
+use super::record::Record;
+use super::source::Source;
 use crate::mistake;
 
 /// A row that cannot be used.
 #[derive(Clone, Debug, Serialize)]
 pub struct Unusable {
-    /// Its line in the file.
+    /// Its line in the file, from 1; of columns in memory its row, from 0.
     pub line: u64,
     /// Why not.
     pub reason: String,
 }
 
-/// The rows of a file.
+/// The rows of a file, or of columns in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
-    /// The file's name.
+    /// The file's name, or what the columns are called.
     pub file: String,
     /// The file itself; none if the rows come from elsewhere.
     pub files: Vec<PathBuf>,
@@ -44,7 +45,7 @@ pub struct Data {
 
 /// Which columns are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Columns {
+enum Wanted {
     /// What was commanded alone: a plan.
     Commanded,
     /// What was measured, too.
@@ -61,57 +62,56 @@ impl Data {
     }
 
     /// Reads what was commanded and what was measured. A row that was there before, digit by digit, is not used.
-    pub fn read(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
-        Self::rows(file, map, Columns::Measured, true)
+    pub fn read<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+        Self::rows(source.into(), map, Wanted::Measured, true)
     }
 
     /// The names of the columns of a file.
     pub fn heading(file: &Path) -> Result<Vec<String>, Diagnostics> {
-        File::open(file).map(|file| file.heading.to_vec())
+        Source::File(file).open().map(|file| file.heading.to_vec())
     }
 
     /// Reads where the tool is wanted: what is measured elsewhere; the same place may be wanted again.
-    pub fn read_wanted(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
-        Self::rows(file, map, Columns::Measured, false)
+    pub fn read_wanted<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+        Self::rows(source.into(), map, Wanted::Measured, false)
     }
 
     /// Reads what was commanded alone: a plan.
-    pub fn read_commanded(file: &Path, map: &Map) -> Result<Self, Diagnostics> {
-        Self::rows(file, map, Columns::Commanded, false)
+    pub fn read_commanded<'a>(source: impl Into<Source<'a>>, map: &Map) -> Result<Self, Diagnostics> {
+        Self::rows(source.into(), map, Wanted::Commanded, false)
     }
 
-    fn rows(file: &Path, map: &Map, columns: Columns, once: bool) -> Result<Self, Diagnostics> {
-        let table = File::open(file)?;
+    fn rows(source: Source<'_>, map: &Map, columns: Wanted, once: bool) -> Result<Self, Diagnostics> {
+        let table = source.open()?;
         let header = &Arc::clone(&table.heading);
         // The setup is read with what is measured, if anything is.
-        let setup = map.setup().filter(|_| columns == Columns::Commanded);
+        let setup = map.setup().filter(|_| columns == Wanted::Commanded);
         let commanded: Vec<&Column> = map.commanded().chain(setup).collect();
-        let measured = if columns == Columns::Measured { map.measured() } else { Vec::new() };
+        let measured = if columns == Wanted::Measured { map.measured() } else { Vec::new() };
         let place = |column: &&Column| header.iter().position(|name| *name == column.name);
         // A plan says only if it can where it is for.
-        let is_there = |column: &&Column| columns == Columns::Measured || place(column).is_some();
+        let is_there = |column: &&Column| columns == Wanted::Measured || place(column).is_some();
         let station = map.stations.column.as_ref().filter(is_there);
         let beside = map.group.iter().chain(&map.direction).chain(&map.time).filter(|_| once);
         let wanted = commanded.iter().chain(&measured).copied().chain(beside).chain(station);
         let missing: Vec<&Column> = wanted.filter(|column| place(column).is_none()).collect();
         if !missing.is_empty() {
-            return Err(map.missing(file, &missing, header));
+            return Err(map.missing(&source.name(), &missing, header));
         }
         let wanted = commanded.iter().chain(&measured);
         let twice = |column: &&&Column| header.iter().filter(|name| **name == column.name).count() > 1;
         if let Some(column) = wanted.into_iter().find(twice) {
             let message = format!("two columns are called `{}`", column.name.escape_debug());
-            return Err(mistake::with_help(file.display(), message, "rename one of them in the heading"));
+            return Err(mistake::with_help(source.name(), message, "rename one of them in the heading"));
         }
         let places = |columns: &[&Column]| columns.iter().filter_map(place).collect::<Vec<_>>();
         let station = station.as_ref().and_then(place);
         let (commanded, measured) = (places(&commanded), places(&measured));
-        let (stations, written) = (map.stations.names(), table.dialect.words());
         let mut data = Self {
-            file: file.display().to_string(),
-            files: vec![file.to_owned()],
-            written,
-            stations,
+            file: source.name(),
+            files: source.file().map(Path::to_owned).into_iter().collect(),
+            written: table.written,
+            stations: map.stations.names(),
             ..Self::default()
         };
         let [group, direction, time] =
@@ -123,9 +123,9 @@ impl Data {
         // Where the machine was before, for instruments that tell how far it moved since.
         let from_before = map.instruments().is_some_and(Instruments::count_from_before);
         let mut before: Option<Observation> = None;
-        for record in table.records() {
+        for record in table.records {
             let record = record?;
-            let measured = (columns == Columns::Measured).then_some(&measured[..]);
+            let measured = (columns == Wanted::Measured).then_some(&measured[..]);
             let here = from_before.then(|| row(&record, &commanded, None, map).ok()).flatten();
             let row = row(&record, &commanded, measured, map).and_then(|(bits, row)| {
                 let hash = digits.hash_one(bits);
@@ -143,11 +143,11 @@ impl Data {
             match row {
                 Ok(((hash, observation), time)) => {
                     known.entry(hash).or_insert(data.observations.len());
-                    let station = station.map_or(0, |place| data.station(record.text(place)));
+                    let station = station.map_or(0, |place| data.station(&record.text(place)));
                     let from = before.take().map(|from| Box::new(Observation { station, ..from }));
                     data.observations.push(Observation { time, station, from, ..observation });
-                    groups.extend(group.map(|place| record.text(place).to_owned()));
-                    directions.extend(direction.map(|place| record.text(place).to_owned()));
+                    groups.extend(group.map(|place| record.text(place).into_owned()));
+                    directions.extend(direction.map(|place| record.text(place).into_owned()));
                 }
                 // A place to begin from.
                 Err(reason) if from_before && reason == NOTHING_READ => {}
@@ -168,10 +168,13 @@ impl Data {
             None => number_configurations(&mut data.observations, &map.resolution),
         }
         if data.observations.is_empty() {
-            let why = data.unusable.first().map(|row| format!(": line {}: {}", row.line, row.reason));
+            let why = data.unusable.first().map(|row| format!(": {}: {}", data.place(row.line), row.reason));
             let message = format!("there is no row in it that can be used{}", why.unwrap_or_default());
-            let help = "one row of numbers in every line below the heading";
-            return Err(mistake::with_help(file.display(), message, help));
+            let help = match source {
+                Source::File(_) => "one row of numbers in every line below the heading",
+                Source::Columns(_) => "a column of numbers for each that the map names",
+            };
+            return Err(mistake::with_help(source.name(), message, help));
         }
         Ok(data)
     }
@@ -202,6 +205,11 @@ impl Data {
         self.unusable.insert(place, Unusable { line, reason: reason.to_owned() });
     }
 
+    /// Where a row stands: `line 5` of a file, `row 3` of columns in memory.
+    pub fn place(&self, line: u64) -> String {
+        place(!self.files.is_empty(), line)
+    }
+
     /// How many rows there are, and what is wrong with the others.
     pub fn summary(&self) -> Summary {
         Summary {
@@ -209,6 +217,7 @@ impl Data {
             written: self.written,
             rows: self.observations.len(),
             unusable: self.unusable.clone(),
+            of_file: !self.files.is_empty(),
         }
     }
 }
@@ -225,6 +234,14 @@ pub struct Summary {
     pub rows: usize,
     /// Those that cannot.
     pub unusable: Vec<Unusable>,
+    /// Whether they have lines, being those of a file.
+    #[serde(skip)]
+    pub(crate) of_file: bool,
+}
+
+/// Where a row stands, in words.
+fn place(of_file: bool, line: u64) -> String {
+    format!("{} {line}", if of_file { "line" } else { "row" })
 }
 
 impl Summary {
@@ -235,9 +252,8 @@ impl Summary {
         let mut lines = vec![format!("{}: {} rows{written}", self.file, self.rows)];
         if !self.unusable.is_empty() {
             lines[0] += &format!(", {} more that cannot be used:", self.unusable.len());
-            lines.extend(
-                self.unusable.iter().take(SHOWN).map(|row| format!("  line {}: {}", row.line, row.reason)),
-            );
+            let shown = self.unusable.iter().take(SHOWN);
+            lines.extend(shown.map(|row| format!("  {}: {}", place(self.of_file, row.line), row.reason)));
             if self.unusable.len() > SHOWN {
                 lines.push(format!("  … and {} more", self.unusable.len() - SHOWN));
             }

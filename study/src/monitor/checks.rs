@@ -1,12 +1,10 @@
 //! The checks, in the order of their dates.
 
-use std::path::PathBuf;
-
 use abbe::Manipulator;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 
-use crate::data::{Calendar, Data, Dated, Map, in_name, parse_date};
+use crate::data::{Calendar, Data, Dated, Map, Source, in_name, parse_date};
 use crate::mistake;
 
 /// One visit to the machine with the instrument.
@@ -31,16 +29,20 @@ const DATES: &str =
     "a date is written 2026-03-14, with a time behind it or without, or it is a number of days";
 
 impl Checks {
-    /// Reads files, each a check; a file whose rows have several dates is as many checks.
+    /// Reads files or tables, each a check; one whose rows have several dates is as many checks.
     ///
     /// Dates are those of the map's `[time]`, or else those in the names of the files; if these have none, checks are counted.
-    pub fn read(files: &[PathBuf], map: &Map) -> Result<Self, Diagnostics> {
+    pub fn read<'a>(
+        sources: impl IntoIterator<Item = impl Into<Source<'a>>>,
+        map: &Map,
+    ) -> Result<Self, Diagnostics> {
         let mut checks: Vec<(Calendar, Check)> = Vec::new();
+        let sources: Vec<Source<'_>> = sources.into_iter().map(Into::into).collect();
         let names: Vec<Option<f64>> =
-            files.iter().map(|file| in_name(&file.file_name()?.to_string_lossy())).collect();
+            sources.iter().map(|source| in_name(&source.file()?.file_name()?.to_string_lossy())).collect();
         let named = names.iter().all(Option::is_some);
-        for (file, name) in files.iter().zip(names) {
-            let Dated { data, dates } = Dated::read(file, map)?;
+        for (source, name) in sources.into_iter().zip(names) {
+            let Dated { data, dates } = Dated::read(source, map)?;
             match dates {
                 Some(dates) => checks.extend(split(data, &dates)),
                 None => {

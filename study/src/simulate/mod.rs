@@ -86,7 +86,7 @@ impl Simulate {
         };
         let fail = |failure: Failure| match failure {
             Failure::Observation { line, error } => {
-                mistake::not_evaluated(&list.file, &format!("line {line}"), &error, description)
+                mistake::not_evaluated(&list.file, &list.place(line), &error, description)
             }
             failure => mistake::whole(&list.file, &failure),
         };

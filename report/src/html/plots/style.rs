@@ -58,6 +58,11 @@ pub(crate) fn margin([left, right, top, bottom]: [usize; 4]) -> Margin {
 
 /// An axis with a title.
 pub(crate) fn axis(title: &str) -> Axis {
+    axis_in_space(title).auto_margin(true)
+}
+
+/// One of the three of a space, which has no margins.
+fn axis_in_space(title: &str) -> Axis {
     let title = Title::with_text(title).font(font(12).color(css(INK, 1.0)));
     Axis::new()
         .title(title)
@@ -65,12 +70,11 @@ pub(crate) fn axis(title: &str) -> Axis {
         .zero_line_color(css(GREY, 0.6))
         .tick_font(font(11).color(css(GREY, 1.0)))
         .exponent_format(plotly::common::ExponentFormat::Power)
-        .auto_margin(true)
 }
 
 /// A space with three axes, seen from the corner; `up` is the axis that points up.
 pub(crate) fn scene(titles: [&str; 3], aspect: AspectMode, up: usize, distance: f64) -> LayoutScene {
-    let [x, y, z] = titles.map(axis);
+    let [x, y, z] = titles.map(axis_in_space);
     let unit = |axis: usize| f64::from(u8::from(axis == up));
     let eye = |axis: usize| distance * if axis == up { 0.6 } else { 0.95 };
     let camera = Camera::new()
