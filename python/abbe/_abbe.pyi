@@ -6,7 +6,9 @@ from typing import Any, TypeAlias, final, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "__version__", "_part", "_restore", "load", "merge", "shipped"]
+from ._fields import Figure
+
+__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__version__", "_part", "_restore", "load", "merge", "shipped"]
 
 __version__: str
 
@@ -19,6 +21,8 @@ _Input: TypeAlias = float | str | ArrayLike
 # Called with how many are done, and of how many.
 _Progress: TypeAlias = Callable[[int, int], object]
 _Path: TypeAlias = str | PathLike[str]
+# The path of a CSV file, or a table with columns that a map names.
+_Measured: TypeAlias = _Path | Mapping[str, ArrayLike] | Any
 # A number in the length unit of the spec, or text with a unit.
 _Length: TypeAlias = float | str
 
@@ -32,6 +36,8 @@ class SpecError(ValueError):
 class Machine:
     @property
     def name(self) -> str: ...
+    @property
+    def text(self) -> str: ...
     @property
     def title(self) -> str: ...
     @property
@@ -101,13 +107,13 @@ class Machine:
         threads: int | None = None,
         progress: _Progress | None = None,
     ) -> Part: ...
-    def measure(self, data: _Path, map: _Path, *, new_station: bool = False, accept: str | None = None) -> Report: ...
+    def measure(self, data: _Measured, map: _Path, *, new_station: bool = False, accept: str | None = None) -> Report: ...
     def identify(
         self,
-        data: _Path,
+        data: _Measured,
         map: _Path,
         *,
-        test: _Path | None = None,
+        test: _Measured | None = None,
         terms: str | Sequence[str] | None = None,
         robust: str | None = None,
         prior: float | str | None = None,
@@ -135,7 +141,7 @@ class Machine:
         self,
         map: _Path,
         *,
-        data: _Path | None = None,
+        data: _Measured | None = None,
         samples: int = 100,
         noise: _Length | None = None,
         outliers: float = 0.0,
@@ -144,7 +150,7 @@ class Machine:
     ) -> Report: ...
     def monitor(
         self,
-        data: Sequence[_Path],
+        data: _Measured | Sequence[_Measured],
         map: _Path,
         *,
         tolerance: _Length | None = None,
@@ -170,8 +176,10 @@ class Report:
     def to_dict(self) -> dict[str, Any]: ...
     def to_json(self) -> str: ...
     def report(self, folder: _Path, *, overwrite: bool = False) -> list[str]: ...
-    def figures(self) -> dict[str, str]: ...
-    def figure(self, name: str) -> Any: ...
+    def figures(self) -> dict[str, Figure]: ...
+    def figure(self, name: str) -> Figure: ...
+    def tables(self) -> list[str]: ...
+    def table(self, name: str) -> Table: ...
     def __getattr__(self, name: str) -> Any: ...
     def __dir__(self) -> list[str]: ...
     def _repr_html_(self) -> str | None: ...
@@ -188,6 +196,16 @@ class Part:
     @property
     def unreachable(self) -> int: ...
     def __reduce__(self) -> tuple[Any, tuple[bytes]]: ...
+
+@final
+class Table:
+    @property
+    def columns(self) -> tuple[str, ...]: ...
+    def to_dict(self) -> dict[str, list[Any]]: ...
+    def __len__(self) -> int: ...
+    def __arrow_c_schema__(self) -> object: ...
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
+    def _repr_html_(self) -> str: ...
 
 def load(spec: str | PathLike[str] | None = None, *, text: str | None = None) -> Machine: ...
 def merge(

@@ -1,6 +1,7 @@
 """What users give as numbers, made into arrays of double numbers. Imported when it is first needed: NumPy takes its time."""
 
 from collections.abc import Mapping
+from numbers import Real
 
 import numpy as np
 
@@ -14,6 +15,43 @@ def numbers(value, what, names):
         columns = [_real(value[name], name) for name in names]
         value = np.stack(np.broadcast_arrays(*columns), axis=-1) if columns else np.empty(0)
     return np.require(_real(value, what), np.float64, ["C", "A"])
+
+
+def columns(value, what, wanted):
+    """Of a table the columns `wanted`, as arrays of double numbers (NaN where there is nothing) or lists of texts, and the names of the others."""
+    names = _columns(value)
+    if names is None:
+        raise TypeError(
+            f"`{what}` must be the path of a CSV file, or a table: a dict of arrays, a frame of pandas or polars, a table of pyarrow;"
+            f" it is of type {type(value).__name__}"
+        )
+    found = [(str(name), _cells(value[name], name, what)) for name in names if name in wanted]
+    return found, [str(name) for name in names if name not in wanted]
+
+
+def _cells(column, name, what):
+    if isinstance(column, np.ma.MaskedArray):
+        raise TypeError(f"column `{name}` of `{what}` is a masked array: say what its masked values are, with .filled(…)")
+    array = np.asarray(column)
+    if array.ndim != 1:
+        raise ValueError(f"column `{name}` of `{what}` has shape {array.shape}: it needs one cell for each row")
+    if array.dtype.kind in "iuf":
+        return np.require(array, np.float64, ["C", "A"])
+    if array.dtype.kind == "M":
+        return ["" if text == "NaT" else text for text in array.astype("M8[s]").astype(str)]
+    if array.dtype.kind not in "OUTb":
+        raise TypeError(f"column `{name}` of `{what}` must be numbers, texts or dates, not {array.dtype}")
+    cells = [None if _is_missing(cell) else cell for cell in array.tolist()]
+    if all(cell is None or (isinstance(cell, Real) and not isinstance(cell, bool)) for cell in cells):
+        return np.array(cells, dtype=np.float64)
+    return ["" if cell is None else str(cell) for cell in cells]
+
+
+def _is_missing(cell):
+    """None, NaN, and what pandas has for them."""
+    if cell is None or type(cell).__name__ in ("NAType", "NaTType"):
+        return True
+    return isinstance(cell, float) and cell != cell
 
 
 def _real(value, what):

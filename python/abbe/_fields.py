@@ -1,5 +1,8 @@
 """Fields of reports, by name."""
 
+import html as markup
+import importlib.util
+import json
 from types import SimpleNamespace
 
 
@@ -20,13 +23,27 @@ class Fields(SimpleNamespace):
 
 
 class Figure:
-    """A picture."""
+    """A figure: its title, `.svg`, and `.plots`, dicts of data and layout for Plotly, which stand side by side."""
 
-    def __init__(self, svg):
+    def __init__(self, title, svg, plots):
+        self.title = title
         self.svg = svg
+        self._plots = plots
 
-    def _repr_svg_(self):
-        return self.svg
+    @property
+    def plots(self):
+        plots = map(json.loads, self._plots)
+        return [{"data": plot["data"], "layout": plot["layout"]} for plot in plots]
+
+    def _repr_mimebundle_(self, include=None, exclude=None):
+        bundle = {"image/svg+xml": self.svg, "text/plain": repr(self)}
+        # A notebook shows one plot at a place. Without plotly it has nothing to show it with.
+        if len(self._plots) == 1 and importlib.util.find_spec("plotly"):
+            bundle["application/vnd.plotly.v1+json"] = self.plots[0]
+        return bundle
+
+    def __repr__(self):
+        return f"<abbe figure: {self.title}>"
 
 
 def text(fields):
@@ -39,3 +56,18 @@ def text(fields):
             value = ", ".join(vars(value))
         lines.append(f"{name}: {value}")
     return "\n".join(lines) + "\n"
+
+
+def html(columns, most=60):
+    """The first rows of a table."""
+    head = "".join(f"<th>{markup.escape(name)}</th>" for name in columns)
+    rows = list(zip(*columns.values(), strict=True))
+    body = "".join("<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row) + "</tr>" for row in rows[:most])
+    more = f"<p>{len(rows) - most} more rows</p>" if len(rows) > most else ""
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+def _cell(value):
+    if value is None:
+        return ""
+    return f"{value:.6g}" if isinstance(value, float) else markup.escape(str(value))

@@ -2,6 +2,7 @@
 #![allow(clippy::too_many_arguments, reason = "keywords of Python")]
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 use abbe::identify::{Criterion, Loss};
@@ -20,7 +21,7 @@ use abbe_study::measure::Measure;
 use abbe_study::monitor::{self, Checks, Monitor};
 use abbe_study::plan::{Choice, Plan, Sets};
 use abbe_study::simulate::{Places, Simulate};
-use abbe_study::{Acceptance, Study};
+use abbe_study::{Acceptance, Notes, Study};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -28,6 +29,7 @@ use pyo3::types::PyString;
 use crate::failure::{guarded, spec_error};
 use crate::job::run;
 use crate::machine::Machine;
+use crate::measured::Measured;
 use crate::report::{Pages, Report};
 
 impl Machine {
@@ -118,29 +120,35 @@ impl Machine {
 
     /// How good the machine is: what was measured against the ideal machine and against what its sources predict.
     ///
-    /// `data`: a CSV file; `map`: what its columns are, a file or a shipped name. `new_station`: the instrument stands where no map
+    /// `data`: a CSV file, or a table with the columns that the map names: a dict of arrays, a frame of pandas or polars, a table of
+    /// pyarrow; rows are then counted from 0. Those that cannot be used are in `.notes`. `map`: what the columns are, a file or a shipped name. `new_station`: the instrument stands where no map
     /// knows. `accept`: limits such as "mean 0.15 mm, max 0.3 mm". Fields as those of `abbe measure --json`.
     #[pyo3(signature = (data, map, *, new_station=false, accept=None))]
     fn measure(
         &self,
         py: Python<'_>,
-        data: PathBuf,
+        data: &Bound<'_, PyAny>,
         map: PathBuf,
         new_station: bool,
         accept: Option<&str>,
     ) -> PyResult<Report> {
+        let map = self.map(py, &map)?;
+        let measured = Measured::new("data", data, &map)?;
         let ((job, report), notes) = run(py, None, None, |notes| {
             let machine = self.machine.clone();
-            let map = Map::find(&map, &machine.spec)?;
             let map = if new_station { map.newly_stationed() } else { map };
             let accept = limits(accept, &machine.spec, &map)?;
-            let job = Measure { data: Data::read(&data, &map)?, machine, map, accept };
+            let data = Data::read(measured.source(), &map)?;
+            unusable(&data, notes);
+            let job = Measure { data, machine, map, accept };
             let report = job.run(notes)?;
             Ok((job, report))
         })?;
-        Ok(Report::new("measure", &report, notes)?.with_pages(move || {
+        let found = Report::new("measure", &report, notes)?.with_rows(report.table());
+        Ok(found.with_pages(move || {
             let spec = &job.machine.spec;
-            let provenance = Provenance::new(spec, Some(&job.map), [("measurements", &data)], None)?;
+            let provenance =
+                Provenance::new(spec, Some(&job.map), [("measurements", measured.source())], None)?;
             let page = abbe_report::measurement(spec, &job.map, &report, &provenance);
             Ok(vec![("report.html".into(), page), ("errors.csv".into(), report.table().csv())])
         }))
@@ -148,7 +156,7 @@ impl Machine {
 
     /// Which errors the real machine has, from measurements, how well each is known, and how good the result is on unseen rows.
     ///
-    /// `data`, `test`: CSV files; `map`: what their columns are. `terms`: "auto" for all families of richer terms, or names of some:
+    /// `data`, `test`: CSV files or tables, as for `measure`; `map`: what their columns are. `terms`: "auto" for all families of richer terms, or names of some:
     /// joint, load, elastic, backlash, product, drift. `robust`: "huber" or "tukey". `prior`: how large errors are expected to be, as
     /// a share of the arm and in rad, or "spec" or "auto". `time`: seconds for richer terms. `resample=b`: repetition b of the bootstrap, with
     /// configurations drawn with replacement (`abbe.fleet.bootstrap` does many). `.report(folder)` writes found.toml and
@@ -157,9 +165,9 @@ impl Machine {
     fn identify(
         &self,
         py: Python<'_>,
-        data: PathBuf,
+        data: &Bound<'_, PyAny>,
         map: PathBuf,
-        test: Option<PathBuf>,
+        test: Option<&Bound<'_, PyAny>>,
         terms: Option<&Bound<'_, PyAny>>,
         robust: Option<&str>,
         prior: Option<&Bound<'_, PyAny>>,
@@ -192,12 +200,15 @@ impl Machine {
                 .map_err(|error| PyValueError::new_err(format!("`time`: {error}")))?,
             points: true,
         };
+        let map = self.map(py, &map)?;
+        let measured = Measured::new("data", data, &map)?;
+        let unseen = test.map(|test| Measured::new("test", test, &map)).transpose()?;
         let ((job, report), notes) = run(py, threads, progress, |notes| {
             let machine = self.machine.clone();
-            let map = Map::find(&map, &machine.spec)?;
-            let test = test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
+            let test = unseen.as_ref().map(|test| Data::read(test.source(), &map)).transpose()?;
             let accept = limits(accept, &machine.spec, &map)?;
-            let data = Data::read(&data, &map)?;
+            let data = Data::read(measured.source(), &map)?;
+            test.iter().chain([&data]).for_each(|data| unusable(data, notes));
             let data = resample.map_or_else(|| data.clone(), |number| data.resampled(0, number));
             let job = Identify { machine, map, data, test, terms, harmonics: Vec::new(), settings, accept };
             let report = job.run(notes)?;
@@ -209,7 +220,8 @@ impl Machine {
         let text = self.text();
         Ok(Report::new("identify", &report, notes)?.with_pages(move || {
             let Identify { machine, map, .. } = &job;
-            let files = [("measurements", &data)].into_iter().chain(test.iter().map(|test| ("test", test)));
+            let test = unseen.iter().map(|test| ("test", test.source()));
+            let files = [("measurements", measured.source())].into_iter().chain(test);
             let provenance = Provenance::new(&machine.spec, Some(map), files, None)?;
             let page = abbe_report::identification(&machine.spec, map, &report, &provenance);
             let mut pages: Pages = vec![("report.html".into(), page)];
@@ -263,13 +275,13 @@ impl Machine {
             let report = job.run(notes)?;
             Ok((job, report))
         })?;
-        let found = Report::new("plan", &report, notes)?;
+        let found = Report::new("plan", &report, notes)?.with_rows(report.table(&job.map));
         Ok(found.with_pages(move || Ok(vec![("plan.csv".into(), report.table(&job.map).csv())])))
     }
 
     /// What an instrument would measure of the machine with the errors of its sources.
     ///
-    /// `map`: what is measured; `data`: commands in a CSV file, else `samples` random configurations. `noise`: one standard deviation
+    /// `map`: what is measured; `data`: commands in a CSV file or a table, else `samples` random configurations. `noise`: one standard deviation
     /// of a coordinate, in the length unit or as text; `outliers`: which share of the rows is grossly wrong; `random`: draw the random
     /// sources, too. `.report(folder)` writes measurements.csv. Fields as those of `abbe simulate --json`.
     #[pyo3(signature = (map, *, data=None, samples=100, noise=None, outliers=0.0, random=false, seed=0))]
@@ -277,7 +289,7 @@ impl Machine {
         &self,
         py: Python<'_>,
         map: PathBuf,
-        data: Option<PathBuf>,
+        data: Option<&Bound<'_, PyAny>>,
         samples: usize,
         noise: Option<&Bound<'_, PyAny>>,
         outliers: f64,
@@ -288,28 +300,29 @@ impl Machine {
             return Err(PyValueError::new_err("`outliers` is from 0 to 1, `samples` from 1 to 10000000"));
         }
         let noise = noise.map(|value| length("noise", value, &self.machine.spec)).transpose()?;
+        let map = self.map(py, &map)?;
+        let commands = data.map(|data| Measured::new("data", data, &map)).transpose()?;
         let (report, notes) = run(py, None, None, |notes| {
             let machine = self.machine.clone();
-            let map = Map::find(&map, &machine.spec)?;
-            let at = match &data {
-                Some(file) => Places::Rows(Data::read_commanded(file, &map)?),
+            let at = match &commands {
+                Some(commands) => Places::Rows(Data::read_commanded(commands.source(), &map)?),
                 None => Places::Samples(samples),
             };
             Simulate { machine, map, at, noise, outliers, random, seed }.run(notes)
         })?;
-        let found = Report::new("simulate", &report, notes)?;
+        let found = Report::new("simulate", &report, notes)?.with_rows(report.table.clone());
         Ok(found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())])))
     }
 
     /// Whether the machine is still what it was: charts of a few points that are measured again and again.
     ///
-    /// `data`: CSV files in the order of their dates. `tolerance`: how far the tool point may move, in the length unit or as text.
+    /// `data`: CSV files or tables in the order of their dates, or one with a column of dates. `tolerance`: how far the tool point may move, in the length unit or as text.
     /// `since`: begin with the check of this date. `false_alarm`: one in so many checks. Fields as those of `abbe monitor --json`.
     #[pyo3(signature = (data, map, *, tolerance=None, since=None, false_alarm=365))]
     fn monitor(
         &self,
         py: Python<'_>,
-        data: Vec<PathBuf>,
+        data: &Bound<'_, PyAny>,
         map: PathBuf,
         tolerance: Option<&Bound<'_, PyAny>>,
         since: Option<&str>,
@@ -319,10 +332,11 @@ impl Machine {
             return Err(PyValueError::new_err("`false_alarm` is from 10 to 100000"));
         }
         let tolerance = tolerance.map(|value| length("tolerance", value, &self.machine.spec)).transpose()?;
+        let map = self.map(py, &map)?;
+        let measured = Measured::several("data", data, &map)?;
         let ((job, report), notes) = run(py, None, None, |notes| {
             let machine = self.machine.clone();
-            let map = Map::find(&map, &machine.spec)?;
-            let mut checks = Checks::read(&data, &map)?;
+            let mut checks = Checks::read(measured.iter().map(Measured::source), &map)?;
             since.map_or(Ok(()), |date| checks.since("since", date))?;
             let checks_per_false_alarm = f64::from(false_alarm);
             let settings = monitor::Settings { checks_per_false_alarm, tolerance, ..Default::default() };
@@ -331,7 +345,7 @@ impl Machine {
             Ok((job, report))
         })?;
         Ok(Report::new("monitor", &report, notes)?.with_pages(move || {
-            let files = data.iter().map(|file| ("check", file));
+            let files = measured.iter().map(|check| ("check", check.source()));
             let provenance = Provenance::new(&job.machine.spec, Some(&job.map), files, None)?;
             let page = abbe_report::monitoring(&job.machine.spec, &job.map, &report, &provenance);
             Ok(vec![("report.html".into(), page)])
@@ -356,6 +370,9 @@ impl Machine {
 pub(crate) fn analysis(report: analyze::Report, notes: Vec<String>) -> PyResult<Report> {
     let (text, tables) = guarded(|| Ok((text::analysis(&report), budget(&report))))?;
     let found = Report::new("analyze", &report, notes)?.shown(text, tables);
+    let report = Arc::new(report);
+    let drawn = Arc::clone(&report);
+    let found = found.with_figures(move || abbe_report::figures(&drawn));
     Ok(found.with_pages(move || {
         let files = abbe_report::analysis(&report)?;
         Ok(files.into_iter().map(|file| (file.name, file.text)).collect())
@@ -370,6 +387,13 @@ fn budget(report: &analyze::Report) -> String {
         .iter()
         .flat_map(|stated| [analyze::contributions(report, stated), analyze::totals(report, stated)]);
     ledgers.into_iter().flatten().chain(stated).map(|listing| abbe_report::listed(&listing)).collect()
+}
+
+/// Says which rows cannot be used, as the command does.
+fn unusable(data: &Data, notes: &mut dyn Notes) {
+    if !data.unusable.is_empty() {
+        notes.note(&data.summary().lines().join("\n"));
+    }
 }
 
 fn limits(text: Option<&str>, spec: &Spec, map: &Map) -> Result<Acceptance, Diagnostics> {

@@ -9,7 +9,8 @@ use crate::machine::Machine;
 
 #[pymethods]
 impl Machine {
-    /// (…, 4, 4): the nominal pose of the tool in F_0. Rows and columns of a homogeneous matrix; column 3 is the tool point.
+    /// (…, 4, 4): the nominal pose of the tool in F_0. Rows and columns of a homogeneous matrix; column 3 is the tool point,
+    /// in the length unit.
     ///
     /// >>> import abbe
     /// >>> pps = abbe.load("pps")
@@ -25,7 +26,9 @@ impl Machine {
         self.evaluate(py, Function::Pose, q, &Third::None, out)
     }
 
-    /// (…, n + 1, 4, 4): A_1 … A_n and the tool T, each by itself. A_i takes coordinates in F_i to F_{i-1}, T those of the tool to F_n.
+    /// (…, n + 1, 4, 4): A_1 … A_n and the tool T, each by itself, lengths in the length unit.
+    ///
+    /// A_1 takes coordinates in F_1 to F_0, A_i those in F_i to F_{i-1}, T those of the tool to F_n. Rows and columns as those of `pose`.
     #[pyo3(signature = (q, *, out=None))]
     fn transforms<'py>(
         &self,
@@ -87,7 +90,7 @@ impl Machine {
     /// (…, 6): ΔX = J_e ε in F_0, for any errors ε.
     ///
     /// `errors`: (6n,) for all configurations or (…, 6n), in the order of `columns`. Rows as those of the error Jacobian: what
-    /// the tool is off, real minus ideal.
+    /// the tool is off, real minus ideal, in the length unit and rad.
     #[pyo3(signature = (q, errors, *, out=None))]
     fn displacement<'py>(
         &self,
@@ -114,7 +117,7 @@ impl Machine {
         self.evaluate(py, Function::Covariance, q, &Third::Squares("sigma", sigma), out)
     }
 
-    /// (…, n, 6): ε of the repeatable sources of the spec: for each frame e_x e_y e_z (length unit) e_s e_r e_p (rad).
+    /// (…, n, 6): ε of the repeatable sources of the spec: for each frame F_i, in its axes, e_x e_y e_z (length unit) e_s e_r e_p (rad).
     ///
     /// `inputs`: those of the spec by name, a number in coherent units, text with a unit, or an array with a value for each
     /// configuration; nominal if not given. So it is for all functions that take them.
@@ -159,7 +162,7 @@ impl Machine {
 
     /// (…, 4, 4): the pose of the tool in F_0 with the errors of the repeatable sources, exactly: A_1 E_1 … A_n E_n T.
     ///
-    /// Rows and columns as those of `pose`. `inputs` as for `generalized_errors`.
+    /// Rows, columns and units as those of `pose`. `inputs` as for `generalized_errors`.
     #[pyo3(signature = (q, *, out=None, **inputs))]
     fn real_pose<'py>(
         &self,

@@ -1,8 +1,9 @@
 //! The Python package `abbe`: what `abbe-study` and `abbe-interpreter` do, for NumPy arrays.
 //!
 //! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `commands` single commands. `functions`
-//! evaluates: `layout` says where numbers go, `arrays` reads what users give, `batch` runs over many configurations. `job` runs a
-//! job beside Python, `report` is what it found, `part` a part of an analysis; `failure` makes exceptions of mistakes.
+//! evaluates: `layout` says where numbers go, `arrays` reads what users give, `measured` what they measured, `batch` runs over many
+//! configurations. `job` runs a job beside Python, `report` is what it found, `table` what Arrow reads of it, `part` a part of an
+//! analysis; `failure` makes exceptions of mistakes.
 
 mod arrays;
 mod asked;
@@ -14,8 +15,10 @@ mod functions;
 mod job;
 mod layout;
 mod machine;
+mod measured;
 mod part;
 mod report;
+mod table;
 
 /// The compiled part of the package `abbe`.
 #[pyo3::pymodule(gil_used = false)]
@@ -32,6 +35,8 @@ mod _abbe {
     use super::part::{Part, merge, restore as restore_part};
     #[pymodule_export]
     use super::report::Report;
+    #[pymodule_export]
+    use super::table::Table;
 
     #[pymodule_init]
     fn version(module: &Bound<'_, PyModule>) -> PyResult<()> {

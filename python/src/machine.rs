@@ -174,6 +174,12 @@ impl Machine {
         &self.machine.spec.name
     }
 
+    /// The text of its spec, as it was before changes: what `abbe.load(text=…)` reads.
+    #[getter(text)]
+    fn spec_text(&self, py: Python<'_>) -> PyResult<String> {
+        guarded(|| py.detach(|| self.text()).map_err(|mistakes| spec_error(py, &mistakes)))
+    }
+
     /// Its name for people.
     #[getter]
     fn title(&self) -> &str {

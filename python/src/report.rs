@@ -5,19 +5,23 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use abbe_codegen::diagnostic::Diagnostics;
+use abbe_report::Picture;
+use abbe_study::data;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::failure::{guarded, spec_error};
+use crate::table::Table;
 
 /// Files of a report: their names and texts.
 pub(crate) type Pages = Vec<(String, String)>;
 
-/// Makes the files, when they are asked for.
-type Make = Box<dyn Fn() -> Result<Pages, Diagnostics> + Send + Sync>;
+/// Makes something, when it is asked for.
+type Make<T> = Box<dyn Fn() -> Result<T, Diagnostics> + Send + Sync>;
 
 /// What a job found: its fields have the names of `abbe … --json`, nested ones too. `str` of it is its text.
 #[pyclass(frozen, module = "abbe")]
@@ -27,7 +31,9 @@ pub(crate) struct Report {
     text: Option<String>,
     html: Option<String>,
     notes: Vec<String>,
-    pages: Option<Make>,
+    pages: Option<Make<Pages>>,
+    figures: Option<Make<Vec<Picture>>>,
+    rows: Option<data::Table>,
     fields: PyOnceLock<Py<PyAny>>,
 }
 
@@ -36,7 +42,8 @@ impl Report {
     pub(crate) fn new(kind: &'static str, report: &impl Serialize, notes: Vec<String>) -> PyResult<Self> {
         let json =
             serde_json::to_string(report).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        Ok(Self { kind, json, notes, text: None, html: None, pages: None, fields: PyOnceLock::new() })
+        let (text, html, pages, figures, rows) = (None, None, None, None, None);
+        Ok(Self { kind, json, text, html, notes, pages, figures, rows, fields: PyOnceLock::new() })
     }
 
     /// With a text, and tables for notebooks.
@@ -50,6 +57,27 @@ impl Report {
         pages: impl Fn() -> Result<Pages, Diagnostics> + Send + Sync + 'static,
     ) -> Self {
         Self { pages: Some(Box::new(pages)), ..self }
+    }
+
+    /// With figures.
+    pub(crate) fn with_figures(
+        self,
+        figures: impl Fn() -> Result<Vec<Picture>, Diagnostics> + Send + Sync + 'static,
+    ) -> Self {
+        Self { figures: Some(Box::new(figures)), ..self }
+    }
+
+    /// With a table of rows, which are not among the fields.
+    pub(crate) fn with_rows(self, rows: data::Table) -> Self {
+        Self { rows: Some(rows), ..self }
+    }
+
+    /// All that is a table: what it is called, and its rows.
+    fn lists(&self) -> PyResult<Vec<(String, Vec<Value>)>> {
+        let mut found = Vec::new();
+        let fields = serde_json::from_str(&self.json);
+        gather("", fields.map_err(|error| PyRuntimeError::new_err(error.to_string()))?, &mut found);
+        Ok(found)
     }
 
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyAny>> {
@@ -104,28 +132,49 @@ impl Report {
         Ok(pages.into_iter().map(|(name, _)| name).collect())
     }
 
-    /// The figures as SVG, by their names.
+    /// The figures by their names: notebooks show them, `.svg` is the picture, `.plots` what Plotly draws.
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let figures = PyDict::new(py);
-        for (name, text) in self.pages(py)? {
-            if let Some(name) = name.strip_suffix(".svg") {
-                figures.set_item(name, text)?;
-            }
+        let found = PyDict::new(py);
+        let Some(make) = &self.figures else { return Ok(found) };
+        let pictures = guarded(|| py.detach(make).map_err(|mistakes| spec_error(py, &mistakes)))?;
+        let figure = py.import("abbe._fields")?.getattr("Figure")?;
+        for Picture { name, title, svg, plots } in pictures {
+            found.set_item(name, figure.call1((title, svg, plots))?)?;
         }
-        Ok(figures)
+        Ok(found)
     }
 
-    /// One figure: notebooks show it, `.svg` is its text.
+    /// One figure. `.svg` is its text; `.plots` are dicts of `data` and `layout`, one for each plot that stands side by side, as
+    /// ``plotly.graph_objects.Figure(**plot)`` takes them. Notebooks show what can be turned where plotly is installed.
     fn figure<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let figures = self.figures(py)?;
-        let Some(svg) = figures.get_item(name)? else {
+        figures.get_item(name)?.ok_or_else(|| {
             let known: Vec<String> = figures.keys().iter().map(|name| name.to_string()).collect();
-            return Err(PyValueError::new_err(format!(
-                "there is no figure `{name}`; figures: {}",
-                known.join(", ")
-            )));
-        };
-        py.import("abbe._fields")?.call_method1("Figure", (svg,))
+            none_of("figure", name, &known)
+        })
+    }
+
+    /// The names of its tables: lists of fields that are alike, and `rows` where it has a row for each of what was measured.
+    fn tables(&self) -> PyResult<Vec<String>> {
+        let rows = self.rows.iter().map(|_| "rows".to_owned());
+        let lists = self.lists()?.into_iter().filter(|(_, rows)| !rows.is_empty());
+        Ok(rows.chain(lists.map(|(name, _)| name)).collect())
+    }
+
+    /// One table, for any reader of Arrow, without a copy. A list that is empty here is a table without rows and columns.
+    ///
+    /// >>> import abbe
+    /// >>> ledger = abbe.load("pps").analyze().table("ledger.sources")
+    /// >>> len(ledger), ledger.columns
+    /// (7, ('name', 'max', 'rms', 'share_of_tolerance', 'class', 'rank'))
+    fn table(&self, name: &str) -> PyResult<Table> {
+        if let Some(rows) = self.rows.as_ref().filter(|_| name == "rows") {
+            return Table::new(rows);
+        }
+        match self.lists()?.into_iter().find(|(known, _)| known == name) {
+            Some((_, rows)) => Table::of_fields(&rows),
+            None => Err(none_of("table", name, &self.tables()?)),
+        }
     }
 
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -139,7 +188,8 @@ impl Report {
     }
 
     fn __dir__(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        let own = ["figure", "figures", "notes", "report", "to_dict", "to_json"].map(str::to_owned);
+        let own = ["figure", "figures", "notes", "report", "table", "tables", "to_dict", "to_json"]
+            .map(str::to_owned);
         let fields: Vec<String> = self.fields(py)?.call_method0("__dir__")?.extract()?;
         Ok(own.into_iter().chain(fields).collect())
     }
@@ -164,4 +214,22 @@ fn write(path: &Path, text: &str, overwrite: bool) -> std::io::Result<()> {
     let mut options = File::options();
     options.write(true).truncate(overwrite).create(overwrite).create_new(!overwrite);
     options.open(path)?.write_all(text.as_bytes())
+}
+
+/// Every list of fields, by the names of the fields on the way to it; an empty list may have been one.
+fn gather(before: &str, value: Value, found: &mut Vec<(String, Vec<Value>)>) {
+    match value {
+        Value::Object(fields) => {
+            let dot = if before.is_empty() { "" } else { "." };
+            fields
+                .into_iter()
+                .for_each(|(name, value)| gather(&format!("{before}{dot}{name}"), value, found));
+        }
+        Value::Array(rows) if rows.iter().all(Value::is_object) => found.push((before.to_owned(), rows)),
+        _ => {}
+    }
+}
+
+fn none_of(what: &str, name: &str, known: &[String]) -> PyErr {
+    PyValueError::new_err(format!("there is no {what} `{name}`; {what}s: {}", known.join(", ")))
 }

@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import re
 
 import abbe
 
@@ -17,6 +18,23 @@ def documented():
 
 def test_every_public_name_is_documented():
     assert not [name for name, each in documented() if name != "__version__" and not inspect.getdoc(each)]
+
+
+FUNCTIONS = {
+    "pose", "transforms", "error_jacobian", "joint_jacobian", "parameter_jacobian", "displacement", "covariance", "generalized_errors",
+    "predict", "source_displacements", "real_pose",
+}  # fmt: skip
+
+
+def test_functions_say_shape_frame_rows_and_units():
+    # What gives an array says so first: everything that takes `out`.
+    assert FUNCTIONS == {name for name in vars(abbe.Machine) if "out=" in (getattr(getattr(abbe.Machine, name), "__text_signature__", None) or "")}
+    for name in sorted(FUNCTIONS | {"inverse"}):
+        doc = inspect.getdoc(getattr(abbe.Machine, name))
+        assert re.match(r"\((…, )?[A-Za-z0-9, +]+,?\): ", doc), name
+        assert "F_0" in doc or name == "generalized_errors", name
+        assert re.search(r"[Rr]ows|[Cc]olumns|each frame|for each|joints", doc), name
+        assert re.search(r"length unit|coherent unit|units", doc), name
 
 
 def test_examples():

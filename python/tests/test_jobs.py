@@ -26,8 +26,8 @@ def test_analyze():
     assert report.to_dict()["combined"]["radius"] == report.combined.radius
     assert "assembly" in report._repr_html_() and report._repr_html_().startswith("<table")
     assert "Each source alone (mm)" in str(report) and "sources" in dir(report)
-    assert len(report.figures()) > 0 and all(svg.startswith("<svg") for svg in report.figures().values())
-    assert report.figure(next(iter(report.figures())))._repr_svg_().startswith("<svg")
+    assert len(report.figures()) > 0 and all(figure.svg.startswith("<svg") for figure in report.figures().values())
+    assert report.figure(next(iter(report.figures()))).svg.startswith("<svg")
     with pytest.raises(ValueError, match="there is no figure"):
         report.figure("nothing")
     with pytest.raises(AttributeError, match="no field `nothing`"):

@@ -1,0 +1,66 @@
+//! Measurements as users give them: the path of a CSV file, or a table in memory.
+
+use std::path::PathBuf;
+
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_study::data::{Cells, Columns, Map, Source};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
+
+use crate::failure::{guarded, spec_error};
+use crate::machine::Machine;
+
+/// Rows, or where they are.
+pub(crate) enum Measured {
+    /// In a file.
+    File(PathBuf),
+    /// In memory: those columns that the map names.
+    Table(Columns),
+}
+
+impl Measured {
+    /// What a user gives by this name.
+    pub(crate) fn new(what: &str, value: &Bound<'_, PyAny>, map: &Map) -> PyResult<Self> {
+        if let Ok(file) = value.extract() {
+            return Ok(Self::File(file));
+        }
+        let py = value.py();
+        let read = py.import("abbe._arrays")?.getattr("columns")?;
+        let read = read.call1((value, what, map.columns()))?;
+        let (columns, others): (Vec<(String, Bound<'_, PyAny>)>, Vec<String>) = read.extract()?;
+        let columns = columns.into_iter().map(|(name, cells)| Ok((name, cells_of(&cells)?)));
+        let columns = Columns::new(what, columns.collect::<PyResult<_>>()?, others);
+        Ok(Self::Table(columns.map_err(|mistakes| spec_error(py, &mistakes))?))
+    }
+
+    /// Several of them, or one.
+    pub(crate) fn several(what: &str, value: &Bound<'_, PyAny>, map: &Map) -> PyResult<Vec<Self>> {
+        if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+            return value.try_iter()?.map(|one| Self::new(what, &one?, map)).collect();
+        }
+        Ok(vec![Self::new(what, value, map)?])
+    }
+
+    pub(crate) fn source(&self) -> Source<'_> {
+        match self {
+            Self::File(file) => file.into(),
+            Self::Table(columns) => columns.into(),
+        }
+    }
+}
+
+impl Machine {
+    /// The map in a file, or the shipped one of that name.
+    pub(crate) fn map(&self, py: Python<'_>, map: &std::path::Path) -> PyResult<Map> {
+        let find = || -> Result<Map, Diagnostics> { Map::find(map, &self.machine.spec) };
+        guarded(|| py.detach(find).map_err(|mistakes| spec_error(py, &mistakes)))
+    }
+}
+
+fn cells_of(cells: &Bound<'_, PyAny>) -> PyResult<Cells> {
+    match cells.cast::<PyArray1<f64>>() {
+        Ok(array) => Ok(Cells::Numbers(array.try_readonly()?.as_slice()?.to_vec())),
+        Err(_) => Ok(Cells::Texts(cells.extract()?)),
+    }
+}
