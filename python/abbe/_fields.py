@@ -35,6 +35,9 @@ class Figure:
         plots = map(json.loads, self._plots)
         return [{"data": plot["data"], "layout": plot["layout"]} for plot in plots]
 
+    def __eq__(self, other):
+        return isinstance(other, Figure) and (self.title, self.svg, self._plots) == (other.title, other.svg, other._plots)
+
     def _repr_mimebundle_(self, include=None, exclude=None):
         bundle = {"image/svg+xml": self.svg, "text/plain": repr(self)}
         # A notebook shows one plot at a place. Without plotly it has nothing to show it with.
