@@ -13,6 +13,7 @@ mod console;
 mod failure;
 mod generate;
 mod identify;
+mod import;
 mod interrupt;
 mod jacobian;
 mod list;
@@ -50,6 +51,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
         Some(Command::Merge(arguments)) => merge::run(arguments),
+        Some(Command::Import(arguments)) => import::run(arguments),
         Some(Command::Generate(arguments)) => generate::run(arguments),
         Some(Command::Plan(arguments)) => plan::run(arguments),
         Some(Command::Simulate(arguments)) => simulate::run(arguments),

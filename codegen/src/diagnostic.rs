@@ -15,6 +15,9 @@ pub type Span = Range<usize>;
 /// The most mistakes shown at once; what lies beyond is counted.
 const SHOWN: usize = 20;
 
+/// The most names in a sentence.
+const LISTED: usize = 20;
+
 /// The most files of a folder among which the nearest is looked for.
 const LOOKED_AT: usize = 10_000;
 
@@ -164,6 +167,15 @@ pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
     names.sort();
     let word = missing.file_name()?.to_string_lossy();
     nearest(&word, names.iter().map(String::as_str)).map(|name| missing.with_file_name(name))
+}
+
+/// Names in a sentence, and how many more there are.
+pub fn listed(names: &[&str]) -> String {
+    let shown: Vec<String> = names.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
+    match names.len().saturating_sub(LISTED) {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
 }
 
 /// `did you mean …?`, or else the list of what is known.

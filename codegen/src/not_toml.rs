@@ -18,7 +18,7 @@ pub(crate) fn not_toml(text: &str, found: &[Diagnostic]) -> Option<Diagnostic> {
     };
     let heading = |line: &str| line.starts_with('[') && line.ends_with(']') && !line.contains(',');
     let (what, help) = if start.starts_with('<') {
-        ("XML", "write the joints of a URDF file as [[frame]] tables with `origin` and `axis`")
+        ("XML", "write the spec of a robot in URDF: `abbe import FILE.urdf --tip LINK -o SPEC`")
     } else if start.starts_with('{') {
         ("JSON", "in TOML, `\"key\": value` is `key = value`, and a group is a `[table]`")
     } else if lines().take(3).all(separated) {

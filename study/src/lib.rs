@@ -46,6 +46,7 @@ pub mod check;
 pub mod compensate;
 pub mod generate;
 pub mod identify;
+pub mod import;
 pub mod jacobian;
 pub mod list;
 pub mod measure;
@@ -69,6 +70,7 @@ mod machine;
 mod named;
 mod notes;
 mod reads;
+mod toml_text;
 
 pub use acceptance::{Acceptance, Accepted, Limit};
 pub use changes::{Changes, find_symbol};

@@ -7,6 +7,7 @@ use crate::compensate::Compensate;
 use crate::data::{Data, Map};
 use crate::generate::Generate;
 use crate::identify::Identify;
+use crate::import::Import;
 use crate::jacobian::Jacobian;
 use crate::machine::Machine;
 use crate::measure::Measure;
@@ -151,5 +152,11 @@ impl Reads for Simulate {
     fn files(&self) -> Vec<PathBuf> {
         let Self { machine, map, at, noise: _, outliers: _, random: _, seed: _ } = self;
         [machine.files(), map.files(), at.files()].concat()
+    }
+}
+
+impl Reads for Import {
+    fn files(&self) -> Vec<PathBuf> {
+        vec![self.file.clone()]
     }
 }

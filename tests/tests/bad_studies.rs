@@ -1,23 +1,24 @@
-//! Every mistake that a study, a map or a plan can have is shown with its place, the line, a caret and a way out.
+//! Every mistake that a study, a map, a plan or a URDF file can have is shown with its place, the line, a caret and a way out.
 //!
 //! As `bad_specs`: `bad-studies/NAME.toml` is a study of `machine3` with a mistake, `bad-studies/NAME.txt` what is said of it, and so
-//! are `bad-maps` and `bad-plans`. `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the texts.
+//! are `bad-maps`, `bad-plans` and the robots of `bad-urdfs`. `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the texts.
 
 use std::path::{Path, PathBuf};
 
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::Document;
 use abbe_study::data::Map;
+use abbe_study::import::Import;
 use abbe_study::plan::Sets;
 use abbe_study::{Machine, Study};
 use expect_test::expect_file;
 
 /// The mistakes of every file of a folder. Tests run beside it, so that messages name no folder of this machine.
-fn told(folder: &str, least: usize, read: impl Fn(&Path, &Machine) -> Option<Diagnostics>) {
+fn told(folder: &str, ending: &str, least: usize, read: impl Fn(&Path, &Machine) -> Option<Diagnostics>) {
     let machine = Machine::find("machine3").unwrap();
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut files: Vec<PathBuf> =
-        entries.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
+        entries.filter(|file| file.extension().is_some_and(|e| e == ending)).collect();
     files.sort();
     assert!(files.len() >= least);
     for file in files {
@@ -35,15 +36,25 @@ fn told(folder: &str, least: usize, read: impl Fn(&Path, &Machine) -> Option<Dia
 
 #[test]
 fn every_study_is_told_what_is_wrong_with_it() {
-    told("bad-studies", 50, |file, machine| Study::read(Document::read(file).unwrap(), &machine.spec).err());
+    told("bad-studies", "toml", 50, |file, machine| {
+        Study::read(Document::read(file).unwrap(), &machine.spec).err()
+    });
 }
 
 #[test]
 fn every_map_is_told_what_is_wrong_with_it() {
-    told("bad-maps", 25, |file, machine| Map::find(file, &machine.spec).err());
+    told("bad-maps", "toml", 25, |file, machine| Map::find(file, &machine.spec).err());
 }
 
 #[test]
 fn every_plan_is_told_what_is_wrong_with_it() {
-    told("bad-plans", 10, |file, machine| Sets::find(file, &machine.spec).err());
+    told("bad-plans", "toml", 10, |file, machine| Sets::find(file, &machine.spec).err());
+}
+
+#[test]
+fn every_robot_is_told_what_is_wrong_with_it() {
+    told("bad-urdfs", "urdf", 30, |file, _| {
+        let fold = file.ends_with("nothing_moves.urdf");
+        Import { file: file.to_owned(), base: None, tip: None, fold, round_angles: false }.run(&mut ()).err()
+    });
 }

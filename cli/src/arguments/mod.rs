@@ -8,6 +8,7 @@ mod compensate;
 mod completions;
 mod generate;
 mod identify;
+mod import;
 mod jacobian;
 mod list;
 mod man;
@@ -25,6 +26,7 @@ pub(crate) use compensate::Compensate;
 pub(crate) use completions::Completions;
 pub(crate) use generate::Generate;
 pub(crate) use identify::{Identify, Robust, Terms};
+pub(crate) use import::Import;
 pub(crate) use jacobian::Jacobian;
 pub(crate) use list::List;
 pub(crate) use man::Man;
@@ -63,6 +65,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// List the shipped manipulators
     List(List),
+    /// Write the spec of a robot that is described in URDF
+    Import(Import),
     /// Check a spec; show its frames, variables, sources, operation counts and what can be identified
     Check(Check),
     /// Pose, error Jacobian and generalized errors at one configuration

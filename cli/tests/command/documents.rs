@@ -22,9 +22,13 @@ fn what_they_show_is_what_is_printed() {
         let text = fs::read_to_string(page).unwrap();
         for (language, block) in blocks(&text) {
             // A file says its name in its first line.
-            if let Some(name) = block.lines().next().and_then(|line| line.strip_prefix("# "))
-                && language == "toml"
-            {
+            let first = block.lines().next().unwrap_or_default();
+            let name = match language {
+                "toml" => first.strip_prefix("# "),
+                "xml" => first.strip_prefix("<!-- ").and_then(|line| line.strip_suffix(" -->")),
+                _ => None,
+            };
+            if let Some(name) = name {
                 fs::write(folder.path().join(name), block).unwrap();
             }
             if language == "console" {

@@ -31,6 +31,11 @@ fn examples(help: &str) -> Vec<&str> {
 
 const STUDY: &str = "[study]\ntitle = \"Cell\"\ntolerance = \"1 mm\"\n[workspace.joints]\nsamples = 100\n";
 
+const ROBOT: &str = r#"<robot name="robot">
+<link name="base_link"/><link name="tool0"/>
+<joint name="turn" type="continuous"><parent link="base_link"/><child link="tool0"/><origin xyz="0.3 0 0"/></joint>
+</robot>"#;
+
 /// In their order: later ones read what earlier ones write.
 #[test]
 fn examples_run() {
@@ -38,6 +43,7 @@ fn examples_run() {
     let at = folder.path();
     fs::write(at.join("arm.toml"), readme::spec()).unwrap();
     fs::write(at.join("cell.toml"), STUDY).unwrap();
+    fs::write(at.join("robot.urdf"), ROBOT).unwrap();
     let run = |line: &str| {
         let words = shell_words::split(line).unwrap();
         let output = command(&words[1..]).current_dir(at).output().unwrap();

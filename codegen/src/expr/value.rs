@@ -4,7 +4,7 @@ use super::function::FUNCTION_NAMES;
 use super::parse::parse_expression;
 use super::tokens::{Place, Token, tokens};
 use super::{Allowed, Dimension, Entry, LengthUnit, Scope, UNIT_NAMES};
-use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::diagnostic::{Diagnostic, Span, listed, nearest};
 use crate::document::Document;
 
 /// The largest number that is computed with: its square is a number, too.
@@ -92,10 +92,9 @@ pub fn find_name(
     if found.is_none() {
         let near = nearest(name, known.iter().copied());
         let near = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
-        let known = known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>();
-        let help = match &known[..] {
+        let help = match known {
             [] => format!("this spec has no {what}"),
-            known => format!("{near}there are: {}", known.join(", ")),
+            known => format!("{near}there are: {}", listed(known)),
         };
         let message = format!("there is no {what} `{}`", name.escape_debug());
         document.mistake(Diagnostic::new(span, message).help(help));

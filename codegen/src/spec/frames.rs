@@ -229,7 +229,8 @@ fn about_axis(
     }
     let span = item.map_or(section.span.clone(), Item::span);
     let amount = Expression::symbol(Symbol::Variable(variable), Some(dimension), span);
-    let principal = (0..3).find(|&i| axis[i].abs() == 1.0);
+    let principal =
+        (0..3).find(|&i| axis[i].abs() == 1.0 && axis[(i + 1) % 3] == 0.0 && axis[(i + 2) % 3] == 0.0);
     Some(vec![match principal {
         Some(i) if axis[i] > 0.0 => Factor::Elementary(Elementary { motion, axis: i, amount }),
         Some(i) => Factor::Elementary(Elementary { motion, axis: i, amount: amount.negated() }),

@@ -28,6 +28,7 @@ pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, Variable
 pub use covariance::{Covariance, Identified};
 pub use fitted::Fitted;
 pub use keys::TABLES;
+pub use names::as_identifier;
 pub use types::{
     Axes, Beam, Cause, ChainNumber, Compliance, Deviation, DhConvention, DhNumber, Effect, Factor, Frame,
     Input, Load, Magnitude, Matrix, Parameter, Point, Source, Spec, Variable,

@@ -19,10 +19,25 @@ const LONGEST: usize = 60;
 /// Whether `name` can be a name in expressions and in generated code; if not, a mistake at the item's key or
 /// value says why.
 pub(super) fn check_identifier(name: &str, at: crate::diagnostic::Span, document: &mut Document) -> bool {
+    let Some((message, help)) = fault(name) else { return true };
+    document.mistake(Diagnostic::new(at, message).label("this cannot be a name").help(help));
+    false
+}
+
+/// The name that is nearest to a text of another format: in lower case, `_` for what names cannot have.
+pub fn as_identifier(text: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+    let name: String = text.chars().map(letter).take(LONGEST - 10).collect();
+    let name = if name.starts_with(|c: char| c.is_ascii_lowercase()) { name } else { format!("q_{name}") };
+    if fault(&name).is_none() { name } else { name + "_" }
+}
+
+/// Why a text cannot be a name, and a way out.
+fn fault(name: &str) -> Option<(String, String)> {
     let shown = name.escape_debug();
     let mut letters = name.chars();
     let starts = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
-    let (message, help) = if name.is_empty() {
+    let fault = if name.is_empty() {
         ("a name is empty".to_owned(), "give it a name of letters, digits and `_`".to_owned())
     } else if !starts || !letters.all(|c| c.is_ascii_alphanumeric() || c == '_') {
         let help = "names have letters a to z, digits and `_`, and begin with a letter";
@@ -39,10 +54,9 @@ pub(super) fn check_identifier(name: &str, at: crate::diagnostic::Span, document
     } else if FUNCTION_NAMES.contains(&name) || name == "pi" {
         (format!("`{shown}` is a function or constant"), format!("write `{name}_`, or say more"))
     } else {
-        return true;
+        return None;
     };
-    document.mistake(Diagnostic::new(at, message).label("this cannot be a name").help(help));
-    false
+    Some(fault)
 }
 
 /// The longest free text that is a name, in bytes.

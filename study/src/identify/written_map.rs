@@ -9,6 +9,7 @@ use super::derived::{Derived, with_inputs};
 use super::found::FoundModel;
 use super::placed::Placed;
 use crate::data::{Map, quaternion};
+use crate::toml_text::quoted;
 
 impl FoundModel {
     /// The map that the data were read with, with what was found; `path` is the name of its file. What an earlier
@@ -134,9 +135,4 @@ fn number(value: f64) -> String {
 
 fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.digits$e}").parse::<f64>().unwrap_or(value) + 0.0
-}
-
-/// A text as TOML has it.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }

@@ -1,0 +1,179 @@
+//! Robots of URDF as specs: what is imported is the robot of the file.
+
+use std::f64::consts::FRAC_PI_2;
+use std::fmt::Write;
+
+use abbe::Manipulator;
+use abbe::analysis::{Workspace, random_joint_samples, sampling};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_study::Machine;
+use abbe_study::import::{Import, Report};
+use nalgebra::{Matrix4, Rotation3, Unit, Vector3};
+
+struct Imported {
+    report: Report,
+    spec: Interpreter,
+}
+
+fn imported(urdf: &str, tip: &str, fold: bool, round_angles: bool) -> Imported {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("robot.urdf");
+    std::fs::write(&file, urdf).unwrap();
+    let report =
+        Import { file, base: None, tip: Some(tip.to_owned()), fold, round_angles }.run(&mut ()).unwrap();
+    let spec = Interpreter::new(Spec::parse("robot.toml", &report.spec).unwrap());
+    Imported { report, spec }
+}
+
+fn pose(arm: &dyn Manipulator, q: &[f64]) -> Matrix4<f64> {
+    let rows = arm.pose(q, &sampling::nominal_parameters(arm.description())).unwrap().rows();
+    Matrix4::from_fn(|i, j| rows[i][j])
+}
+
+fn joint(name: &str, kind: &str, ends: [&str; 2], origin: &str, rest: &str) -> String {
+    let [parent, child] = ends;
+    format!(
+        "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+         <origin {origin}/>{rest}</joint>\n"
+    )
+}
+
+/// By Craig's numbers, `A = Rx(α) Tx(a) Rz(θ) Tz(d)`: the axis of θ stands at `(a, −d sin α, d cos α)`, turned by α about x.
+#[test]
+fn a_panda_in_urdf_is_the_shipped_one() {
+    let numbers: [[f64; 3]; 7] = [
+        [0.0, 0.333, 0.0],
+        [0.0, 0.0, -FRAC_PI_2],
+        [0.0, 0.316, FRAC_PI_2],
+        [0.0825, 0.0, FRAC_PI_2],
+        [-0.0825, 0.384, -FRAC_PI_2],
+        [0.0, 0.0, FRAC_PI_2],
+        [0.088, 0.0, FRAC_PI_2],
+    ];
+    let mut urdf = String::from("<robot name=\"Panda of numbers\">\n");
+    for i in 0..=8 {
+        writeln!(urdf, "<link name=\"link{i}\"/>").unwrap();
+    }
+    for (i, [a, d, alpha]) in numbers.into_iter().enumerate() {
+        let origin = format!("xyz=\"{a} {} {}\" rpy=\"{alpha} 0 0\"", -d * alpha.sin(), d * alpha.cos());
+        let ends = [format!("link{i}"), format!("link{}", i + 1)];
+        let rest = "<axis xyz=\"0 0 1\"/><limit lower=\"-2\" upper=\"2\"/>";
+        urdf += &joint(
+            &format!("Joint {}", i + 1),
+            "revolute",
+            ends.each_ref().map(String::as_str),
+            &origin,
+            rest,
+        );
+    }
+    urdf += &joint("flange", "fixed", ["link7", "link8"], "xyz=\"0 0 0.107\"", "");
+    urdf += "</robot>\n";
+
+    let shipped = Machine::find("panda").unwrap().evaluator(true);
+    for fold in [false, true] {
+        let Imported { report, spec } = imported(&urdf, "link8", fold, false);
+        assert_eq!(report.manipulator, "panda_of_numbers");
+        assert_eq!(spec.description().frames.len(), if fold { 7 } else { 8 });
+        assert_eq!(spec.description().variables[0].name, "joint_1");
+        let samples = random_joint_samples(&*shipped, &[0, 1, 2, 3, 4, 5, 6], 100, 1).unwrap().reached();
+        for sample in samples {
+            let off = (pose(&*shipped, &sample.q) - pose(&spec, &sample.q)).abs().max();
+            assert!(off < 2e-15, "{off:.1e}");
+        }
+    }
+}
+
+/// Everything that a chain can have, against rotations by Rodrigues' formula: a slide along no axis, a turn about none, joints
+/// that follow others in all four ways, and fixed ones between.
+#[test]
+fn joints_of_every_kind() {
+    let links = ["ground", "base", "carriage", "arm", "plate", "finger", "wheel", "tip", "camera"];
+    let mut urdf = String::from("<robot name=\"mixed\">\n");
+    for link in links {
+        writeln!(
+            urdf,
+            "<link name=\"{link}\"><inertial><origin xyz=\"0.1 0 0\"/><mass value=\"2\"/></inertial></link>"
+        )
+        .unwrap();
+    }
+    let limits = "<limit lower=\"0.1\" upper=\"0.5\"/>";
+    urdf += &joint(
+        "foot",
+        "fixed",
+        ["ground", "base"],
+        "xyz=\"0.1 0.2 0.3\" rpy=\"0.1 1.5707963267948966 0.4\"",
+        "",
+    );
+    urdf += &joint(
+        "slide",
+        "prismatic",
+        ["base", "carriage"],
+        "xyz=\"0 0 0.5\"",
+        &format!("<axis xyz=\"0.6 0.8 0\"/>{limits}"),
+    );
+    urdf += &joint("turn", "continuous", ["carriage", "arm"], "rpy=\"0 0.3 0\"", "<axis xyz=\"2 2 1\"/>");
+    urdf += &joint("mount", "fixed", ["arm", "plate"], "xyz=\"0.4 0 0\" rpy=\"1.57079632679 0 0\"", "");
+    // It slides as another turns, and turns as another slides.
+    let follows = |joint: &str, numbers: &str| format!("<mimic joint=\"{joint}\" {numbers}/>");
+    let mimic =
+        format!("<axis xyz=\"0 1 0\"/>{limits}{}", follows("turn", "multiplier=\"-0.05\" offset=\"0.02\""));
+    urdf += &joint("finger joint", "prismatic", ["plate", "finger"], "xyz=\"0 0.1 0\"", &mimic);
+    let mimic = format!("<axis xyz=\"0 -1 -4e-8\"/>{}", follows("slide", "multiplier=\"3\" offset=\"-0.5\""));
+    urdf +=
+        &joint("wheel joint", "continuous", ["finger", "wheel"], "xyz=\"0 0 0.2\" rpy=\"0.2 0 0\"", &mimic);
+    // It follows one that follows.
+    let mimic = format!("<axis xyz=\"1 1 0\"/>{}", follows("wheel joint", "multiplier=\"2\""));
+    urdf += &joint("last", "continuous", ["wheel", "tip"], "xyz=\"0.05 0 0\"", &mimic);
+    urdf += &joint("hook", "fixed", ["plate", "camera"], "xyz=\"0 0 1\"", "");
+    urdf += "</robot>\n";
+
+    let almost_right = "1.57079632679".parse::<f64>().unwrap();
+    let about = |axis: [f64; 3], angle: f64| {
+        Rotation3::from_axis_angle(&Unit::new_normalize(Vector3::from(axis)), angle).to_homogeneous()
+    };
+    let along = |x: f64, y: f64, z: f64| Matrix4::new_translation(&Vector3::new(x, y, z));
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let expected = |slide: f64, turn: f64| {
+        let wheel = 3.0 * slide - 0.5;
+        along(0.1, 0.2, 0.3)
+            * about(z, 0.4)
+            * about(y, FRAC_PI_2)
+            * about(x, 0.1)
+            * along(0.0, 0.0, 0.5)
+            * along(0.6 * slide, 0.8 * slide, 0.0)
+            * about(y, 0.3)
+            * about([2.0, 2.0, 1.0], turn)
+            * along(0.4, 0.0, 0.0)
+            * about(x, almost_right)
+            * along(0.0, 0.1, 0.0)
+            * along(0.0, 0.02 - 0.05 * turn, 0.0)
+            * along(0.0, 0.0, 0.2)
+            * about(x, 0.2)
+            * about([0.0, -1.0, -4e-8], wheel)
+            * along(0.05, 0.0, 0.0)
+            * about([1.0, 1.0, 0.0], 2.0 * wheel)
+    };
+    for fold in [false, true] {
+        let Imported { report, spec } = imported(&urdf, "tip", fold, false);
+        let description = spec.description();
+        assert_eq!(
+            description.variables.iter().map(|variable| &*variable.name).collect::<Vec<_>>(),
+            ["slide", "turn"]
+        );
+        assert_eq!(report.frames.len(), if fold { 5 } else { 7 });
+        assert_eq!(report.frames.iter().filter(|frame| frame.follows).count(), 3);
+        // All but the ground, which carries the first frame; folded, the foot stands on the ground as well.
+        assert_eq!(report.loads, if fold { 7 } else { 8 });
+        for (slide, turn) in [(0.1, 0.0), (0.3, 1.0), (0.47, -2.9), (0.25, 3.1)] {
+            let off = (pose(&spec, &[slide, turn]) - expected(slide, turn)).abs().max();
+            assert!(off < 2e-15, "{off:.1e}");
+        }
+    }
+
+    // Rounded, the one angle that is almost 90° is.
+    let rounded = imported(&urdf, "tip", false, true);
+    assert!(rounded.report.spec.contains("rpy = [\"pi/2\", 0, 0]"), "{}", rounded.report.spec);
+    let off = (pose(&rounded.spec, &[0.3, 1.0]) - expected(0.3, 1.0)).abs().max();
+    assert!((1e-13..1e-11).contains(&off), "{off:.1e}");
+}
