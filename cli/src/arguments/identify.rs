@@ -11,6 +11,7 @@ use super::values::{duration, folds, prior};
 #[command(after_help = after_help!(
     "  abbe identify ur5 data.csv --map ur5 --test test.csv
   abbe identify ur5 data.csv --map ur5 --terms joint,load --time 60s --out found.toml
+  abbe identify ur5 data.csv --map ur5 --full
 ", "--accept, or the map's `accept`, is not met"))]
 pub(crate) struct Identify {
     #[command(flatten)]
@@ -48,6 +49,9 @@ pub(crate) struct Identify {
     /// machine stands and what is mounted on its tool
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    /// Print all that came out: every error, what acts alike, what is correlated, every line that is written
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) full: bool,
     #[command(flatten)]
     pub(crate) page: Page,
     #[command(flatten)]

@@ -1,6 +1,7 @@
 //! `abbe identify`: the generalized errors of a real machine, from measurements.
 
 mod alike;
+mod brief;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::path::{Path, PathBuf};
 use abbe::identify::Loss;
 use abbe_codegen::spec::{Spec, VariableKind};
 use abbe_report::Provenance;
+use abbe_report::text::wrapped;
 use abbe_study::Acceptance;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};
@@ -52,7 +54,9 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let out = out.map(|(spec, map, name)| Ok::<_, Failure>((found(name, &job, &report)?, spec, map)));
     let (written, out) = match out.transpose()? {
         None => (None, Vec::new()),
-        Some((found, spec, map)) => (Some(found.text), vec![spec.fill(&found.spec)?, map.fill(&found.map)?]),
+        Some((found, spec, map)) => {
+            (Some(found.text(arguments.full)), vec![spec.fill(&found.spec)?, map.fill(&found.map)?])
+        }
     };
     let page = page.map(|file| {
         let test = arguments.test.iter().map(|file| ("test", file));
@@ -68,7 +72,8 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
             report.notes.iter().for_each(|line| note(line));
             json(&report)?
         }
-        false => text::text(&job.machine.spec, &report, written.as_deref()),
+        false if arguments.full => text::text(&job.machine.spec, &report, written.as_deref()),
+        false => brief::text(&job.machine.spec, &report, written.as_deref()),
     };
     Ok(Outcome::checked(text, accepted).beside(printed))
 }
@@ -98,7 +103,30 @@ fn map_file(spec: &Path) -> PathBuf {
 struct Found {
     spec: String,
     map: String,
-    text: String,
+    /// Where it is.
+    file: String,
+    /// What is said of the map.
+    beside: String,
+    /// What was added to the spec, line by line.
+    lines: Vec<String>,
+}
+
+impl Found {
+    /// With all lines that were added, or with how many there are.
+    fn text(&self, full: bool) -> String {
+        let Self { file, beside, lines, .. } = self;
+        let count = lines.len();
+        let (what, lines) = match full {
+            true => ("these lines".to_owned(), lines.iter().map(|line| format!("{line}\n")).collect()),
+            false => (format!("{count} lines"), String::new()),
+        };
+        let text =
+            format!("Written to {file}: the nominal spec, {what}, and the covariance of what they say");
+        match full {
+            true => format!("{text}\n{lines}{beside}\n"),
+            false => format!("{}\n{beside}\n", wrapped(&format!("{text}."), 0)),
+        }
+    }
 }
 
 /// What is to be written; what was added to the spec is said line by line.
@@ -107,18 +135,13 @@ fn found(file: &Path, job: &Identify, report: &Report) -> Result<Found, Failure>
     let spec = report.found.written(&machine.spec, &machine.text()?, &file.display().to_string())?;
     let name = map_file(file).display().to_string();
     let map = report.found.written_map(&job.map, &machine.spec, &name)?;
-    let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned() + "\n");
-    let lines: String = lines.collect();
+    let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned());
     let beside = format!(
         "Beside it {name}: the map with where the machine stands and what is mounted on its tool. Give `measure`, \
          `simulate`, `compensate` and `plan` both."
     );
-    let text = format!(
-        "Written to {}: the nominal spec, these lines, and the covariance of what they say\n{lines}{}\n",
-        file.display(),
-        abbe_report::text::wrapped(&beside, 0)
-    );
-    Ok(Found { spec: spec.text, map, text })
+    let (file, beside) = (file.display().to_string(), wrapped(&beside, 0));
+    Ok(Found { spec: spec.text, map, file, beside, lines: lines.collect() })
 }
 
 fn loss(robust: Robust) -> Loss {

@@ -1,7 +1,7 @@
-//! What comes out, for people.
+//! All that comes out, for people: `--full`.
 
 use abbe_codegen::spec::Spec;
-use abbe_study::identify::{Gain, Kind, NotKnown, Report, Sizes, shown_lines};
+use abbe_study::identify::{Gain, Kind, NotKnown, Parameter, Report, Sizes, shown_lines};
 use abbe_study::number::{self, digits, fixed};
 
 use super::alike;
@@ -57,7 +57,7 @@ fn known(report: &Report) -> String {
 }
 
 fn parameters(spec: &Spec, report: &Report) -> String {
-    let table = table(spec, report, |kind| kind == Kind::Machine);
+    let table = table(spec, report, |parameter| parameter.kind == Kind::Machine);
     let mut text = format!("Errors of the machine, all others held at zero\n{table}");
     if !report.meanings.is_empty() {
         let sentences: String =
@@ -91,10 +91,10 @@ fn parameters(spec: &Spec, report: &Report) -> String {
 }
 
 /// What was found of some of the unknowns.
-fn table(spec: &Spec, report: &Report, wanted: impl Fn(Kind) -> bool) -> Table {
+pub(super) fn table(spec: &Spec, report: &Report, wanted: impl Fn(&Parameter) -> bool) -> Table {
     let mut table = Table::new(&["error", "of", "value", "standard deviation", "", ""]);
     let decimals = number::error_decimals(spec.length);
-    for parameter in report.parameters.iter().filter(|parameter| wanted(parameter.kind)) {
+    for parameter in report.parameters.iter().filter(|parameter| wanted(parameter)) {
         let (unit, factor, decimals) = match parameter.unit {
             "rad" => ("mrad", 1e3, 4),
             "" => ("", 1.0, 4),
@@ -129,7 +129,7 @@ fn placed(spec: &Spec, report: &Report) -> String {
                  of the machine: it does not go into the spec and is not compensated.";
     format!(
         "Where the machine stands and what is mounted on its tool\n{}{}\n",
-        table(spec, report, is_placed),
+        table(spec, report, |parameter| is_placed(parameter.kind)),
         wrapped(words, 0)
     )
 }
@@ -159,7 +159,8 @@ fn not_known(spec: &Spec, report: &Report) -> String {
     wrapped(&line, 0) + "\n"
 }
 
-fn errors(spec: &Spec, report: &Report) -> String {
+/// How good the machine is as delivered, with base and tool fitted, and identified.
+pub(super) fn sizes(spec: &Spec, report: &Report) -> String {
     let decimals = number::error_decimals(spec.length);
     let what = if report.instruments.is_empty() { "position error" } else { "error of a reading" };
     let mut table = Table::new(&[what, "rows", "mean", "±", "rms", "95 %", "max"]);
@@ -179,13 +180,30 @@ fn errors(spec: &Spec, report: &Report) -> String {
             row(&name, compared.rows, &report.cross_validation.after);
         }
     }
-    let mut text = format!("How good it is, {}\n{}", spec.length.symbol(), table.right(&[1, 2, 3, 4, 5, 6]));
+    format!("How good it is, {}\n{}", spec.length.symbol(), table.right(&[1, 2, 3, 4, 5, 6]))
+}
+
+fn errors(spec: &Spec, report: &Report) -> String {
+    let mut text = sizes(spec, report);
     let line = if report.test.is_some() {
         "Nothing of the test rows was used to find or to choose anything."
     } else {
         "On data it has not seen: the rows left out in turn; `--test FILE` judges on a file of its own."
     };
     text += &format!("{line}\n{}\n", wrapped(&behind(report), 0));
+    text += &outside(report);
+    text += &instruments(report);
+    text += &left(report);
+    if let Some(order) = &report.order {
+        text += &format!("{}\n", wrapped(&order.sentence, 0));
+    }
+    text += &judged(spec, report);
+    text
+}
+
+/// Test rows beyond the ranges that were fitted, if there are any.
+pub(super) fn outside(report: &Report) -> String {
+    let mut text = String::new();
     if let Some(outside) = &report.outside {
         let [there, here] = [outside.known_outside, outside.known_within].map(|value| digits(value, 2));
         let line = format!(
@@ -196,7 +214,11 @@ fn errors(spec: &Spec, report: &Report) -> String {
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }
-    text += &instruments(report);
+    text
+}
+
+/// What is left against what the instrument explains.
+pub(super) fn left(report: &Report) -> String {
     let factor = report.uncertainty_factor;
     let is_chance = report.certainty.p_of_factor > 0.001;
     let estimated = !report.instruments.is_empty() && report.instruments.iter().all(|told| told.estimated);
@@ -215,10 +237,12 @@ fn errors(spec: &Spec, report: &Report) -> String {
         ),
         _ => "What is left is what the instrument explains.".to_owned(),
     };
-    text += &format!("{}\n", wrapped(&line, 0));
-    if let Some(order) = &report.order {
-        text += &format!("{}\n", wrapped(&order.sentence, 0));
-    }
+    wrapped(&line, 0) + "\n"
+}
+
+/// Limits that were declared, and rows that were left out.
+pub(super) fn judged(spec: &Spec, report: &Report) -> String {
+    let mut text = String::new();
     if let Some(accepted) = &report.accepted {
         text += &format!("{}\n", wrapped(&accepted.sentence(spec.length), 0));
     }
@@ -260,7 +284,7 @@ fn behind(report: &Report) -> String {
 }
 
 /// Whether one model is better than another, and how sure that is.
-fn comparison(gain: Gain, unit: &str) -> String {
+pub(super) fn comparison(gain: Gain, unit: &str) -> String {
     let Some(error) = gain.standard_error else { return "one configuration cannot tell".to_owned() };
     let by = format!("{} ± {} {unit}", digits(gain.mean.abs(), 3), digits(error, 2));
     let p = if gain.p < 1e-12 { "below 1e-12".to_owned() } else { digits(gain.p, 2) };
@@ -272,7 +296,7 @@ fn comparison(gain: Gain, unit: &str) -> String {
 }
 
 /// How good each instrument is, if they are read one by one.
-fn instruments(report: &Report) -> String {
+pub(super) fn instruments(report: &Report) -> String {
     if report.instruments.is_empty() {
         return String::new();
     }
@@ -292,13 +316,13 @@ fn instruments(report: &Report) -> String {
     format!("\n{}", table.right(&[1, 2, 4]))
 }
 
-fn terms(spec: &Spec, report: &Report) -> String {
+pub(super) fn terms(spec: &Spec, report: &Report) -> String {
     if report.terms.is_empty() {
-        return format!(
-            "No richer term of {} earns its place: none makes rows that are left out fit better by half a percent\n\
-             and beyond chance.\n",
+        let line = format!(
+            "No richer term of {} earns its place: none makes rows that are left out fit better by half a percent and beyond chance.",
             report.tried
         );
+        return wrapped(&line, 0) + "\n";
     }
     let decimals = number::error_decimals(spec.length);
     let mut table = Table::new(&["richer terms, as they came in", "before", "after", "p of the test"]);

@@ -149,7 +149,8 @@ fn the_result_is_a_spec() {
     let bench = Bench::new(POINT);
     let data = bench.file("data.csv", &bench.simulated(&["--samples", "200", "--seed", "4"]));
     let out = bench.folder.path().join("found.toml");
-    let text = prints(&["identify", "ur5", path(&data), "--map", path(&bench.map), "--out", path(&out)]);
+    let identify = ["identify", "ur5", path(&data), "--map", path(&bench.map), "--out", path(&out)];
+    let text = prints(&[&identify[..], &["--full"]].concat());
     let found = std::fs::read_to_string(&out).unwrap();
     // Every line of the nominal spec is still there, in order; every other one is shown as added, but for the covariance.
     let (found, covariance) = found.split_once("# The covariance of the errors that were fitted.\n").unwrap();
@@ -186,7 +187,7 @@ fn the_result_is_a_spec() {
 fn what_is_grouped_with_what_is_said() {
     let bench = Bench::new(POINT);
     let data = bench.file("data.csv", &bench.simulated(&["--samples", "200", "--seed", "4"]));
-    let text = prints(&["identify", "ur5", path(&data), "--map", path(&bench.map)]);
+    let text = prints(&["identify", "ur5", path(&data), "--map", path(&bench.map), "--full"]);
     // Before anything is measured it is known already.
     assert!(prints(&["plan", "ur5", "--map", path(&bench.map)]).contains("e_r1 acts as −425 e_y2 + e_r2"));
     for expected in [
@@ -206,9 +207,47 @@ fn what_is_grouped_with_what_is_said() {
     let map = bench.file("still.toml", &still);
     let simulated = prints(&["simulate", path(&bench.spec), "--map", path(&map), "--samples", "100"]);
     let data = bench.file("still.csv", &simulated);
-    let text = prints(&["identify", "ur5", path(&data), "--map", path(&map)]);
+    let text = prints(&["identify", "ur5", path(&data), "--map", path(&map), "--full"]);
     assert!(text.contains("q5 is not moved in these data"), "{text}");
     assert!(!text.contains("e9") && !text.contains("NaN") && !text.contains("inf"), "{text}");
+}
+
+/// The answer first, and no more than a page with everything that may be asked for; what is counted there is listed by `--full`.
+#[test]
+fn a_page_begins_with_the_answer() {
+    let bench = Bench::new(POINT);
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "200", "--seed", "4"]));
+    let unseen = bench.file("unseen.csv", &bench.simulated(&["--samples", "50", "--seed", "2"]));
+    let out = bench.folder.path().join("found.toml");
+    let identify = ["identify", "ur5", path(&data), "--map", path(&bench.map), "--test", path(&unseen)];
+    let more = ["--terms", "joint,product", "--out", path(&out)];
+    let text = prints(&[&identify[..], &more].concat());
+    narrow(&text);
+    assert!(text.lines().count() <= 60, "{text}");
+    let full = prints(&[&identify[..], &more, &["--full"]].concat());
+    assert!(full.lines().count() > 2 * text.lines().count());
+    let report = bench.identify(&data, &[&["--test", path(&unseen)][..], &more[..2]].concat());
+    let mean = number(&report, &["test", "after", "mean"]);
+    let answer = text.lines().nth(1).unwrap();
+    let said = format!("The tool point is off by {mean:.4} mm on average on the 50 test rows;");
+    assert!(answer.starts_with(&said), "{answer}, not {said}");
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let groups = report["groups"].as_array().unwrap().len();
+    assert!(words(&text).contains(&format!("{groups} act as others do or cannot be seen")), "{text}");
+    let listed = full.matches(" acts as ").count() + full.matches("cannot be seen").count();
+    assert_eq!(listed, groups, "{full}");
+    // What is shown of the errors is what is farthest from nothing.
+    let parameters = report["parameters"].as_array().unwrap().iter();
+    let machine = parameters.filter(|one| one["kind"] == "machine");
+    let mut sure: Vec<(f64, &str)> = machine
+        .map(|one| {
+            let sure = number(one, &["value"]).abs() / number(one, &["standard_deviation"]);
+            (sure, one["name"].as_str().unwrap())
+        })
+        .collect();
+    sure.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let shown = |name: &str| text.lines().any(|line| line.starts_with(&format!("  {name} ")));
+    assert!(sure.len() > 7 && shown(sure[0].1) && shown(sure[5].1) && !shown(sure[6].1), "{sure:?}\n{text}");
 }
 
 #[test]
