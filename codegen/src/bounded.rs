@@ -2,11 +2,13 @@
 
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Duration;
+
+use crate::diagnostic::nearest_file;
 
 /// How long nothing may come through a pipe.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -79,7 +81,7 @@ impl Bounded {
     }
 
     fn open_patiently(path: &Path, most: u64, patience: Duration) -> io::Result<Self> {
-        let metadata = fs::metadata(path)?;
+        let metadata = fs::metadata(path).map_err(|error| or_nearest(error, path))?;
         if metadata.is_dir() {
             return Err(Unfit::new("this is a directory, not a file", "name a file in it").into());
         }
@@ -148,6 +150,20 @@ impl Read for Bounded {
         self.left = self.left.checked_sub(length as u64).ok_or_else(|| too_large(self.most))?;
         Ok(length)
     }
+}
+
+/// The error itself, with what may have been meant if nothing is there.
+fn or_nearest(error: io::Error, path: &Path) -> io::Error {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir());
+    let help = match (error.kind(), folder) {
+        (ErrorKind::NotFound, Some(folder)) => Some(format!("there is no folder `{}`", folder.display())),
+        (ErrorKind::NotFound, None) => {
+            nearest_file(path).map(|near| format!("did you mean `{}`?", near.display()))
+        }
+        _ => None,
+    };
+    let unfit = |help| Unfit::new(format!("cannot read this file: {error}"), help);
+    help.map(|help| io::Error::new(error.kind(), unfit(help))).unwrap_or(error)
 }
 
 fn too_large(most: u64) -> Unfit {

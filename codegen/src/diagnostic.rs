@@ -1,5 +1,6 @@
 //! Mistakes in an input file, with their places, shown as rustc would show them.
 
+use std::ffi::OsStr;
 use std::fmt;
 use std::fs;
 use std::ops::Range;
@@ -165,8 +166,16 @@ pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
     let files = entries.filter(|entry| entry.file_type().is_ok_and(|kind| !kind.is_dir()));
     let mut names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     names.sort();
-    let word = missing.file_name()?.to_string_lossy();
-    nearest(&word, names.iter().map(String::as_str)).map(|name| missing.with_file_name(name))
+    let word = missing.file_name()?.to_str()?;
+    // One ending is like another: the names before it must be alike as well.
+    let alike = |name: &&str| nearest(stem(word), [stem(name)]).is_some();
+    let names = names.iter().map(String::as_str).filter(alike);
+    nearest(word, names).map(|name| missing.with_file_name(name))
+}
+
+/// A file's name without its ending.
+fn stem(name: &str) -> &str {
+    Path::new(name).file_stem().and_then(OsStr::to_str).unwrap_or_default()
 }
 
 /// Names in a sentence, and how many more there are.

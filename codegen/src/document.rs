@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::bounded::{Bounded, Unfit, not_text};
-use crate::diagnostic::{Diagnostic, Diagnostics, Span, suggestion};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest, suggestion};
 use crate::expr::{Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Place, Scope, parse_expression};
 use crate::keys::Keys;
 use crate::not_toml::not_toml;
@@ -30,6 +30,8 @@ pub struct Document {
     pub(crate) beside: Vec<(PathBuf, Vec<u8>)>,
     /// Every file that was read for it, its own first.
     pub files: Vec<PathBuf>,
+    /// Mistakes that say what is missing, and is there under a name with a slip: by their places and messages.
+    pub(crate) meant: Vec<(Span, String)>,
 }
 
 impl Document {
@@ -42,6 +44,7 @@ impl Document {
             folder: None,
             beside: Vec::new(),
             files: Vec::new(),
+            meant: Vec::new(),
         }
     }
 
@@ -107,6 +110,10 @@ impl Document {
             Some(result) if self.found.is_empty() => Ok(result),
             _ => {
                 let mut list = self.found;
+                let meant = |(span, message): &(Span, String), mistake: &Diagnostic| {
+                    mistake.span.as_ref() == Some(span) && mistake.message == *message
+                };
+                list.retain(|mistake| !self.meant.iter().any(|missing| meant(missing, mistake)));
                 list.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
                 list.dedup();
                 Err(Diagnostics { path: self.path, text: self.text, list })
@@ -368,15 +375,25 @@ impl<'d> Section<'d> {
 
     /// The item of that key, or a mistake that says it is missing.
     pub fn required(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
+        let form = if self.is_root { format!("a table `[{key}]`") } else { format!("`{key} = …`") };
+        self.required_as(key, &form, document)
+    }
+
+    /// As [`required`](Self::required), of tables that stand in a list.
+    pub fn required_list(&self, key: &str, document: &mut Document) -> Option<Item<'d>> {
+        self.required_as(key, &format!("a table `[[{key}]]` for each"), document)
+    }
+
+    fn required_as(&self, key: &str, form: &str, document: &mut Document) -> Option<Item<'d>> {
         self.get(key).or_else(|| {
-            let message = format!("`{key}` is missing in {}", self.name);
-            let help =
-                if self.is_root { format!("add a table `[{key}]`") } else { format!("add `{key} = …`") };
-            document.mistake(
-                Diagnostic::new(self.span.clone(), message).label(format!("`{key}` belongs here")).help(help),
-            );
+            let mistake = Diagnostic::new(self.span.clone(), self.missing(key));
+            document.mistake(mistake.label(format!("`{key}` belongs here")).help(format!("add {form}")));
             None
         })
+    }
+
+    fn missing(&self, key: &str) -> String {
+        format!("`{key}` is missing in {}", self.name)
     }
 
     /// The text of that key in one line, empty if there is none. What is no text is a mistake; of `description` and `reference`
@@ -396,13 +413,13 @@ impl<'d> Section<'d> {
         }
         for item in self.items().filter(|item| !known.iter().any(|keys| keys.contain(&item.key))) {
             let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
-            document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(
-                suggestion(
-                    &item.key,
-                    &known.iter().flat_map(|keys| keys.keys).copied().collect::<Vec<_>>(),
-                    "known keys",
-                ),
-            ));
+            let names = known.iter().flat_map(|keys| keys.keys).copied().collect::<Vec<_>>();
+            let help = suggestion(&item.key, &names, "known keys");
+            document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(help));
+            // What is told as a slip need not be told as missing as well.
+            if let Some(meant) = nearest(&item.key, names).filter(|meant| self.get(meant).is_none()) {
+                document.meant.push((self.span.clone(), self.missing(meant)));
+            }
         }
     }
 }

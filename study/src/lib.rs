@@ -65,6 +65,7 @@ mod acceptance;
 mod changes;
 mod extrapolated;
 mod finite;
+mod lines;
 mod listing;
 mod machine;
 mod named;

@@ -2,9 +2,10 @@
 //!
 //! Every file of every command is written by `Outputs`, which knows what the command has read. `place` is where a path
 //! leads, `identity` whether two paths lead to one file; `temporary` are files under names of their own, `pending` those that
-//! wait for their places, `places` puts them there, all or none; `record` knows which files abbe wrote.
+//! wait for their places, `places` puts them there, all or none, and `journal` also if the process is killed meanwhile; `record` knows which files abbe wrote.
 
 mod identity;
+mod journal;
 mod outputs;
 mod pending;
 mod place;

@@ -123,9 +123,9 @@ impl Outputs {
                 (Place::File(place), Content::Beside(content)) => {
                     // A disk that is full may say so only now.
                     content.as_file().sync_data().map_err(|error| cannot_write(&file.path, &error))?;
-                    written.push((place.clone(), hash));
+                    written.push((place.clone(), hash.clone()));
                     names.push(file.path);
-                    complete.push(Complete { file: content, place });
+                    complete.push(Complete { file: content, place, hash });
                 }
                 (place, Content::Memory(content)) => through.push((file.path, place, content)),
                 (_, Content::Beside(_)) => {}

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use tempfile::NamedTempFile;
 
+use super::journal::Journal;
 use super::place::parent;
 use super::temporary::{self, Begun};
 
@@ -13,12 +14,23 @@ use super::temporary::{self, Begun};
 pub(super) struct Complete {
     pub(super) file: NamedTempFile<File>,
     pub(super) place: PathBuf,
+    /// The SHA-256 of what is in it.
+    pub(super) hash: String,
 }
 
 /// Puts files in their places. If one cannot go there, those before it are taken back; which one it was, and why.
 ///
-/// Each goes there in one step, and a signal is heard after the last.
+/// Each goes there in one step, and a signal is heard after the last; of a process that is killed in between the next one
+/// does the rest.
 pub(super) fn put(files: Vec<Complete>) -> Result<(), (PathBuf, io::Error)> {
+    put_one_by_one(files, |_| ())
+}
+
+/// As [`put`]; `between` is told how many are in their places, before the first and after each.
+pub(super) fn put_one_by_one(
+    files: Vec<Complete>,
+    between: impl Fn(usize),
+) -> Result<(), (PathBuf, io::Error)> {
     let mut old = Vec::with_capacity(files.len());
     // A single file goes or does not go.
     for Complete { place, .. } in files.iter().filter(|_| files.len() > 1) {
@@ -27,14 +39,21 @@ pub(super) fn put(files: Vec<Complete>) -> Result<(), (PathBuf, io::Error)> {
             _ => Some(temporary::kept(place, parent(place)).map_err(|error| (place.clone(), error))?),
         });
     }
+    let journal = match files.as_slice() {
+        [first, _, ..] => Some(Journal::begin(&files).map_err(|error| (first.place.clone(), error))?),
+        _ => None,
+    };
     let _held = Begun::hold();
     let mut done = Vec::with_capacity(files.len());
-    for Complete { file, place } in files {
+    between(0);
+    for Complete { file, place, .. } in files {
         if let Err(error) = file.persist(&place) {
+            drop(journal);
             take_back(done.into_iter().zip(old));
             return Err((place, error.error));
         }
         done.push(place);
+        between(done.len());
     }
     Ok(())
 }
@@ -63,7 +82,7 @@ mod tests {
         let complete = |name: &str| {
             let mut file = temporary::file(folder.path(), None).unwrap();
             file.write_all(b"new").unwrap();
-            Complete { file, place: path(name) }
+            Complete { file, place: path(name), hash: abbe_study::hash::of_text("new") }
         };
         let files = vec![complete("old"), complete("new"), complete("folder")];
         fs::create_dir_all(path("folder/with something in it")).unwrap();

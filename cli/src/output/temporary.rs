@@ -1,8 +1,8 @@
 //! Files under names of their own, `.abbe-PROCESS-….tmp`, until they are complete. What a process leaves that was killed is
-//! cleared by the next one that writes in the folder.
+//! cleared by the next one that writes in the folder; `….set` are journals of sets of files, which it ends first.
 
 use std::ffi::OsStr;
-use std::fs::{self, File, Metadata};
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process;
@@ -10,8 +10,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, NamedTempFile};
 
+use super::journal;
+
 const PREFIX: &str = ".abbe-";
 const SUFFIX: &str = ".tmp";
+const JOURNAL: &str = ".set";
 
 /// What an interruption takes away: temporary files, and folders that were made and are still empty. Names of files are random,
 /// so that nothing else can stand in the places of those that are gone.
@@ -46,10 +49,14 @@ impl Begun {
 }
 
 /// Makes something under a name of this process, which is removed when it is dropped.
-fn named<T>(folder: &Path, make: impl FnMut(&Path) -> io::Result<T>) -> io::Result<NamedTempFile<T>> {
+fn named<T>(
+    folder: &Path,
+    suffix: &str,
+    make: impl FnMut(&Path) -> io::Result<T>,
+) -> io::Result<NamedTempFile<T>> {
     let mut begun = Begun::hold();
     let prefix = format!("{PREFIX}{}-", process::id());
-    let file = Builder::new().prefix(&prefix).suffix(SUFFIX).make_in(folder, make)?;
+    let file = Builder::new().prefix(&prefix).suffix(suffix).make_in(folder, make)?;
     begun.files.push(file.path().to_owned());
     Ok(file)
 }
@@ -63,21 +70,31 @@ pub(super) fn file(folder: &Path, old: Option<&Metadata>) -> io::Result<NamedTem
         use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
         options.mode(old.mode() & 0o777);
     }
-    let file = named(folder, |path| options.open(path))?;
-    // Others see by this that it is still being written, even from another computer. Where there are no locks the number
-    // of the process says it.
-    let _ = file.as_file().try_lock();
+    let file = locked(folder, SUFFIX, &options)?;
     if let Some(old) = old {
         alike(file.as_file(), old);
     }
     Ok(file)
 }
 
+/// A new file for the journal of a set of files.
+pub(super) fn journal(folder: &Path) -> io::Result<NamedTempFile<File>> {
+    locked(folder, JOURNAL, File::options().write(true).create_new(true))
+}
+
+fn locked(folder: &Path, suffix: &str, options: &OpenOptions) -> io::Result<NamedTempFile<File>> {
+    let file = named(folder, suffix, |path| options.open(path))?;
+    // Others see by this that it is still being written, even from another computer. Where there are no locks the number
+    // of the process says it.
+    let _ = file.as_file().try_lock();
+    Ok(file)
+}
+
 /// A file under a second name.
 pub(super) fn kept(path: &Path, folder: &Path) -> io::Result<NamedTempFile<()>> {
-    let link = named(folder, |name| fs::hard_link(path, name));
+    let link = named(folder, SUFFIX, |name| fs::hard_link(path, name));
     // Some file systems have no links.
-    link.or_else(|_| named(folder, |name| fs::copy(path, name).map(|_| ())))
+    link.or_else(|_| named(folder, SUFFIX, |name| fs::copy(path, name).map(|_| ())))
 }
 
 /// Gives a file owner and mode of another one, as far as that is allowed.
@@ -113,27 +130,34 @@ impl Drop for Folders {
     }
 }
 
-/// Removes what processes left in a folder that are gone.
+/// Ends and removes what processes left in a folder that are gone.
 pub(super) fn clear_stale(folder: &Path) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let stale = process_of(&entry.file_name()).is_some_and(|process| !lives(process))
-            && entry.file_type().is_ok_and(|kind| kind.is_file())
-            && !is_locked(&entry.path());
-        if stale {
-            let _ = fs::remove_file(entry.path());
+    let entries: Vec<_> = fs::read_dir(folder).into_iter().flatten().flatten().collect();
+    // A journal needs the files that it names.
+    for suffix in [JOURNAL, SUFFIX] {
+        for entry in &entries {
+            let stale = process_of(&entry.file_name(), suffix).is_some_and(|process| !lives(process))
+                && entry.file_type().is_ok_and(|kind| kind.is_file())
+                && !is_locked(&entry.path());
+            if stale {
+                if suffix == JOURNAL {
+                    journal::complete(&entry.path());
+                }
+                let _ = fs::remove_file(entry.path());
+            }
         }
     }
 }
 
 /// The number of the process that made a temporary file of that name.
-fn process_of(name: &OsStr) -> Option<u32> {
-    let (process, _) = name.to_str()?.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?.split_once('-')?;
+fn process_of(name: &OsStr, suffix: &str) -> Option<u32> {
+    let (process, _) = name.to_str()?.strip_prefix(PREFIX)?.strip_suffix(suffix)?.split_once('-')?;
     process.parse().ok()
 }
 
 /// Whether a file of that name is a temporary one, of whomever.
 pub(super) fn is_one(name: &OsStr) -> bool {
-    process_of(name).is_some()
+    [SUFFIX, JOURNAL].iter().any(|suffix| process_of(name, suffix).is_some())
 }
 
 fn is_locked(path: &Path) -> bool {

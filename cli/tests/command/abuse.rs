@@ -129,7 +129,10 @@ fn what_never_ends_is_not_read_to_its_end() {
     refused(&["measure", "scara", path(folder.path()), "--map", &map], "directory");
     let study = "[study]\ntitle = \"Path\"\n[workspace.path]\nfile = \"/dev/zero\"\n";
     let study = write(folder.path(), "study.toml", study);
-    refused(&["analyze", "scara", "--study", path(&study)], "/dev/zero");
+    refused(
+        &["analyze", "scara", "--study", path(&study)],
+        "/dev/zero: the row in line 1 does not end within 4 MiB",
+    );
     // A quotation mark that nothing closes.
     let file =
         write(folder.path(), "open.csv", &format!("q1,q2,d3,q4,x,y,z\n1,\"{}", "2,3\n".repeat(2_000_000)));

@@ -152,6 +152,7 @@ fn what_is_nearest() {
     let folder = tempdir().unwrap();
     write(folder.path(), "arm.toml", &crate::readme::spec());
     write(folder.path(), "arm.csv", "");
+    fs::create_dir(folder.path().join("folder")).unwrap();
     for (words, expected) in [
         (&["analyse", "pps"][..], "a similar subcommand exists: 'analyze'"),
         (&["analyze", "pps", "--monte-carl", "3"], "a similar argument exists: '--monte-carlo'"),
@@ -163,6 +164,15 @@ fn what_is_nearest() {
         (&["measure", "ur5", "arm.csv", "--map", "ur6"], "did you mean `ur5`?"),
         (&["measure", "ur5", "arm.csv", "--map", "arn"], "there is `arm.toml`"),
         (&["plan", "pps", "--map", "pps", "--sets", "pss"], "did you mean `pps`?"),
+        (&["check", "amr.toml"], "did you mean `arm.toml`?"),
+        (&["check", "arms/arm.toml"], "there is no folder `arms`"),
+        (&["analyze", "pps", "--study", "arn.toml"], "did you mean `arm.toml`?"),
+        (&["measure", "ur5", "arm.csv", "--map", "./arm.tml"], "did you mean `./arm.toml`?"),
+        (&["measure", "ur5", "arn.csv", "--map", "ur5"], "did you mean `arm.csv`?"),
+        (&["plan", "pps", "--map", "pps", "--sets", "arm.tom1"], "there is `arm.toml`"),
+        // One ending in common is not much: nothing is like this.
+        (&["check", "quay.toml"], "give the path of a TOML file"),
+        (&["check", "folder"], "this folder is no file"),
     ] {
         let output = crate::running::command(words).current_dir(folder.path()).output().unwrap();
         let stderr = String::from_utf8(output.stderr).unwrap();

@@ -1,5 +1,5 @@
 //! Commands that are killed while they write: every file is the one of before or the one of after, none is lost, and the next
-//! run leaves nothing behind.
+//! run, of whatever command, completes a set of which some were in their places, and leaves nothing behind.
 //!
 //! `ABBE_KILLS=1000` kills so often; it takes as long as it takes.
 
@@ -78,6 +78,16 @@ impl Victim {
         Self { workshop, line, forms: [first, second], time }
     }
 
+    /// Another command writes where this one does, and its file is taken away.
+    fn write_something_else(&self) {
+        let folder = ["measured", "analyzed", "again"].into_iter().find(|name| self.line.ends_with(name));
+        let file = self.workshop.at(folder.unwrap_or(".")).join("other.rs");
+        let words = self.workshop.words("generate s.toml --out");
+        let status = start(&[&words[..], &[file.to_str().unwrap().to_owned()]].concat()).status().unwrap();
+        assert!(status.success(), "{status}");
+        fs::remove_file(file).unwrap();
+    }
+
     /// Of which form the files are that differ; none if they are of both.
     fn form(&self) -> Option<usize> {
         let now = contents(self.workshop.0.path());
@@ -147,6 +157,10 @@ fn whoever_is_killed_leaves_whole_files_and_the_next_run_nothing() {
         let found = contents(victim.workshop.0.path()).len() - victim.forms[0].len();
         assert!(found == 0 || number == 9, "{}: {name} leaves something", victim.line);
         left += usize::from(found > 0);
+        if after.is_none() {
+            victim.write_something_else();
+            assert_eq!(victim.form(), Some(next), "{}: the set is not completed", victim.line);
+        }
         // What was killed is done again, without --force, and nothing is left.
         if found > 0 || after.is_none() || random.random_bool(0.2) {
             let again = start(&words(&victim.workshop, victim.line, next)).status().unwrap();

@@ -153,6 +153,15 @@ fn every_shipped_manipulator_has_a_report() {
     }
 }
 
+/// Verdicts are on what is published.
+#[test]
+fn verdicts_have_a_column_where_there_are_any() {
+    for (arguments, any) in [(&["pps"][..], true), (&["scara"], false)] {
+        let page = &written(arguments)["report.html"];
+        assert_eq!(page.contains(">verdict</th>"), any, "{arguments:?}");
+    }
+}
+
 #[test]
 fn a_folder_that_cannot_be_written_to_stays_as_it_was() {
     let folder = tempdir().expect("a folder");

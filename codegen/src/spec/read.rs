@@ -210,7 +210,7 @@ fn read_frames<'d>(
     declarations: &mut Declarations,
     document: &mut Document,
 ) -> Option<Vec<RawFrame<'d>>> {
-    let item = root.required("frame", document)?;
+    let item = root.required_list("frame", document)?;
     let items = document.array(&item, "tables, each a [[frame]]")?;
     if items.is_empty() {
         document.mistake(

@@ -24,7 +24,8 @@ pub(super) fn sources(report: &Report) -> String {
     format!(
         "<table class=\"ledger\"><thead><tr><th>rank</th><th class=\"words\">source</th>\
          <th class=\"words\">metric</th><th>x ({unit})</th><th>y ({unit})</th><th>z ({unit})</th>\
-         <th>norm ({unit})</th>{share}<th class=\"words\">verdict</th></tr></thead>\n{rows}</table>\n"
+         <th>norm ({unit})</th>{share}{}</tr></thead>\n{rows}</table>\n",
+        head_of_verdicts(report)
     )
 }
 
@@ -61,8 +62,9 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, rep
         let Figures { x, y, z, norm } = *figures;
         let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", error(figure, report))).concat();
         rows += &format!(
-            "<tr>{head}<td class=\"words metric\">{name}</td>{cells}{}<td></td></tr>\n",
-            share(figures)
+            "<tr>{head}<td class=\"words metric\">{name}</td>{cells}{}{}</tr>\n",
+            share(figures),
+            no_verdict(report)
         );
         if let Some((published, agreement)) = published {
             let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
@@ -104,7 +106,7 @@ pub(super) fn combined(report: &Report) -> String {
         let cells = [x, y, z, Some(norm)].map(|figure| format!("<td>{}</td>", cell(figure))).concat();
         let of = report.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
         let of = of.unwrap_or_default();
-        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}<td></td></tr>\n");
+        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}{}</tr>\n", no_verdict(report));
         if let Some((published, agreement)) = report.published(&study_file::Subject::Combined(figure)) {
             let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
             let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
@@ -124,12 +126,13 @@ pub(super) fn combined(report: &Report) -> String {
         let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", error(figure, report))).concat();
         let of = report.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
         let of = of.unwrap_or_default();
-        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}<td></td></tr>\n");
+        rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}{}</tr>\n", no_verdict(report));
     }
     format!(
         "<table class=\"ledger\"><thead><tr><th class=\"words\">all together</th><th>x ({unit})</th>\
-         <th>y ({unit})</th><th>z ({unit})</th><th>norm ({unit})</th>{share}<th class=\"words\">verdict</th>\
-         </tr></thead>\n<tbody>{rows}</tbody></table>\n"
+         <th>y ({unit})</th><th>z ({unit})</th><th>norm ({unit})</th>{share}{}\
+         </tr></thead>\n<tbody>{rows}</tbody></table>\n",
+        head_of_verdicts(report)
     )
 }
 
@@ -152,6 +155,15 @@ pub fn listed(listing: &Listing) -> String {
 fn attributed(report: &Report, reference: &str) -> String {
     let publisher = escaped(report.publisher());
     if reference.is_empty() { publisher } else { format!("{publisher}, {}", escaped(reference)) }
+}
+
+/// Verdicts are on what is published: without that there is no column for them.
+fn head_of_verdicts(report: &Report) -> &'static str {
+    if report.study.published.is_empty() { "" } else { "<th class=\"words\">verdict</th>" }
+}
+
+fn no_verdict(report: &Report) -> &'static str {
+    if report.study.published.is_empty() { "" } else { "<td></td>" }
 }
 
 fn verdict(agreement: Agreement, report: &Report) -> String {

@@ -9,8 +9,8 @@ use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostics;
 
 use super::dialect::Dialect;
-use super::lines::{Lines, Watched};
 use super::record::Record;
+use crate::lines::{Lines, Watched};
 use crate::mistake;
 
 const WANTED: &str = "give a CSV file with a heading in its first line";

@@ -12,7 +12,6 @@ mod from_rows;
 mod instrument;
 mod keys;
 mod layout;
-mod lines;
 mod map;
 mod missing;
 mod read;

@@ -147,8 +147,9 @@ fn read(root: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<Sets
         Some(item) => Candidates::inputs(spec).axes(&item, document, spec),
         None => Vec::new(),
     };
-    let items =
-        root.required("set", document).and_then(|item| document.array(&item, "tables, each a [[set]]"))?;
+    let items = root
+        .required_list("set", document)
+        .and_then(|item| document.array(&item, "tables, each a [[set]]"))?;
     if items.is_empty() {
         let item = root.get("set").map_or(0..0, |item| item.span());
         document.mistake(Diagnostic::new(item, "a plan needs at least one set").help("add a [[set]]"));

@@ -21,6 +21,7 @@ use abbe_codegen::spec::{Input, Spec, VariableKind};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::keys;
+use crate::lines::Watched;
 use crate::number::quantity;
 
 /// The largest file that is read, in bytes.
@@ -127,7 +128,8 @@ pub(super) fn read(section: &Section<'_>, document: &mut Document, spec: &Spec) 
 
 fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64>>), String> {
     let input = Bounded::open(file, LARGEST_FILE).map_err(|error| in_words(&error.into()))?;
-    let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(input);
+    let (watched, mut lines) = Watched::new(input);
+    let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(watched);
     let heading = reader.headers().map_err(|error| in_words(&error))?;
     if let Some(unfit) = not_text(heading.as_byte_record().as_slice()) {
         return Err(format!("{}; {}", unfit.message, unfit.help));
@@ -144,7 +146,8 @@ fn read_file(file: &path::Path, spec: &Spec) -> Result<(Vec<Column>, Vec<Vec<f64
         if configurations.len() == MOST_ROWS {
             return Err(format!("it has more than {MOST_ROWS} lines; take fewer configurations"));
         }
-        configurations.push(values(&record, &columns, spec)?);
+        let line = record.position().map_or(0, |position| lines.of_record(position.byte()));
+        configurations.push(values(&record, line, &columns, spec)?);
     }
     if configurations.is_empty() {
         return Err("there is no configuration in it".to_owned());
@@ -163,8 +166,7 @@ fn in_words(error: &csv::Error) -> String {
     }
 }
 
-fn values(record: &StringRecord, columns: &[Column], spec: &Spec) -> Result<Vec<f64>, String> {
-    let line = record.position().map_or(0, csv::Position::line);
+fn values(record: &StringRecord, line: u64, columns: &[Column], spec: &Spec) -> Result<Vec<f64>, String> {
     let value = |(field, column): (&str, &Column)| {
         let value = field.parse::<f64>().ok().map(|value| value * column.unit);
         let value = value.filter(|value| value.is_finite());

@@ -11,9 +11,28 @@ use abbe_codegen::diagnostic::Diagnostics;
 /// How long anything may take: in tests that are not optimized, on computers that are busy.
 const LONGEST: Duration = Duration::from_secs(30);
 
+/// How many times as long if it is asked for more than usual, which may be at a low priority.
+const PATIENT: u32 = 40;
+
+/// How much of the processors' time nothing should take; what does is named.
+const LONG: Duration = Duration::from_secs(5);
+
 /// How many inputs of a kind, if nobody asks for another number.
 pub(crate) fn many(usual: u64) -> u64 {
-    std::env::var("ABBE_ABUSE").ok().and_then(|many| many.parse().ok()).unwrap_or(usual)
+    asked().unwrap_or(usual)
+}
+
+fn asked() -> Option<u64> {
+    std::env::var("ABBE_ABUSE").ok().and_then(|many| many.parse().ok())
+}
+
+/// The time that the processors have worked for this process, where it can be told: of one test, if it is alone.
+fn worked() -> Option<Duration> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name, which may have any letters: the user's and the system's, in hundredths of a second.
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
+    let mut ticks = || fields.next()?.parse::<u64>().ok();
+    Some(Duration::from_millis(10 * (ticks()? + ticks()?)))
 }
 
 /// How inputs ended.
@@ -52,7 +71,7 @@ impl Figures {
     }
 }
 
-/// Runs one input: whether it was answered, and how long it took. A panic, and a refusal without a place or a way out, fail the
+/// Runs one input: whether it was answered, and how long the processors worked, or else how long it took. A panic, and a refusal without a place or a way out, fail the
 /// test; what does not end, ends it.
 pub(crate) fn watched(
     kind: &str,
@@ -61,10 +80,11 @@ pub(crate) fn watched(
     run: impl FnOnce() -> Result<(), Diagnostics>,
 ) -> (bool, Duration) {
     let (done, watch) = channel::<()>();
-    let (begun, said) = (Instant::now(), format!("{kind} {seed}"));
+    let (begun, worked_before, said) = (Instant::now(), worked(), format!("{kind} {seed}"));
     let kept = input.to_owned();
     let watching = thread::spawn(move || {
-        if watch.recv_timeout(LONGEST) == Err(RecvTimeoutError::Timeout) {
+        let longest = LONGEST * if asked().is_some() { PATIENT } else { 1 };
+        if watch.recv_timeout(longest) == Err(RecvTimeoutError::Timeout) {
             eprintln!("{said} does not end:\n{kept}");
             exit(1);
         }
@@ -85,5 +105,9 @@ pub(crate) fn watched(
         }
         assert!(refused.to_string().lines().count() < 400, "{kind} {seed}:\n{refused}");
     }
-    (result.is_ok(), begun.elapsed())
+    let taken = worked().zip(worked_before).map_or(begun.elapsed(), |(after, before)| after - before);
+    if taken > LONG {
+        eprintln!("{kind} {seed} takes {taken:.1?}");
+    }
+    (result.is_ok(), taken)
 }

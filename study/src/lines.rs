@@ -21,16 +21,16 @@ struct Window {
 
 /// Counts lines. A reader's own positions are behind the record before: the rest of a line end, empty lines and comments
 /// are still to come.
-pub(super) struct Lines(Rc<RefCell<Window>>);
+pub(crate) struct Lines(Rc<RefCell<Window>>);
 
 /// What is read, remembered until its lines are counted.
-pub(super) struct Watched<R> {
+pub(crate) struct Watched<R> {
     inner: R,
     window: Rc<RefCell<Window>>,
 }
 
 impl<R: Read> Watched<R> {
-    pub(super) fn new(inner: R) -> (Self, Lines) {
+    pub(crate) fn new(inner: R) -> (Self, Lines) {
         let window = Rc::new(RefCell::new(Window { line: 1, ..Window::default() }));
         (Self { inner, window: Rc::clone(&window) }, Lines(window))
     }
@@ -52,7 +52,7 @@ impl<R: Read> Read for Watched<R> {
 
 impl Lines {
     /// The line on which the next record after that byte begins; what is before it is forgotten.
-    pub(super) fn of_record(&mut self, byte: u64) -> u64 {
+    pub(crate) fn of_record(&mut self, byte: u64) -> u64 {
         let mut window = self.0.borrow_mut();
         let mut start = byte.saturating_sub(window.start) as usize;
         loop {
