@@ -7,6 +7,7 @@ use abbe::analysis::{
 use abbe_codegen::spec::{Orientation, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, pps::Pps, puma560::Puma560};
+use abbe_tests::abuse::{Choices, plain_spec};
 use abbe_tests::chains::{coupled_joints, general_chain, revolute_chain};
 
 /// Pose, point; then both with a base frame.
@@ -127,6 +128,23 @@ fn parts_of_a_chain_have_the_rank_of_the_whole() {
         assert_eq!(found, ranks_of_the_stack(&spec).0, "{}: {gap:?}\n{text}", spec.name);
         assert!(gap[0] > 1e-6 && gap[1] < 1e-12, "{}: {gap:?}", spec.name);
     }
+}
+
+#[test]
+fn parts_of_random_chains_have_the_rank_of_the_whole() {
+    let mut judged = 0;
+    for seed in 0..150 {
+        let text = plain_spec(&mut Choices::seeded(seed));
+        let Ok(spec) = Spec::parse("random.toml", &text) else { continue };
+        let (expected, gap) = ranks_of_the_stack(&spec);
+        // Where the stack is not clear itself, it says nothing.
+        if gap[0] > 1e-6 && gap[1] < 1e-12 {
+            let (found, gap) = ranks_in_parts(&spec);
+            assert_eq!(found, expected, "{seed}: {gap:?}\n{text}");
+            judged += 1;
+        }
+    }
+    assert!(judged > 50, "{judged} random chains were clear");
 }
 
 /// `4R + 2P + 6` with poses and a base frame, and what follows from it, however long the chain is.

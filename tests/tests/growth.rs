@@ -1,0 +1,154 @@
+//! Work grows with the length of a chain and the number of parameters, and no faster: counted, not timed.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use abbe::analysis::{Measurement, Parts, Workspace, identifiable_in_parts, random_joint_samples};
+use abbe::laws::{self, DERIVATIVE_TOLERANCE};
+use abbe::{Description, Error, Manipulator, Pose};
+use abbe_codegen::chain::Model;
+use abbe_codegen::program::Routines;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_tests::chains::{many_parameters, revolute_chain};
+
+/// A manipulator whose transforms are counted, and whose Jacobians by joints and parameters may have an entry that is off.
+struct Counted {
+    robot: Interpreter,
+    transforms: AtomicUsize,
+    off: Option<(usize, f64)>,
+}
+
+impl Counted {
+    fn new(text: &str) -> Self {
+        let spec = Spec::parse("chain.toml", text).unwrap_or_else(|refused| panic!("{refused}"));
+        Self { robot: Interpreter::new(spec), transforms: AtomicUsize::new(0), off: None }
+    }
+
+    /// How often transforms are asked for.
+    fn transforms_of<T>(&self, run: impl FnOnce(&Self) -> T) -> (usize, T) {
+        let before = self.transforms.load(Ordering::Relaxed);
+        let result = run(self);
+        (self.transforms.load(Ordering::Relaxed) - before, result)
+    }
+
+    fn spoil(&self, columns: &mut [[f64; 6]]) {
+        if let Some((column, by)) = self.off {
+            columns[column][1] += by;
+        }
+    }
+}
+
+impl Manipulator for Counted {
+    fn description(&self) -> &Description {
+        self.robot.description()
+    }
+    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
+        self.transforms.fetch_add(1, Ordering::Relaxed);
+        self.robot.transforms(q, s, transforms)
+    }
+    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
+        self.robot.pose(q, s)
+    }
+    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        self.robot.error_jacobian(q, s, columns)
+    }
+    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        let pose = self.robot.joint_jacobian(q, s, columns)?;
+        self.spoil(columns);
+        Ok(pose)
+    }
+    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        let pose = self.robot.parameter_jacobian(q, s, columns)?;
+        self.spoil(columns);
+        Ok(pose)
+    }
+    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
+        self.robot.effects(q, s, u, effects)
+    }
+    fn generalized_errors(
+        &self,
+        q: &[f64],
+        s: &[f64],
+        u: &[f64],
+        errors: &mut [[f64; 6]],
+    ) -> Result<(), Error> {
+        self.robot.generalized_errors(q, s, u, errors)
+    }
+}
+
+const SAMPLES: usize = 3;
+
+/// Steps are halved until a derivative is good enough: how often that is depends on the chain a little.
+fn as_often(short: usize, long: usize) {
+    assert!(5 * long <= 6 * short, "{short} transforms, and {long} of the longer one");
+}
+
+#[test]
+fn laws_ask_as_often_however_long_the_chain_is() {
+    let of_joints = [80, 160].map(|frames| {
+        let robot = Counted::new(&revolute_chain(frames));
+        // Once at home for the length of the arm, and once at each sample.
+        let (asked, found) = robot.transforms_of(|robot| laws::error_jacobian(robot, SAMPLES).unwrap());
+        assert_eq!(asked, 1 + SAMPLES);
+        assert!(found.relative < DERIVATIVE_TOLERANCE, "{found:?}");
+        let (asked, found) = robot.transforms_of(|robot| laws::joint_jacobian(robot, SAMPLES).unwrap());
+        assert!(found.relative < DERIVATIVE_TOLERANCE, "{found:?}");
+        asked
+    });
+    as_often(of_joints[0], of_joints[1]);
+    let of_parameters = [100, 1000].map(|parameters| {
+        let robot = Counted::new(&many_parameters(parameters));
+        let (asked, found) = robot.transforms_of(|robot| laws::parameter_jacobian(robot, SAMPLES).unwrap());
+        assert!(found.relative < DERIVATIVE_TOLERANCE, "{found:?}");
+        asked
+    });
+    as_often(of_parameters[0], of_parameters[1]);
+}
+
+/// Derivatives along sums of columns see any column that is off.
+#[test]
+fn laws_of_many_columns_see_each_of_them() {
+    for column in [0, 59, 60, 77, 149] {
+        let mut robot = Counted::new(&revolute_chain(150));
+        robot.off = Some((column, 1e-5));
+        let found = laws::joint_jacobian(&robot, SAMPLES).unwrap();
+        assert!(found.relative > DERIVATIVE_TOLERANCE, "{column}: {found:?}");
+        let mut robot = Counted::new(&many_parameters(150));
+        robot.off = Some((column, 1e-5));
+        let found = laws::parameter_jacobian(&robot, SAMPLES).unwrap();
+        assert!(found.relative > DERIVATIVE_TOLERANCE, "{column}: {found:?}");
+    }
+}
+
+#[test]
+fn what_can_be_identified_takes_each_configuration_once() {
+    for frames in [50, 100] {
+        let robot = Counted::new(&revolute_chain(frames));
+        let all: Vec<usize> = (0..frames).collect();
+        let configurations = random_joint_samples(&robot, &all, 60, 1).unwrap().reached();
+        let parts = Parts::new(&robot.robot.spec().variables_of_transforms());
+        assert_eq!((parts.count(), parts.longest()), (frames + 1, 1));
+        let (asked, _) = robot.transforms_of(|robot| {
+            identifiable_in_parts(robot, &parts, &configurations, Measurement::Pose, true).unwrap()
+        });
+        assert_eq!(asked, 60);
+    }
+}
+
+/// Of twice the frames, and twice the parameters, twice as much and a little.
+#[test]
+fn models_and_programs_grow_with_the_chain() {
+    let sizes = |text: &str| -> [usize; 2] {
+        let spec = Spec::parse("chain.toml", text).unwrap_or_else(|refused| panic!("{refused}"));
+        let model = Model::new(&spec);
+        let routines = Routines::new(&spec, &model);
+        let operations = routines.list.iter().map(|routine| routine.operations.weight()).sum();
+        [model.graph.len(), operations]
+    };
+    for make in [revolute_chain as fn(usize) -> String, many_parameters] {
+        let [once, twice] = [200, 400].map(|count| sizes(&make(count)));
+        for (once, twice) in once.into_iter().zip(twice) {
+            assert!(twice as f64 <= 2.1 * once as f64, "{once}, then {twice}");
+        }
+    }
+}
