@@ -30,12 +30,17 @@ pub(crate) fn run(arguments: &arguments::Import) -> Result<Outcome, Failure> {
     Ok(Outcome::passed(text).beside(printed))
 }
 
+fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
 fn summary(report: &Report) -> String {
     let Report { manipulator, base, tip, frames, loads, largest_difference, configurations, .. } = report;
     let moving = frames.iter().filter(|frame| frame.variable.is_some()).count();
     let mut text = format!(
-        "{manipulator}: from {base} to {tip}, {} frames, {moving} of them moved, {loads} masses as loads\n\n",
-        frames.len()
+        "{manipulator}: from {base} to {tip}, {}, {moving} of them moved, {} as loads\n\n",
+        counted(frames.len(), "frame", "frames"),
+        counted(*loads, "mass", "masses")
     );
     let width = frames.iter().map(|frame| frame.joint.chars().count()).max().unwrap_or_default();
     for ImportedFrame { joint, link, variable, follows } in frames {

@@ -56,7 +56,7 @@ impl Document {
         let unfit =
             |Unfit { message, help }: Unfit| fail(Arc::from(""), Diagnostic::whole_file(message).help(help));
         let bytes = Bounded::read_all(path, LARGEST)
-            .map_err(|error| unfit(Unfit::from_error(&error, "give the path of a TOML file")))?;
+            .map_err(|error| unfit(Unfit::from_error(&error, "give the path of a file that can be read")))?;
         if let Some(found) = not_text(&bytes) {
             return Err(unfit(found));
         }
@@ -71,7 +71,7 @@ impl Document {
         let text: Arc<str> = String::from_utf8_lossy(bytes.as_bytes()).into();
         let mistake = Diagnostic::new(valid..valid + 1, "this file is not UTF-8 text")
             .label("the first byte that is no text")
-            .help("specs are TOML files in UTF-8");
+            .help("save it as UTF-8, or write names without accents");
         Err(fail(text, mistake))
     }
 

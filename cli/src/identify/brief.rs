@@ -2,7 +2,7 @@
 
 use abbe_codegen::spec::Spec;
 use abbe_report::text::{Table, wrapped};
-use abbe_study::identify::{Kind, Parameter, Report, Sizes, TermGain};
+use abbe_study::identify::{Kind, Meaning, Parameter, Report, Sizes, TermGain};
 use abbe_study::number::{digits, error_decimals, fixed};
 
 use super::text::{comparison, instruments, judged, left, outside, sizes, table};
@@ -69,26 +69,30 @@ fn good(spec: &Spec, report: &Report) -> String {
     text + &judged(spec, report)
 }
 
-/// How many standard deviations an error is from nothing.
-fn sure(parameter: &Parameter) -> f64 {
-    parameter.value.abs() / parameter.standard_deviation.max(f64::MIN_POSITIVE)
+/// How many standard deviations a value is from nothing.
+fn sure(value: f64, standard_deviation: f64) -> f64 {
+    value.abs() / standard_deviation.max(f64::MIN_POSITIVE)
 }
 
 /// The errors that are surest, and what they are in numbers of the chain.
 fn found(spec: &Spec, report: &Report) -> String {
     let machine = report.parameters.iter().filter(|parameter| parameter.kind == Kind::Machine);
-    let mut surest: Vec<f64> = machine.map(sure).collect();
+    let of = |parameter: &Parameter| sure(parameter.value, parameter.standard_deviation);
+    let mut surest: Vec<f64> = machine.map(of).collect();
     surest.sort_by(|a, b| b.total_cmp(a));
     let count = surest.len();
     let least = surest.get(SHOWN - 1).copied().unwrap_or(0.0);
-    let shown = table(spec, report, |parameter| parameter.kind == Kind::Machine && sure(parameter) >= least);
+    let shown = table(spec, report, |parameter| parameter.kind == Kind::Machine && of(parameter) >= least);
     let mut text = match count {
         0..=SHOWN => format!("What was found, all others held at zero\n{shown}"),
         _ => format!(
             "What was found: of {count} errors those that are farthest from nothing, by their deviations\n{shown}"
         ),
     };
-    let meanings: Vec<String> = report.meanings.iter().map(|meaning| meaning.sentence.clone()).collect();
+    let mut meanings: Vec<&Meaning> = report.meanings.iter().collect();
+    let of = |meaning: &Meaning| sure(meaning.value, meaning.standard_deviation);
+    meanings.sort_by(|a, b| of(b).total_cmp(&of(a)));
+    let meanings: Vec<String> = meanings.into_iter().map(|meaning| meaning.sentence.clone()).collect();
     if !meanings.is_empty() {
         text += &format!("The same in numbers of the chain\n{}", few(&meanings));
     }

@@ -171,7 +171,10 @@ fn what_is_nearest() {
         (&["measure", "ur5", "arn.csv", "--map", "ur5"], "did you mean `arm.csv`?"),
         (&["plan", "pps", "--map", "pps", "--sets", "arm.tom1"], "there is `arm.toml`"),
         // One ending in common is not much: nothing is like this.
-        (&["check", "quay.toml"], "give the path of a TOML file"),
+        (&["check", "quay.toml"], "give the path of a file that can be read"),
+        (&["analyze", "pps", "--study", "quay.toml"], "give the path of a file that can be read"),
+        (&["import", "quay.urdf"], "give the path of a file that can be read"),
+        (&["measure", "ur5", "quay.csv", "--map", "ur5"], "give a CSV file with a heading in its first line"),
         (&["check", "folder"], "this folder is no file"),
     ] {
         let output = crate::running::command(words).current_dir(folder.path()).output().unwrap();

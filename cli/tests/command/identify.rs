@@ -183,6 +183,35 @@ fn the_result_is_a_spec() {
     assert!(number(&measured, &["explained", "share"]) > 0.99);
 }
 
+/// Of more than fit on the page those are shown that are surest, the surest first.
+#[test]
+fn the_page_has_the_surest_numbers_of_the_chain() {
+    let folder = tempdir().unwrap();
+    let frames = ["base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"];
+    let numbers = frames.iter().enumerate().map(|(i, frame)| {
+        let size = 0.2 * (i as f64 + 1.0);
+        format!(
+            "[[source]]\nname = \"{frame} as built\"\nclass = \"repeatable\"\nframe = \"{frame}\"\n\
+                 dh = {{ theta = \"{size} mrad\", d = \"{size} mm\", a = \"{size} mm\", alpha = \"{size} mrad\" }}\n"
+        )
+    });
+    let errors: String = numbers.collect();
+    let spec = write(folder.path(), "real.toml", &format!("{}{errors}", shipped("ur5")));
+    let bench = Bench { spec, ..Bench::new(POINT) };
+    let data = bench.file("data.csv", &bench.simulated(&["--samples", "200", "--seed", "1"]));
+    let report = bench.identify(&data, &[]);
+    let mut meanings = report["meanings"].as_array().unwrap().clone();
+    let sure = |one: &Value| number(one, &["value"]).abs() / number(one, &["standard_deviation"]);
+    assert!(!meanings.is_sorted_by(|a, b| sure(a) >= sure(b)) && meanings.len() > 6, "{meanings:#?}");
+    meanings.sort_by(|a, b| sure(b).total_cmp(&sure(a)));
+    let text = prints(&["identify", "ur5", path(&data), "--map", path(&bench.map)]);
+    let (_, shown) = text.split_once("The same in numbers of the chain\n").unwrap();
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let sentences: Vec<&str> = meanings.iter().map(|one| one["sentence"].as_str().unwrap()).collect();
+    let expected = format!("{} … and {} more ", sentences[..6].join(" "), meanings.len() - 6);
+    assert!(words(shown).starts_with(&words(&expected)), "{shown}\n{expected}");
+}
+
 #[test]
 fn what_is_grouped_with_what_is_said() {
     let bench = Bench::new(POINT);

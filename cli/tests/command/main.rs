@@ -9,6 +9,7 @@ mod documents;
 mod generate;
 mod help;
 mod identify;
+mod import;
 mod inputs;
 mod jacobian;
 mod kills;

@@ -27,7 +27,7 @@ pub(super) fn robot(document: &mut Document) -> Option<Robot> {
     let links = children("link").filter_map(|node| reader.link(node)).collect();
     let joints = children("joint").filter_map(|node| reader.joint(node)).collect();
     let meshes = root.descendants().filter(|node| node.has_tag_name("mesh")).count();
-    let name = root.attribute("name").unwrap_or("robot").to_owned();
+    let name = root.attribute("name").filter(|name| !name.trim().is_empty()).unwrap_or("robot").to_owned();
     Some(Robot { name, links, joints, meshes })
 }
 
