@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use abbe_study::import::{Import, ImportedFrame, Report};
+use abbe_study::import::{Format, Import, ImportedFrame, Report};
 
 use crate::arguments;
 use crate::console::Console;
@@ -11,13 +11,13 @@ use crate::output::{Outcome, Outputs, json};
 
 pub(crate) fn run(arguments: &arguments::Import) -> Result<Outcome, Failure> {
     let arguments::Import { file, base, tip, out, .. } = arguments;
-    let job = Import {
-        file: file.clone(),
-        base: base.clone(),
-        tip: tip.clone(),
-        fold: arguments.fold,
-        round_angles: arguments.round_angles,
+    let format = match arguments.dh {
+        None => Format::Urdf { base: base.clone(), tip: tip.clone(), fold: arguments.fold },
+        Some(convention) => {
+            Format::Table { convention: convention.into(), units: arguments.units.unwrap_or_default() }
+        }
     };
+    let job = Import { file: file.clone(), format, round_angles: arguments.round_angles };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let wanted = outputs.wanted(out.as_deref())?;
     let report = job.run(&mut Console::default())?;
@@ -35,7 +35,8 @@ fn counted(count: usize, one: &str, more: &str) -> String {
 }
 
 fn summary(report: &Report) -> String {
-    let Report { manipulator, base, tip, frames, loads, largest_difference, configurations, .. } = report;
+    let Report { manipulator, base, tip, frames, loads, largest_difference, configurations, length, .. } =
+        report;
     let moving = frames.iter().filter(|frame| frame.variable.is_some()).count();
     let mut text = format!(
         "{manipulator}: from {base} to {tip}, {}, {moving} of them moved, {} as loads\n\n",
@@ -49,11 +50,14 @@ fn summary(report: &Report) -> String {
             Some(name) if *follows => format!("follows {name}"),
             Some(name) => name.clone(),
         };
-        let _ = writeln!(text, "  {joint:width$}  {variable:width$}  carries {link}");
+        let _ = match link {
+            Some(link) => writeln!(text, "  {joint:width$}  {variable:width$}  carries {link}"),
+            None => writeln!(text, "  {joint:width$}  {variable}"),
+        };
     }
     let _ = writeln!(
         text,
-        "\nThe poses of the spec are those of the file: at {configurations} configurations they differ by {largest_difference:.1e} m or rad at most."
+        "\nThe poses of the spec are those of the file: at {configurations} configurations they differ by {largest_difference:.1e} {length} or rad at most."
     );
     text
 }

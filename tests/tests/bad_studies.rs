@@ -1,14 +1,16 @@
-//! Every mistake that a study, a map, a plan or a URDF file can have is shown with its place, the line, a caret and a way out.
+//! Every mistake that a study, a map, a plan, a URDF file or a table of DH numbers can have is shown with its place, the line, a caret and a way out.
 //!
 //! As `bad_specs`: `bad-studies/NAME.toml` is a study of `machine3` with a mistake, `bad-studies/NAME.txt` what is said of it, and so
-//! are `bad-maps`, `bad-plans` and the robots of `bad-urdfs`. `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the texts.
+//! are `bad-maps`, `bad-plans`, the robots of `bad-urdfs` and the tables of `bad-tables`. `UPDATE_EXPECT=1 cargo test -p abbe-tests` writes the texts.
 
 use std::path::{Path, PathBuf};
 
+use abbe::LengthUnit;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::Document;
+use abbe_codegen::spec::DhConvention;
 use abbe_study::data::Map;
-use abbe_study::import::Import;
+use abbe_study::import::{Format, Import, Units};
 use abbe_study::plan::Sets;
 use abbe_study::{Machine, Study};
 use expect_test::expect_file;
@@ -55,6 +57,25 @@ fn every_plan_is_told_what_is_wrong_with_it() {
 fn every_robot_is_told_what_is_wrong_with_it() {
     told("bad-urdfs", "urdf", 30, |file, _| {
         let fold = file.ends_with("nothing_moves.urdf");
-        Import { file: file.to_owned(), base: None, tip: None, fold, round_angles: false }.run(&mut ()).err()
+        let format = Format::Urdf { base: None, tip: None, fold };
+        Import { file: file.to_owned(), format, round_angles: false }.run(&mut ()).err()
+    });
+}
+
+/// Tables of Denavit-Hartenberg numbers: the first word of a name is their convention, and where `bare` is one, no unit is said.
+#[test]
+fn every_table_of_numbers_is_told_what_is_wrong_with_it() {
+    told("bad-tables", "csv", 20, |file, _| {
+        let name = file.file_stem().unwrap().to_str().unwrap();
+        let convention = match name.starts_with("modified") {
+            true => DhConvention::Modified,
+            false => DhConvention::Standard,
+        };
+        let units = match name.contains("bare") {
+            true => Units::default(),
+            false => Units { length: Some(LengthUnit::Millimetre), degrees: Some(true) },
+        };
+        let format = Format::Table { convention, units };
+        Import { file: file.to_owned(), format, round_angles: false }.run(&mut ()).err()
     });
 }

@@ -8,7 +8,7 @@ use abbe::analysis::{Workspace, random_joint_samples, sampling};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_study::Machine;
-use abbe_study::import::{Import, Report};
+use abbe_study::import::{Format, Import, Report};
 use nalgebra::{Matrix4, Rotation3, Unit, Vector3};
 
 struct Imported {
@@ -20,8 +20,8 @@ fn imported(urdf: &str, tip: &str, fold: bool, round_angles: bool) -> Imported {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("robot.urdf");
     std::fs::write(&file, urdf).unwrap();
-    let report =
-        Import { file, base: None, tip: Some(tip.to_owned()), fold, round_angles }.run(&mut ()).unwrap();
+    let format = Format::Urdf { base: None, tip: Some(tip.to_owned()), fold };
+    let report = Import { file, format, round_angles }.run(&mut ()).unwrap();
     let spec = Interpreter::new(Spec::parse("robot.toml", &report.spec).unwrap());
     Imported { report, spec }
 }

@@ -1,6 +1,9 @@
 use std::path::PathBuf;
 
-use clap::{Args, ValueHint};
+use abbe::LengthUnit;
+use abbe_codegen::spec::DhConvention;
+use abbe_study::import::Units;
+use clap::{Args, ValueEnum, ValueHint};
 
 use super::shared::Writing;
 
@@ -8,21 +11,30 @@ use super::shared::Writing;
 #[command(after_help = after_help!(
     "  abbe import robot.urdf --base base_link --tip tool0 -o robot.toml
   abbe import robot.urdf --tip tool0 --fold --round-angles
+  abbe import dh.csv --dh standard --units mm,deg -o robot.toml
 "))]
 pub(crate) struct Import {
-    /// URDF file; a xacro is expanded first: `xacro robot.urdf.xacro > robot.urdf`
+    /// URDF file (a xacro is expanded first: `xacro robot.urdf.xacro > robot.urdf`); with `--dh` a table of Denavit-Hartenberg
+    /// numbers, as CSV or as the Robotics Toolbox prints it
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) file: PathBuf,
     /// The link whose frame is F_0. The root if not given
-    #[arg(long, value_name = "LINK")]
+    #[arg(long, value_name = "LINK", conflicts_with = "dh")]
     pub(crate) base: Option<String>,
     /// The link whose frame is the tool point. The last link, if there is only one
-    #[arg(long, value_name = "LINK")]
+    #[arg(long, value_name = "LINK", conflicts_with = "dh")]
     pub(crate) tip: Option<String>,
     /// Put fixed joints into the frames that follow them, and the last ones into the tool; without, each is a frame of its own
     /// that has errors of its own
-    #[arg(long)]
+    #[arg(long, conflicts_with = "dh")]
     pub(crate) fold: bool,
+    /// The file is a table with the columns theta, d, a and alpha, of this convention: standard is Rz(theta) Tz(d) Tx(a) Rx(alpha),
+    /// modified (Craig) Rx(alpha) Tx(a) Rz(theta) Tz(d)
+    #[arg(long, value_name = "CONVENTION")]
+    pub(crate) dh: Option<Convention>,
+    /// The units of the table where its heading does not say them, as `mm,deg` or `m,rad`
+    #[arg(long, value_name = "UNITS", requires = "dh", value_parser = units)]
+    pub(crate) units: Option<Units>,
     /// Write angles that are multiples of 45° but for rounding in the file (up to 1e-5 rad) as such
     #[arg(long)]
     pub(crate) round_angles: bool,
@@ -34,4 +46,35 @@ pub(crate) struct Import {
     /// Print JSON
     #[arg(long, display_order = 111)]
     pub(crate) json: bool,
+}
+
+/// Which product of the four numbers a row is.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Convention {
+    Standard,
+    Modified,
+}
+
+impl From<Convention> for DhConvention {
+    fn from(convention: Convention) -> Self {
+        match convention {
+            Convention::Standard => Self::Standard,
+            Convention::Modified => Self::Modified,
+        }
+    }
+}
+
+/// `mm,deg`, in either order; or one of them.
+fn units(text: &str) -> Result<Units, String> {
+    let mut units = Units::default();
+    for unit in text.split(',').map(str::trim) {
+        match unit {
+            "m" if units.length.is_none() => units.length = Some(LengthUnit::Metre),
+            "mm" if units.length.is_none() => units.length = Some(LengthUnit::Millimetre),
+            "deg" if units.degrees.is_none() => units.degrees = Some(true),
+            "rad" if units.degrees.is_none() => units.degrees = Some(false),
+            _ => return Err("give one of m and mm, and one of deg and rad, as in `mm,deg`".to_owned()),
+        }
+    }
+    Ok(units)
 }

@@ -44,6 +44,7 @@ fn examples_run() {
     fs::write(at.join("arm.toml"), readme::spec()).unwrap();
     fs::write(at.join("cell.toml"), STUDY).unwrap();
     fs::write(at.join("robot.urdf"), ROBOT).unwrap();
+    fs::write(at.join("dh.csv"), "theta,d,a,alpha\nq1,400,25,90\nq2,0,455,0\n").unwrap();
     let run = |line: &str| {
         let words = shell_words::split(line).unwrap();
         let output = command(&words[1..]).current_dir(at).output().unwrap();

@@ -1,7 +1,9 @@
 //! A chain as it was described elsewhere: all that a spec says of it.
 
+use abbe::LengthUnit;
 use nalgebra::Isometry3;
 
+use super::geometry::Geometry;
 use super::placement::{Placement, moved};
 
 /// From the base to the tool point.
@@ -9,7 +11,13 @@ use super::placement::{Placement, moved};
 pub(super) struct Chain {
     /// What the robot is called in its file.
     pub(super) robot: String,
-    /// The links at its ends.
+    /// What was taken from the file, in words.
+    pub(super) origin: String,
+    /// The unit of every length.
+    pub(super) length: LengthUnit,
+    /// Whether angles are written in degrees.
+    pub(super) degrees: bool,
+    /// The links, or the frames, at its ends.
     pub(super) base: String,
     pub(super) tip: String,
     /// What moves it, in the order of the frames.
@@ -28,19 +36,19 @@ pub(super) struct Variable {
     /// As a spec can have it.
     pub(super) name: String,
     pub(super) prismatic: bool,
-    /// In rad or m.
+    /// In rad, or in the chain's unit of length.
     pub(super) limits: Option<[f64; 2]>,
     /// Whether it turns without end.
     pub(super) continuous: bool,
 }
 
-/// A frame at its joint: placed, then moved.
+/// A frame at its joint.
 #[derive(Debug)]
 pub(super) struct Frame {
     pub(super) joint: String,
-    /// The link that it belongs to.
-    pub(super) link: String,
-    pub(super) placement: Placement,
+    /// The link that it belongs to, if the file has links.
+    pub(super) link: Option<String>,
+    pub(super) geometry: Geometry,
     pub(super) motion: Option<Motion>,
 }
 
@@ -69,13 +77,13 @@ impl Chain {
     /// The pose of the tool point in the base: what the written spec must have as well.
     pub(super) fn pose(&self, q: &[f64]) -> Isometry3<f64> {
         let frame = |pose: Isometry3<f64>, frame: &Frame| {
-            let pose = pose * frame.placement.motion();
-            match &frame.motion {
-                None => pose,
+            let moved = match &frame.motion {
+                None => Isometry3::identity(),
                 Some(Motion { prismatic, axis, variable, multiplier, offset }) => {
-                    pose * moved(*prismatic, *axis, multiplier * q[*variable] + offset)
+                    moved(*prismatic, *axis, multiplier * q[*variable] + offset)
                 }
-            }
+            };
+            pose * frame.geometry.before() * moved * frame.geometry.after()
         };
         self.frames.iter().fold(Isometry3::identity(), frame) * self.tool.motion()
     }

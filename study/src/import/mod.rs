@@ -1,9 +1,12 @@
 //! Robots that are described in other formats, as specs.
 //!
-//! A format is read into a `chain` (`urdf`), and the chain is `written` as a spec; both are evaluated at the same
+//! A format is read into a `chain` (`urdf`, `dh`), and the chain is `written` as a spec; both are evaluated at the same
 //! configurations before anything is handed out.
 
+mod almost;
 mod chain;
+mod dh;
+mod geometry;
 mod placement;
 mod urdf;
 mod written;
@@ -16,12 +19,14 @@ use abbe::Manipulator;
 use abbe::analysis::sampling;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::document::Document;
-use abbe_codegen::spec::Spec;
+use abbe_codegen::spec::{DhConvention, Spec};
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
+use self::almost::Almost;
 use self::chain::Chain;
-use self::urdf::{Ends, Form};
+pub use self::dh::Units;
+use self::urdf::Ends;
 use crate::mistake;
 use crate::notes::Notes;
 
@@ -34,16 +39,33 @@ const ROUNDING: f64 = 1e-12;
 /// What is the spec of this robot?
 #[derive(Clone, Debug)]
 pub struct Import {
-    /// A URDF file.
+    /// The file.
     pub file: PathBuf,
-    /// The link that is `F_0`; the root if not given.
-    pub base: Option<String>,
-    /// The link whose frame is the tool point; the only last one if not given.
-    pub tip: Option<String>,
-    /// Whether fixed joints are put into the frames that follow them; they are frames of their own if not.
-    pub fold: bool,
+    /// What it is.
+    pub format: Format,
     /// Whether angles that are multiples of 45° but for 1e-5 rad, as files have them that round, become such.
     pub round_angles: bool,
+}
+
+/// What a robot is described in.
+#[derive(Clone, Debug)]
+pub enum Format {
+    /// URDF.
+    Urdf {
+        /// The link that is `F_0`; the root if not given.
+        base: Option<String>,
+        /// The link whose frame is the tool point; the only last one if not given.
+        tip: Option<String>,
+        /// Whether fixed joints are put into the frames that follow them; they are frames of their own if not.
+        fold: bool,
+    },
+    /// A table of Denavit-Hartenberg numbers.
+    Table {
+        /// Which product of the four numbers a row is.
+        convention: DhConvention,
+        /// What its numbers are in where the table does not say it.
+        units: Units,
+    },
 }
 
 /// A spec, and what became of the robot in it.
@@ -51,15 +73,17 @@ pub struct Import {
 pub struct Report {
     /// The manipulator's name.
     pub manipulator: String,
-    /// The link that is `F_0`.
+    /// The unit of its lengths.
+    pub length: &'static str,
+    /// The link that is `F_0`, or `F_0`.
     pub base: String,
-    /// The link whose frame is the tool point.
+    /// The link whose frame is the tool point, or the last frame.
     pub tip: String,
     /// From base to tip.
     pub frames: Vec<ImportedFrame>,
     /// How many masses became loads.
     pub loads: usize,
-    /// The largest difference of an entry of `A_T` between the file and the spec, in m and rad, at this many configurations.
+    /// The largest difference of an entry of `A_T` between the file and the spec, in the spec's length unit and rad, at this many configurations.
     pub largest_difference: f64,
     /// How many.
     pub configurations: usize,
@@ -72,8 +96,8 @@ pub struct Report {
 pub struct ImportedFrame {
     /// Its name, which is that of its joint.
     pub joint: String,
-    /// The link that it belongs to.
-    pub link: String,
+    /// The link that it belongs to; a table of numbers has none.
+    pub link: Option<String>,
     /// The variable that moves it; none of a fixed one.
     pub variable: Option<String>,
     /// Whether the variable is that of another joint.
@@ -81,13 +105,28 @@ pub struct ImportedFrame {
 }
 
 impl Import {
-    /// Reads the file and writes the spec, in m and rad.
+    /// Reads the file and writes the spec.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let is_table = self.file.extension().is_some_and(|ending| ending == "csv" || ending == "tsv");
+        if is_table && matches!(self.format, Format::Urdf { .. }) {
+            let message = "this is a table, and Denavit-Hartenberg numbers are written in two ways";
+            let help = "say which: `--dh standard`, Rz(theta) Tz(d) Tx(a) Rx(alpha), or `--dh modified`, \
+                        Rx(alpha) Tx(a) Rz(theta) Tz(d)";
+            return Err(mistake::with_help(self.file.display(), message, help));
+        }
         let mut document = Document::read(&self.file)?;
-        let ends = Ends { base: self.base.clone(), tip: self.tip.clone() };
-        let form = Form { fold: self.fold, round_angles: self.round_angles };
-        let chain = urdf::chain(&mut document, &ends, form, notes);
+        let mut almost = Almost::new(self.round_angles);
+        let chain = match &self.format {
+            Format::Urdf { base, tip, fold } => {
+                let ends = Ends { base: base.clone(), tip: tip.clone() };
+                urdf::chain(&mut document, &ends, *fold, &mut almost, notes)
+            }
+            Format::Table { convention, units } => {
+                dh::chain(&mut document, *convention, *units, &mut almost, notes)
+            }
+        };
         let chain = document.finish(chain)?;
+        almost.note(notes);
         for variable in chain.variables.iter().filter(|one| one.limits.is_none() && !one.continuous) {
             notes.warn(&format!(
                 "the joint `{}` has no limits: add `limits` to its variable, so that a workspace is known",
@@ -109,6 +148,7 @@ impl Import {
         };
         Ok(Report {
             manipulator: spec.name.clone(),
+            length: chain.length.symbol(),
             base: chain.base.clone(),
             tip: chain.tip.clone(),
             frames: chain.frames.iter().map(frame).collect(),
@@ -150,9 +190,9 @@ fn difference(chain: &Chain, spec: Spec) -> Result<f64, Diagnostics> {
             }
         }
     }
-    let reach = 1.0 + chain.frames.iter().flat_map(|frame| frame.placement.xyz).map(f64::abs).sum::<f64>();
+    let reach = 1.0 + chain.frames.iter().map(|frame| frame.geometry.size()).sum::<f64>();
     if largest > ROUNDING * reach {
-        let message = format!("the written spec differs from the file by {largest:.1e} m or rad");
+        let message = format!("the written spec differs from the file by {largest:.1e}");
         return Err(mistake::with_help(
             "abbe import",
             message,

@@ -3,20 +3,22 @@
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write;
 
-use abbe_codegen::spec::as_identifier;
+use abbe_codegen::spec::{DhConvention, as_identifier};
 
 use super::chain::{Chain, Frame, Mass, Motion, Variable};
+use super::geometry::{Geometry, Numbers};
 use super::placement::Placement;
 use crate::toml_text::quoted;
 
 /// The spec of a chain; `origin` is the file that it comes from.
 pub(super) fn spec(chain: &Chain, origin: &str) -> String {
-    let Chain { robot, base, tip, frames, tool, masses, .. } = chain;
+    let Chain { robot, tip, frames, tool, masses, .. } = chain;
     let mut text = format!(
-        "[manipulator]\nname = {}\ntitle = {}\ndescription = {}\nlength = \"m\"\n",
+        "[manipulator]\nname = {}\ntitle = {}\ndescription = {}\nlength = {}\n",
         quoted(&as_identifier(robot)),
         quoted(robot),
-        quoted(&format!("From {base} to {tip}, imported from {origin}")),
+        quoted(&format!("{}, imported from {origin}", chain.origin)),
+        quoted(chain.length.symbol()),
     );
     if !masses.is_empty() {
         text += "gravity = [0, 0, \"-9.80665 m/s^2\"]         # where z of the base points up\n";
@@ -25,13 +27,15 @@ pub(super) fn spec(chain: &Chain, origin: &str) -> String {
     for (i, frame) in frames.iter().enumerate() {
         text += "\n[[frame]]\n";
         line(&mut text, "name", &quoted(&frame.joint));
-        line(&mut text, "description", &quoted(&format!("Link {}", frame.link)));
+        if let Some(link) = &frame.link {
+            line(&mut text, "description", &quoted(&format!("Link {link}")));
+        }
         let owned = frame.motion.filter(|motion| !own[motion.variable] && chain.owner(motion.variable) == i);
         if let Some(motion) = owned {
             own[motion.variable] = true;
             let variable = &chain.variables[motion.variable];
             let endless = if variable.continuous { "       # turns without end" } else { "" };
-            line(&mut text, "variable", &(self::variable(variable) + endless));
+            line(&mut text, "variable", &(self::variable(variable, chain.degrees) + endless));
         }
         text += &transform(chain, frame, owned.is_some());
     }
@@ -65,24 +69,70 @@ fn line(text: &mut String, key: &str, value: &str) {
     let _ = writeln!(text, "{key} = {value}");
 }
 
-fn variable(variable: &Variable) -> String {
+fn variable(variable: &Variable, degrees: bool) -> String {
     let Variable { name, prismatic, limits, continuous, .. } = variable;
     let kind = if *prismatic { "prismatic" } else { "revolute" };
     let limits = match limits {
         _ if *continuous => ", limits = [\"-pi\", \"pi\"]".to_owned(),
         None => String::new(),
-        Some([lower, upper]) if *lower > 0.0 || *upper < 0.0 => {
-            let home = 0.5 * (lower + upper);
-            format!(", limits = [{}, {}], home = {}", number(*lower), number(*upper), number(home))
+        Some([lower, upper]) => {
+            let value = |value: f64| match degrees && !prismatic {
+                true => quoted_if_text(&angle(value, true)),
+                false => number(value),
+            };
+            let home = match *lower > 0.0 || *upper < 0.0 {
+                true => format!(", home = {}", value(0.5 * (lower + upper))),
+                false => String::new(),
+            };
+            format!(", limits = [{}, {}]{home}", value(*lower), value(*upper))
         }
-        Some([lower, upper]) => format!(", limits = [{}, {}]", number(*lower), number(*upper)),
     };
     format!("{{ name = {}, kind = \"{kind}\"{limits} }}", quoted(name))
 }
 
+/// A bare number, or an expression in quotes.
+fn quoted_if_text(text: &str) -> String {
+    if text.parse::<f64>().is_ok() { text.to_owned() } else { quoted(text) }
+}
+
+/// The four numbers of a row, what moves among them.
+fn numbers(chain: &Chain, numbers: &Numbers, motion: Option<&Motion>) -> String {
+    let Numbers { convention, theta, d, a, alpha } = *numbers;
+    let degrees = chain.degrees;
+    let moved = |prismatic: bool| {
+        let motion = motion.filter(|motion| motion.prismatic == prismatic)?;
+        let Motion { variable, multiplier, offset, .. } = motion;
+        let name = &chain.variables[*variable].name;
+        let sign = if *multiplier < 0.0 { "-" } else { "" };
+        let offset = match (*offset, prismatic) {
+            (0.0, _) => String::new(),
+            (offset, true) => signed(&format!("{} {}", number(offset), chain.length.symbol())),
+            (offset, false) => signed(&angle(offset, degrees)),
+        };
+        Some(quoted(&format!("{sign}{name}{offset}")))
+    };
+    let theta = moved(false).unwrap_or_else(|| quoted_if_text(&angle(theta, degrees)));
+    let d = moved(true).unwrap_or_else(|| number(d));
+    let key = match convention {
+        DhConvention::Standard => "dh",
+        DhConvention::Modified => "mdh",
+    };
+    let alpha = quoted_if_text(&angle(alpha, degrees));
+    format!("{key} = {{ theta = {theta}, d = {d}, a = {}, alpha = {alpha} }}\n", number(a))
+}
+
+/// What is added to a name.
+fn signed(amount: &str) -> String {
+    amount.strip_prefix('-').map_or_else(|| format!(" + {amount}"), |amount| format!(" - {amount}"))
+}
+
 /// As URDF has it; a joint that follows another, or itself in another way, as a product.
 fn transform(chain: &Chain, frame: &Frame, own: bool) -> String {
-    let Frame { placement, motion, .. } = frame;
+    let Frame { geometry, motion, .. } = frame;
+    let placement = match geometry {
+        Geometry::Origin(placement) => placement,
+        Geometry::Numbers(of_row) => return numbers(chain, of_row, motion.as_ref()),
+    };
     match motion {
         None => format!("origin = {}\n", placed(placement)),
         Some(Motion { axis, multiplier: 1.0, offset: 0.0, prismatic, variable })
@@ -108,7 +158,7 @@ fn place_factors(placement: &Placement) -> String {
     factors
         .iter()
         .filter(|(_, amount)| *amount != 0.0)
-        .map(|(name, amount)| factor(name, &angle(*amount)))
+        .map(|(name, amount)| factor(name, &angle(*amount, false)))
         .collect()
 }
 
@@ -168,10 +218,7 @@ fn placed(placement: &Placement) -> String {
     match placement.rpy {
         [0.0, 0.0, 0.0] => format!("{{ xyz = {} }}", three(&placement.xyz)),
         rpy => {
-            let [roll, pitch, yaw] = rpy.map(|amount| {
-                let text = angle(amount);
-                if text.contains("pi") { quoted(&text) } else { text }
-            });
+            let [roll, pitch, yaw] = rpy.map(|amount| quoted_if_text(&angle(amount, false)));
             format!("{{ xyz = {}, rpy = [{roll}, {pitch}, {yaw}] }}", three(&placement.xyz))
         }
     }
@@ -182,11 +229,19 @@ fn three(numbers: &[f64; 3]) -> String {
     format!("[{x}, {y}, {z}]")
 }
 
-/// An angle that is the nearest number to a multiple of 45° is that multiple: its sines are exact then.
-fn angle(value: f64) -> String {
+/// An angle that is the nearest number to a multiple of 45° is that multiple: its sines are exact then. Others are in degrees
+/// where that is asked for and a short number gives the same angle.
+fn angle(value: f64, degrees: bool) -> String {
     let eighths = (value / FRAC_PI_4).round();
-    if value == 0.0 || eighths.abs() > 8.0 || eighths * FRAC_PI_4 != value {
-        return number(value);
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if eighths.abs() > 8.0 || eighths * FRAC_PI_4 != value {
+        let short = (value.to_degrees() * 1e9).round() / 1e9;
+        return match degrees && short.to_radians() == value {
+            true => format!("{} deg", number(short)),
+            false => number(value),
+        };
     }
     let sign = if value < 0.0 { "-" } else { "" };
     let (count, parts) = match eighths.abs() as u32 {

@@ -1,14 +1,15 @@
 //! What lies between two links of a robot.
 
-use std::f64::consts::FRAC_PI_4;
-
+use abbe::LengthUnit;
 use abbe_codegen::diagnostic::{Diagnostic, listed};
 use abbe_codegen::document::Document;
 use abbe_codegen::spec::as_identifier;
 
 use super::robot::{Joint, JointKind, Link, Robot};
 use super::tree::Tree;
+use crate::import::almost::Almost;
 use crate::import::chain::{Chain, Frame, Mass, Motion, Variable};
+use crate::import::geometry::Geometry;
 use crate::import::placement::Placement;
 use crate::notes::Notes;
 
@@ -21,24 +22,14 @@ pub(in crate::import) struct Ends {
     pub(in crate::import) tip: Option<String>,
 }
 
-/// How a chain is to be written.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::import) struct Form {
-    /// Whether fixed joints are put into what follows them.
-    pub(in crate::import) fold: bool,
-    /// Whether angles that are almost multiples of 45° become such.
-    pub(in crate::import) round_angles: bool,
-}
-
-/// An angle this close to a multiple of 45°, in rad, is one that was rounded when the file was written.
-const ALMOST: f64 = 1e-5;
-
-/// The chain from base to tip; what is wrong goes to the document, what is left out to the notes.
+/// The chain from base to tip, fixed joints put into what follows them if that is asked for; what is wrong goes to the document,
+/// what is left out to the notes.
 pub(super) fn chain(
     robot: &Robot,
     tree: &Tree<'_>,
     ends: &Ends,
-    form: Form,
+    fold: bool,
+    almost: &mut Almost,
     document: &mut Document,
     notes: &mut dyn Notes,
 ) -> Option<Chain> {
@@ -67,12 +58,12 @@ pub(super) fn chain(
         document.mistake(mistake.help(help));
         return None;
     };
-    let mut builder = Builder::new(robot, tree, form);
+    let mut builder = Builder::new(robot, tree, fold, almost);
     builder.variables(&way, document)?;
     for (i, (joint, link)) in way.iter().enumerate() {
         builder.add(joint, *link, way.get(i + 1).map(|(_, next)| *next));
     }
-    let Builder { variables, frames, masses, waiting, beside, almost: (count, farthest), .. } = builder;
+    let Builder { variables, frames, masses, waiting, beside, .. } = builder;
     if frames.is_empty() {
         let message = format!("nothing moves between `{}` and `{}`", names[base], names[tip]);
         document.mistake(
@@ -80,15 +71,6 @@ pub(super) fn chain(
                 .help("name a tip behind a joint that moves, or leave out `--fold`"),
         );
         return None;
-    }
-    if count > 0 {
-        notes.note(&match form.round_angles {
-            true => format!("{count} angles were rounded to multiples of 45°, by {farthest:.0e} rad at most"),
-            false => format!(
-                "{count} angles are multiples of 45° but for {farthest:.0e} rad at most; `--round-angles` writes them as such, \
-                 which makes generated code shorter"
-            ),
-        });
     }
     if robot.meshes > 0 {
         notes.note(&format!("the files of {} shapes are not read: a spec has no shapes", robot.meshes));
@@ -100,7 +82,18 @@ pub(super) fn chain(
         ));
     }
     let [base, tip] = [base, tip].map(|link| names[link].to_owned());
-    Some(Chain { robot: robot.name.clone(), base, tip, variables, frames, tool: waiting, masses })
+    Some(Chain {
+        robot: robot.name.clone(),
+        origin: format!("From {base} to {tip}"),
+        length: LengthUnit::Metre,
+        degrees: false,
+        base,
+        tip,
+        variables,
+        frames,
+        tool: waiting,
+        masses,
+    })
 }
 
 fn named(option: &str, name: &str, names: &[&str], document: &mut Document) -> Option<usize> {
@@ -133,7 +126,8 @@ fn only_tip(tree: &Tree<'_>, names: &[&str], document: &mut Document) -> Option<
 struct Builder<'r> {
     robot: &'r Robot,
     tree: &'r Tree<'r>,
-    form: Form,
+    fold: bool,
+    almost: &'r mut Almost,
     variables: Vec<Variable>,
     /// The variable of each joint that moves, by the joint's name, with multiplier and offset.
     driven: Vec<(&'r str, [f64; 2], usize)>,
@@ -143,15 +137,13 @@ struct Builder<'r> {
     waiting: Placement,
     /// Joints that move something beside the chain.
     beside: Vec<&'r str>,
-    /// How many angles are almost multiples of 45°, and how far the farthest is from one.
-    almost: (usize, f64),
 }
 
 impl<'r> Builder<'r> {
-    fn new(robot: &'r Robot, tree: &'r Tree<'r>, form: Form) -> Self {
+    fn new(robot: &'r Robot, tree: &'r Tree<'r>, fold: bool, almost: &'r mut Almost) -> Self {
         let (variables, driven, frames, masses, beside) = Default::default();
-        let (waiting, almost) = Default::default();
-        Self { robot, tree, form, variables, driven, frames, masses, waiting, beside, almost }
+        let waiting = Placement::default();
+        Self { robot, tree, fold, almost, variables, driven, frames, masses, waiting, beside }
     }
 
     /// The variables of the joints on the way: their own, or that of the joint that they follow.
@@ -235,7 +227,8 @@ impl<'r> Builder<'r> {
 
     /// A joint, the link that it carries, and the link that comes then.
     fn add(&mut self, joint: &'r Joint, link: usize, next: Option<usize>) {
-        let placement = self.rounded(joint.placement);
+        let rpy = joint.placement.rpy.map(|angle| self.almost.angle(angle));
+        let placement = Placement { rpy, ..joint.placement };
         let placement = self.waiting.then(&placement);
         let motion = self.driven.iter().find(|(name, ..)| *name == joint.name).map(
             |&(_, [multiplier, offset], variable)| Motion {
@@ -246,30 +239,17 @@ impl<'r> Builder<'r> {
                 offset,
             },
         );
-        if motion.is_none() && self.form.fold {
+        if motion.is_none() && self.fold {
             self.waiting = placement;
         } else {
             self.waiting = Placement::default();
             let (joint, link) = (joint.name.clone(), self.tree.link(link).name.clone());
-            self.frames.push(Frame { joint, link, placement, motion });
+            let geometry = Geometry::Origin(placement);
+            self.frames.push(Frame { joint, link: Some(link), geometry, motion });
         }
         if let Some(frame) = self.frames.len().checked_sub(1) {
             self.weigh(link, next, frame);
         }
-    }
-
-    /// Angles that are multiples of 45° but for rounding in the file, as such if that is asked for.
-    fn rounded(&mut self, placement: Placement) -> Placement {
-        let angle = |angle: f64| {
-            let multiple = (angle / FRAC_PI_4).round() * FRAC_PI_4;
-            let off = (multiple - angle).abs();
-            if off == 0.0 || off > ALMOST {
-                return angle;
-            }
-            self.almost = (self.almost.0 + 1, self.almost.1.max(off));
-            if self.form.round_angles { multiple } else { angle }
-        };
-        Placement { rpy: placement.rpy.map(angle), ..placement }
     }
 
     /// The masses of a link on the chain, and of what is fixed to it beside the chain.

@@ -10,8 +10,9 @@ mod tree;
 
 use abbe_codegen::document::Document;
 
-pub(super) use chained::{Ends, Form};
+pub(super) use chained::Ends;
 
+use super::almost::Almost;
 use super::chain::Chain;
 use crate::notes::Notes;
 
@@ -19,7 +20,8 @@ use crate::notes::Notes;
 pub(super) fn chain(
     document: &mut Document,
     ends: &Ends,
-    form: Form,
+    fold: bool,
+    almost: &mut Almost,
     notes: &mut dyn Notes,
 ) -> Option<Chain> {
     let robot = read::robot(document)?;
@@ -27,5 +29,5 @@ pub(super) fn chain(
         return None;
     }
     let tree = tree::Tree::new(&robot, document)?;
-    chained::chain(&robot, &tree, ends, form, document, notes)
+    chained::chain(&robot, &tree, ends, fold, almost, document, notes)
 }

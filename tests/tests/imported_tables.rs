@@ -1,0 +1,283 @@
+//! Tables of Denavit-Hartenberg numbers as specs: the poses are those of the closed-form matrices in the books.
+
+use abbe::analysis::sampling;
+use abbe::{LengthUnit, Manipulator};
+use abbe_codegen::spec::{DhConvention, Spec};
+use abbe_interpreter::Interpreter;
+use abbe_study::Notes;
+use abbe_study::import::{Format, Import, Report, Units};
+use nalgebra::Matrix4;
+
+#[derive(Default)]
+struct Heard(Vec<String>);
+
+impl Notes for Heard {
+    fn note(&mut self, note: &str) {
+        self.0.push(note.to_owned());
+    }
+
+    fn warn(&mut self, warning: &str) {
+        self.0.push(warning.to_owned());
+    }
+}
+
+struct Imported {
+    report: Report,
+    spec: Interpreter,
+    heard: Vec<String>,
+}
+
+fn imported(table: &str, convention: DhConvention, units: Units, round_angles: bool) -> Imported {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("Two Arms.csv");
+    std::fs::write(&file, table).unwrap();
+    let mut heard = Heard::default();
+    let report =
+        Import { file, format: Format::Table { convention, units }, round_angles }.run(&mut heard).unwrap();
+    let spec = Interpreter::new(Spec::parse("robot.toml", &report.spec).unwrap());
+    Imported { report, spec, heard: heard.0 }
+}
+
+const IN_MM: Units = Units { length: Some(LengthUnit::Millimetre), degrees: Some(true) };
+const IN_M: Units = Units { length: Some(LengthUnit::Metre), degrees: Some(false) };
+const UNSAID: Units = Units { length: None, degrees: None };
+
+/// Siciliano, Spong: the columns of `A_i` multiplied out by hand.
+fn standard([theta, d, a, alpha]: [f64; 4]) -> Matrix4<f64> {
+    let ((st, ct), (sa, ca)) = (theta.sin_cos(), alpha.sin_cos());
+    #[rustfmt::skip]
+    let matrix = Matrix4::new(
+        ct, -st * ca, st * sa, a * ct,
+        st, ct * ca, -ct * sa, a * st,
+        0.0, sa, ca, d,
+        0.0, 0.0, 0.0, 1.0,
+    );
+    matrix
+}
+
+/// Craig, equation (3.6).
+fn modified([theta, d, a, alpha]: [f64; 4]) -> Matrix4<f64> {
+    let ((st, ct), (sa, ca)) = (theta.sin_cos(), alpha.sin_cos());
+    #[rustfmt::skip]
+    let matrix = Matrix4::new(
+        ct, -st, 0.0, a,
+        st * ca, ct * ca, -sa, -sa * d,
+        st * sa, ct * sa, ca, ca * d,
+        0.0, 0.0, 0.0, 1.0,
+    );
+    matrix
+}
+
+fn convention(is_modified: bool) -> (DhConvention, fn([f64; 4]) -> Matrix4<f64>) {
+    match is_modified {
+        false => (DhConvention::Standard, standard),
+        true => (DhConvention::Modified, modified),
+    }
+}
+
+/// The poses of a spec and those of rows of numbers; `q` in the order of the rows.
+fn assert_same(
+    imported: &Imported,
+    matrix: fn([f64; 4]) -> Matrix4<f64>,
+    rows: impl Fn(&[f64]) -> Vec<[f64; 4]>,
+    size: f64,
+) {
+    let arm = &imported.spec;
+    let count = arm.description().variables.len();
+    for k in 1..200 {
+        let q: Vec<f64> =
+            (0..count).map(|i| (k as f64 * (i as f64 + 2.0).sqrt()).fract() * 5.0 - 2.5).collect();
+        let expected = rows(&q).into_iter().map(matrix).product::<Matrix4<f64>>();
+        let found = arm.pose(&q, &sampling::nominal_parameters(arm.description())).unwrap().rows();
+        let found = Matrix4::from_fn(|i, j| found[i][j]);
+        let off = (found - expected).abs().max();
+        assert!(off < 4e-15 * size, "{off:.1e}");
+    }
+}
+
+/// Both conventions, with offsets, signs, a slide, a fixed row, expressions in cells and units of all kinds.
+#[test]
+fn rows_of_every_kind() {
+    let table = "\
+joint, type, theta, d, a, alpha, offset, lower, upper, sign, note
+A1, R, q1, 0.4 m, 25, 90, 0, -170, 170, 1, first
+A2, revolute, -90, 0, 455, 0, , -190, 45, -1, second
+rail, P, 30, , 0, -90, 120, 0, 1.2 m, 1,
+A3, R, 90 - elbow, 0, 35, pi/3, , -120, 156, , it counts backwards
+plate, fixed, 10, 12.5, 0, 180, , , , ,
+";
+    let right = std::f64::consts::FRAC_PI_2;
+    let [ten, thirty] = [10.0_f64.to_radians(), 30.0_f64.to_radians()];
+    for is_modified in [false, true] {
+        let (convention, matrix) = convention(is_modified);
+        let imported = imported(table, convention, IN_MM, false);
+        let names: Vec<&str> =
+            imported.spec.description().variables.iter().map(|variable| &*variable.name).collect();
+        assert_eq!(names, ["q1", "a2", "rail", "elbow"]);
+        assert_eq!(imported.report.manipulator, "two_arms");
+        assert_eq!(imported.heard, ["columns that are not read: `note`"]);
+        assert!(
+            imported.report.spec.contains("limits = [\"-170 deg\", \"170 deg\"]"),
+            "{}",
+            imported.report.spec
+        );
+        let rows = |q: &[f64]| {
+            vec![
+                [q[0], 400.0, 25.0, right],
+                [-right - q[1], 0.0, 455.0, 0.0],
+                [thirty, q[2] + 120.0, 0.0, -right],
+                [right - q[3], 0.0, 35.0, right / 1.5],
+                [ten, 12.5, 0.0, 2.0 * right],
+            ]
+        };
+        assert_same(&imported, matrix, rows, 1000.0);
+    }
+}
+
+/// Decimals with a comma, a mark of another program at the beginning, units in the heading, Greek names.
+#[test]
+fn tables_of_other_countries() {
+    let table = "\u{feff}# from a data sheet\r\n\r\n\"Nr.\";θ_i [°];d_i [mm];a_i [mm];α_i [°]\r\n\
+                 1;θ₁;340,5;0;−90\r\n2;θ₂ + 12,5;0;0;90\r\n";
+    let imported = imported(table, DhConvention::Standard, UNSAID, false);
+    assert_eq!(imported.report.length, "mm");
+    let right = std::f64::consts::FRAC_PI_2;
+    let rows = |q: &[f64]| vec![[q[0], 340.5, 0.0, -right], [q[1] + 12.5_f64.to_radians(), 0.0, 0.0, right]];
+    assert_same(&imported, standard, rows, 1000.0);
+    assert!(imported.heard.iter().any(|note| note.contains("which joints slide")), "{:?}", imported.heard);
+}
+
+/// What the Robotics Toolbox for Python 1.1 printed of a chain with an offset, a slide and a reversed joint, and of a Panda.
+#[test]
+fn the_robotics_toolbox_for_python() {
+    let table = "\
+DHRobot: mixed, 3 joints (RPR), standard DH parameters
+┌─────────────────────┬────────────┬─────┬────────────────────┬─────────┬────────┐
+│         θⱼ          │     dⱼ     │ aⱼ  │         ⍺ⱼ         │   q⁻    │   q⁺   │
+├─────────────────────┼────────────┼─────┼────────────────────┼─────────┼────────┤
+│  q1 + 90°           │        0.1 │   0 │              90.0° │ -180.0° │ 180.0° │
+│ 17.188733853924695° │  q2 + 0.05 │ 0.2 │               0.0° │       0 │      1 │
+│ -q3                 │          0 │   0 │ 7.073507755567091° │ -180.0° │ 180.0° │
+└─────────────────────┴────────────┴─────┴────────────────────┴─────────┴────────┘
+";
+    let right = std::f64::consts::FRAC_PI_2;
+    let mixed = imported(table, DhConvention::Standard, IN_M, false);
+    assert_eq!(mixed.report.manipulator, "mixed");
+    let rows = |q: &[f64]| {
+        vec![[q[0] + right, 0.1, 0.0, right], [0.3, q[1] + 0.05, 0.2, 0.0], [-q[2], 0.0, 0.0, 0.123456]]
+    };
+    assert_same(&mixed, standard, rows, 2.0);
+
+    let table = "\
+DHRobot.Panda: Panda (by Franka Emika), 7 joints (RRRRRRR), dynamics, geometry, modified DH parameters
+┌─────────┬────────┬─────┬───────┬─────────┬────────┐
+│  aⱼ₋₁   │  ⍺ⱼ₋₁  │ θⱼ  │  dⱼ   │   q⁻    │   q⁺   │
+├─────────┼────────┼─────┼───────┼─────────┼────────┤
+│     0.0 │   0.0° │  q1 │ 0.333 │ -166.0° │ 166.0° │
+│     0.0 │ -90.0° │  q2 │   0.0 │ -101.0° │ 101.0° │
+│     0.0 │  90.0° │  q3 │ 0.316 │ -166.0° │ 166.0° │
+│  0.0825 │  90.0° │  q4 │   0.0 │ -176.0° │  -4.0° │
+│ -0.0825 │ -90.0° │  q5 │ 0.384 │ -166.0° │ 166.0° │
+│     0.0 │  90.0° │  q6 │   0.0 │   -1.0° │ 215.0° │
+│   0.088 │  90.0° │  q7 │ 0.107 │ -166.0° │ 166.0° │
+└─────────┴────────┴─────┴───────┴─────────┴────────┘
+
+┌──────┬───────────────────────────────────────┐
+│ tool │ t = 0, 0, 0.1; rpy/xyz = -45°, 0°, 0° │
+└──────┴───────────────────────────────────────┘
+";
+    let panda = imported(table, DhConvention::Modified, IN_M, false);
+    assert_eq!(panda.report.manipulator, "panda");
+    assert!(panda.heard.iter().any(|note| note.contains("base and tool is not read")), "{:?}", panda.heard);
+    let numbers = [
+        [0.333, 0.0, 0.0],
+        [0.0, 0.0, -right],
+        [0.316, 0.0, right],
+        [0.0, 0.0825, right],
+        [0.384, -0.0825, -right],
+        [0.0, 0.0, right],
+        [0.107, 0.088, right],
+    ];
+    let rows = |q: &[f64]| q.iter().zip(numbers).map(|(q, [d, a, alpha])| [*q, d, a, alpha]).collect();
+    assert_same(&panda, modified, rows, 2.0);
+}
+
+/// What the Robotics Toolbox for MATLAB displays: rad with four decimals.
+#[test]
+fn the_robotics_toolbox_for_matlab() {
+    let table = "\
+Puma 560 [Unimation]:: 6 axis, RRRRRR, stdDH, fastRNE
+ - viscous friction; params of 8/95;
++---+-----------+-----------+-----------+-----------+-----------+
+| j |     theta |         d |         a |     alpha |    offset |
++---+-----------+-----------+-----------+-----------+-----------+
+|  1|         q1|          0|          0|     1.5708|          0|
+|  2|         q2|          0|     0.4318|          0|          0|
+|  3|         q3|    0.15005|     0.0203|    -1.5708|          0|
+|  4|         q4|     0.4318|          0|     1.5708|          0|
+|  5|         q5|          0|          0|    -1.5708|     1.5708|
+|  6|         q6|          0|          0|          0|          0|
++---+-----------+-----------+-----------+-----------+-----------+
+tool:    t = (0, -0.1, 0), RPY/xyz = (-1.57, 0, -1.57) deg
+";
+    for round_angles in [false, true] {
+        let right = if round_angles { std::f64::consts::FRAC_PI_2 } else { 1.5708 };
+        let puma = imported(table, DhConvention::Standard, IN_M, round_angles);
+        assert_eq!(puma.report.manipulator, "puma_560");
+        assert!(puma.heard.iter().any(|note| note.contains("5 angles")), "{:?}", puma.heard);
+        let rows = |q: &[f64]| {
+            vec![
+                [q[0], 0.0, 0.0, right],
+                [q[1], 0.0, 0.4318, 0.0],
+                [q[2], 0.15005, 0.0203, -right],
+                [q[3], 0.4318, 0.0, right],
+                [q[4] + right, 0.0, 0.0, -right],
+                [q[5], 0.0, 0.0, 0.0],
+            ]
+        };
+        assert_same(&puma, standard, rows, 2.0);
+    }
+}
+
+/// Tables with letters changed, left out and doubled are read or refused with a way out; nothing else happens.
+#[test]
+fn damaged_tables() {
+    let tables = [
+        "joint,type,theta,d,a,alpha,offset,lower,upper\nA1,R,q1,0.4 m,25,90,0,-170,170\nrail,P,30,,0,-90,120,0,1.2 m\n",
+        "│ θⱼ │ dⱼ │ aⱼ │ ⍺ⱼ │\n├────┤\n│ q1 + 90° │ 0.1 │ 0 │ 90.0° │\n│ -q2 │ 0 │ 1 │ −90° │\n└────┘\n",
+    ];
+    let pieces = [
+        "", ",", ";", "│", "|", "\"", "°", "q", "θ", "-", "+", "−", "*", "pi", " ", "\n", "1e309", "nan",
+        "mm", "(",
+    ];
+    // SplitMix64.
+    let mut state = 14_u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) % below as u64) as usize
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let (mut read, mut refused) = (0, 0);
+    for k in 0..3000 {
+        let mut table: Vec<char> = tables[k % 2].chars().collect();
+        for _ in 0..1 + random(3) {
+            let at = random(table.len());
+            let piece = pieces[random(pieces.len())];
+            table.splice(at..at + random(2), piece.chars());
+        }
+        let file = folder.path().join("table.csv");
+        std::fs::write(&file, table.iter().collect::<String>()).unwrap();
+        let format = Format::Table { convention: convention(k % 3 == 0).0, units: IN_MM };
+        match (Import { file, format, round_angles: false }).run(&mut ()) {
+            Ok(_) => read += 1,
+            Err(mistakes) => {
+                assert!(mistakes.list.iter().all(|mistake| mistake.help.is_some()), "{mistakes}");
+                assert!(!mistakes.to_string().contains("mistake of abbe"), "{mistakes}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(read > 500 && refused > 500, "{read} read, {refused} refused");
+}
