@@ -19,6 +19,9 @@ const SHOWN: usize = 20;
 /// The most names in a sentence.
 const LISTED: usize = 20;
 
+/// For so many mistakes of a file the nearest name is looked for: fewer are shown, and names may be thousands.
+const SOUGHT: usize = 100;
+
 /// The most files of a folder among which the nearest is looked for.
 const LOOKED_AT: usize = 10_000;
 
@@ -187,11 +190,29 @@ pub fn listed(names: &[&str]) -> String {
     }
 }
 
-/// `did you mean …?`, or else the list of what is known.
-pub(crate) fn suggestion(word: &str, known: &[&str], what: &str) -> String {
-    match nearest(word, known.iter().copied()) {
+/// As [`nearest`], for the mistake of a file that comes after `found` others.
+pub(crate) fn nearest_after<'a>(
+    found: usize,
+    word: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    if found < SOUGHT { nearest(word, known) } else { None }
+}
+
+/// `did you mean …?`, or else what is known, for the mistake that comes after `found` others.
+pub(crate) fn suggestion(found: usize, word: &str, known: &[&str], what: &str) -> String {
+    match nearest_after(found, word, known.iter().copied()) {
         Some(name) => format!("did you mean `{name}`?"),
         None if known.is_empty() => format!("there is no {what} here"),
-        None => format!("{what}: {}", known.join(", ")),
+        None => format!("{what}: {}", first(known)),
+    }
+}
+
+/// The first of some names, and how many more there are.
+pub(crate) fn first(names: &[&str]) -> String {
+    let shown = names[..names.len().min(LISTED)].join(", ");
+    match names.len().saturating_sub(LISTED) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
     }
 }

@@ -1,5 +1,6 @@
 //! A TOML file with the place of everything in it: the cursor with which spec and study files are read.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -7,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::bounded::{Bounded, Unfit, not_text};
-use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest, suggestion};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest_after, suggestion};
 use crate::expr::{Dimension, Entry, Expression, LARGEST as LARGEST_NUMBER, Place, Scope, parse_expression};
 use crate::keys::Keys;
 use crate::not_toml::not_toml;
@@ -31,7 +32,7 @@ pub struct Document {
     /// Every file that was read for it, its own first.
     pub files: Vec<PathBuf>,
     /// Mistakes that say what is missing, and is there under a name with a slip: by their places and messages.
-    pub(crate) meant: Vec<(Span, String)>,
+    pub(crate) meant: HashSet<(Span, String)>,
 }
 
 impl Document {
@@ -44,7 +45,7 @@ impl Document {
             folder: None,
             beside: Vec::new(),
             files: Vec::new(),
-            meant: Vec::new(),
+            meant: HashSet::new(),
         }
     }
 
@@ -110,10 +111,9 @@ impl Document {
             Some(result) if self.found.is_empty() => Ok(result),
             _ => {
                 let mut list = self.found;
-                let meant = |(span, message): &(Span, String), mistake: &Diagnostic| {
-                    mistake.span.as_ref() == Some(span) && mistake.message == *message
-                };
-                list.retain(|mistake| !self.meant.iter().any(|missing| meant(missing, mistake)));
+                list.retain(|Diagnostic { span, message, .. }| {
+                    !span.clone().is_some_and(|span| self.meant.contains(&(span, message.clone())))
+                });
                 list.sort_by_key(|diagnostic| diagnostic.span.as_ref().map_or(0, |span| span.start));
                 list.dedup();
                 Err(Diagnostics { path: self.path, text: self.text, list })
@@ -156,9 +156,12 @@ impl Document {
         let message = format!("`{}` cannot be `{}`", item.key, word.escape_debug());
         let quoted = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(" or ");
         self.mistake(
-            Diagnostic::new(item.span(), message)
-                .label(format!("expected {quoted}"))
-                .help(suggestion(&word, &names, "choices")),
+            Diagnostic::new(item.span(), message).label(format!("expected {quoted}")).help(suggestion(
+                self.found.len(),
+                &word,
+                &names,
+                "choices",
+            )),
         );
         None
     }
@@ -414,11 +417,12 @@ impl<'d> Section<'d> {
         for item in self.items().filter(|item| !known.iter().any(|keys| keys.contain(&item.key))) {
             let message = format!("there is no key `{}` in {}", item.key.escape_debug(), self.name);
             let names = known.iter().flat_map(|keys| keys.keys).copied().collect::<Vec<_>>();
-            let help = suggestion(&item.key, &names, "known keys");
+            let help = suggestion(document.found.len(), &item.key, &names, "known keys");
             document.mistake(Diagnostic::new(item.key_span.clone(), message).label("unknown key").help(help));
             // What is told as a slip need not be told as missing as well.
-            if let Some(meant) = nearest(&item.key, names).filter(|meant| self.get(meant).is_none()) {
-                document.meant.push((self.span.clone(), self.missing(meant)));
+            let near = nearest_after(document.found.len() - 1, &item.key, names);
+            if let Some(meant) = near.filter(|meant| self.get(meant).is_none()) {
+                document.meant.insert((self.span.clone(), self.missing(meant)));
             }
         }
     }

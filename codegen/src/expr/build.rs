@@ -5,7 +5,7 @@ use super::reach::reaches_beyond;
 use super::scope::Allowed;
 use super::value::LARGEST;
 use super::{Binary, Dimension, Entry, Expression, Function, Kind, Lookup, Scope, Term, UNIT_NAMES, Unit};
-use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::diagnostic::{Diagnostic, Span, first, nearest_after};
 
 /// Terms under construction. Mistakes of meaning go to `found` and do not stop the construction.
 pub(super) struct Builder<'b> {
@@ -22,6 +22,11 @@ impl<'b> Builder<'b> {
 
     pub(super) fn scope(&self) -> &'b Scope {
         self.scope
+    }
+
+    /// How many mistakes there are so far.
+    pub(super) fn mistakes(&self) -> usize {
+        self.found.len()
     }
 
     /// How many terms there are.
@@ -85,7 +90,7 @@ impl<'b> Builder<'b> {
             } else if self.allowed == Allowed::Nothing {
                 Diagnostic::new(span, format!("`{name}` is not a number")).help("only numbers may stand here")
             } else {
-                unknown(name, span, self.scope)
+                unknown(name, span, self.scope, self.mistakes())
             };
             return Err(mistake);
         };
@@ -293,14 +298,15 @@ impl<'b> Builder<'b> {
     }
 }
 
-fn unknown(name: &str, span: Span, scope: &Scope) -> Diagnostic {
-    let names = scope.names.keys().map(String::as_str);
+/// A name that nothing has, as the mistake that comes after `found` others.
+fn unknown(name: &str, span: Span, scope: &Scope, found: usize) -> Diagnostic {
+    let names: Vec<&str> = scope.names.keys().map(String::as_str).collect();
     let mistake = Diagnostic::new(span, format!("there is no variable, parameter or input `{name}`"));
     let tables = scope.tables.iter().map(|table| table.name.as_str());
-    let candidates = names.clone().chain(tables).chain(FUNCTION_NAMES).chain(UNIT_NAMES);
-    match nearest(name, candidates) {
+    let candidates = names.iter().copied().chain(tables).chain(FUNCTION_NAMES).chain(UNIT_NAMES);
+    match nearest_after(found, name, candidates) {
         Some(near) => mistake.help(format!("did you mean `{near}`?")),
-        None if scope.names.is_empty() => mistake.help("this spec declares no names"),
-        None => mistake.help(format!("declared names: {}", names.collect::<Vec<_>>().join(", "))),
+        None if names.is_empty() => mistake.help("this spec declares no names"),
+        None => mistake.help(format!("declared names: {}", first(&names))),
     }
 }

@@ -13,7 +13,7 @@ use super::build::Builder;
 use super::function::FUNCTION_NAMES;
 use super::tokens::{Token, tokens};
 use super::{Binary, Entry, Expression, Function, Place, Scope, Unit};
-use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::diagnostic::{Diagnostic, Span, nearest, suggestion};
 
 /// How deep parentheses, functions, signs and powers may nest.
 const DEPTH: usize = 100;
@@ -244,8 +244,8 @@ impl<'p> Parser<'p> {
         if two.is_none() && function.is_none() && !is_table {
             let tables = self.builder.scope().tables.iter().map(|table| table.name.as_str());
             let known: Vec<&str> = FUNCTION_NAMES.into_iter().chain(tables).collect();
-            return Err(Diagnostic::new(start, format!("there is no function `{word}`"))
-                .help(crate::diagnostic::suggestion(word, &known, "functions")));
+            let help = suggestion(self.builder.mistakes(), word, &known, "functions");
+            return Err(Diagnostic::new(start, format!("there is no function `{word}`")).help(help));
         }
         self.expect('(')?;
         let begin = self.builder.len();

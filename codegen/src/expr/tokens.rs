@@ -2,6 +2,9 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 
+/// The most names, numbers and signs of an expression: a sum of as many names as a spec may declare.
+pub(super) const LONGEST: usize = 20_000;
+
 /// Where a text stands in its file.
 #[derive(Clone, Debug)]
 pub(crate) enum Place {
@@ -66,6 +69,14 @@ pub(crate) fn tokens<'t>(text: &'t str, place: &Place) -> Result<Vec<(Token<'t>,
                 return Err(Diagnostic::new(place.span(range), message).help(help));
             }
         };
+        if tokens.len() == LONGEST {
+            let message = format!("this expression has more than {LONGEST} names, numbers and signs");
+            let help =
+                "a function that was measured is a table, `[tables.NAME]`; a sum can be several sources";
+            return Err(Diagnostic::new(place.span(range), message)
+                .label("too many from here on")
+                .help(help));
+        }
         tokens.push((token, range.clone()));
         at = range.end;
     }

@@ -69,7 +69,7 @@ fn factor(parser: &mut Parser<'_>) -> Result<Elementary, Diagnostic> {
     let Some(index) = NAMES.iter().position(|known| *known == name) else {
         return Err(Diagnostic::new(parser.here(), format!("there is no motion `{name}`"))
             .label(format!("expected {expected}"))
-            .help(suggestion(name, &NAMES, "motions")));
+            .help(suggestion(0, name, &NAMES, "motions")));
     };
     parser.advance();
     let axis = index % 3;

@@ -8,8 +8,8 @@ use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, LengthUnit, Name, Scope, Symbol};
 use crate::keys::Keys;
 
-/// The most parameters of a manipulator.
-const MOST_PARAMETERS: usize = 10_000;
+/// The most parameters of a manipulator, and the most inputs.
+const MOST: usize = 10_000;
 
 /// The names of a spec, and what was declared with them.
 pub(super) struct Declarations {
@@ -30,7 +30,7 @@ impl Declarations {
         let Some(item) = root.get("parameters") else { return };
         let Some(section) = document.section(&item) else { return };
         let help = "numbers that are never set at run time can stand where they are used";
-        if document.at_most(&item, section.items().count(), MOST_PARAMETERS, "parameters", help).is_none() {
+        if document.at_most(&item, section.items().count(), MOST, "parameters", help).is_none() {
             return;
         }
         for item in section.items() {
@@ -47,9 +47,12 @@ impl Declarations {
 
     /// `[inputs]`.
     pub(super) fn read_inputs(&mut self, root: &Section<'_>, document: &mut Document) {
-        let Some(section) = root.get("inputs").and_then(|item| document.section(&item)) else {
+        let Some(item) = root.get("inputs") else { return };
+        let Some(section) = document.section(&item) else { return };
+        let help = "numbers that are the same at every use are parameters, or stand where they are used";
+        if document.at_most(&item, section.items().count(), MOST, "inputs", help).is_none() {
             return;
-        };
+        }
         for item in section.items() {
             let (value, table) = self.valued(&item, &keys::INPUT, "input", document);
             let symbol = Symbol::Input(self.inputs.len());

@@ -55,10 +55,11 @@ pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame], document: &mut Docum
     let found = frames.iter().position(|frame| frame.name == name);
     if found.is_none() {
         let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
+        let help = suggestion(document.found.len(), &name, &names, "frames");
         document.mistake(
             Diagnostic::new(item.span(), format!("there is no frame `{}`", name.escape_debug()))
                 .label("not a frame of this spec")
-                .help(suggestion(&name, &names, "frames")),
+                .help(help),
         );
     }
     found

@@ -86,7 +86,7 @@ impl Columns {
             let message = format!("`{}` has no column `{}`", self.file, name.escape_debug());
             let help = match &known[..] {
                 [only] if only.contains([';', '\t']) => FORM.to_owned(),
-                _ => suggestion(&name, &known, "columns"),
+                _ => suggestion(document.found.len(), &name, &known, "columns"),
             };
             document.mistake(Diagnostic::new(item.span(), message).help(help));
             return None;

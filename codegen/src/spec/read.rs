@@ -144,8 +144,8 @@ fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
     })
 }
 
-/// The most frames of a manipulator.
-const MOST_FRAMES: usize = 10_000;
+/// The most frames of a manipulator: its analysis takes seconds, and 200 MB.
+const MOST_FRAMES: usize = 3000;
 
 struct Head {
     name: String,

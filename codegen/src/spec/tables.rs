@@ -10,12 +10,17 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Interpolation, Outside, Scope, Table, Unit, parse_unit};
 
+/// The most tables of a manipulator.
+const MOST: usize = 1000;
+
 impl Declarations {
     /// `[tables]`.
     pub(super) fn read_tables(&mut self, root: &Section<'_>, document: &mut Document) -> Option<()> {
         let Some(item) = root.get("tables") else { return Some(()) };
         let section = document.section(&item)?;
         let before = document.found.len();
+        let help = "leave out those that no expression takes";
+        document.at_most(&item, section.items().count(), MOST, "tables", help)?;
         for item in section.items() {
             check_identifier(&item.key, item.key_span.clone(), document);
             if self.scope.tables.iter().any(|table| table.name.eq_ignore_ascii_case(&item.key)) {
