@@ -10,6 +10,7 @@ mod check;
 mod compensate;
 mod completions;
 mod console;
+mod export;
 mod failure;
 mod generate;
 mod identify;
@@ -58,6 +59,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Measure(arguments)) => measure::run(arguments),
         Some(Command::Identify(arguments)) => identify::run(arguments),
         Some(Command::Compensate(arguments)) => compensate::run(arguments),
+        Some(Command::Export(arguments)) => export::run(arguments),
         Some(Command::Monitor(arguments)) => monitor::run(arguments),
         Some(Command::Completions(arguments)) => completions::run(arguments),
         Some(Command::Man(arguments)) => man::run(arguments),

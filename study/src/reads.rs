@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::check::Check;
 use crate::compensate::Compensate;
 use crate::data::{Data, Map};
+use crate::export::Export;
 use crate::generate::Generate;
 use crate::identify::Identify;
 use crate::import::Import;
@@ -102,6 +103,13 @@ impl Reads for Compensate {
     fn files(&self) -> Vec<PathBuf> {
         let Self { machine, map, data, poses: _, tolerance: _ } = self;
         [machine.files(), map.files(), data.files()].concat()
+    }
+}
+
+impl Reads for Export {
+    fn files(&self) -> Vec<PathBuf> {
+        let Self { machine, format: _, samples: _, seed: _ } = self;
+        [machine.files(), self.beside()].concat()
     }
 }
 

@@ -6,6 +6,7 @@ mod analyze;
 mod check;
 mod compensate;
 mod completions;
+mod export;
 mod generate;
 mod identify;
 mod import;
@@ -24,6 +25,7 @@ pub(crate) use analyze::Analyze;
 pub(crate) use check::Check;
 pub(crate) use compensate::Compensate;
 pub(crate) use completions::Completions;
+pub(crate) use export::Export;
 pub(crate) use generate::Generate;
 pub(crate) use identify::{Identify, Robust, Terms};
 pub(crate) use import::Import;
@@ -89,6 +91,10 @@ pub(crate) enum Command {
     ///
     /// The repeatable sources of the spec are the errors of the machine.
     Compensate(Compensate),
+    /// What was found of a machine, in the files that controllers and other programs load
+    ///
+    /// Exported are the repeatable sources of the spec. What remains of the errors when the file is used is computed and printed.
+    Export(Export),
     /// Whether a machine that is checked again and again is still what it was
     Monitor(Monitor),
     /// What a shell needs to complete commands and options

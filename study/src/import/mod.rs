@@ -5,6 +5,7 @@
 
 mod almost;
 mod chain;
+pub(crate) mod described;
 mod dh;
 mod geometry;
 mod placement;

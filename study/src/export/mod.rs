@@ -1,0 +1,169 @@
+//! What was found of a machine, in the files that controllers and other programs load.
+//!
+//! [`Found`](found::Found) is the machine as its repeatable sources have it, exactly, and what stays the same of its errors.
+//! Each format writes its text from that, reads the text back as whoever loads it would, and [`Difference`] is what remains.
+
+mod dh;
+mod difference;
+mod found;
+mod origins;
+mod ur_calibration;
+mod urdf;
+
+use std::path::PathBuf;
+
+use abbe_codegen::diagnostic::Diagnostics;
+use serde::Serialize;
+
+pub use self::difference::{Difference, Figure};
+use self::found::Found;
+use crate::finite;
+use crate::machine::Machine;
+use crate::notes::Notes;
+
+/// How many configurations the differences are of, if nobody says.
+pub const SAMPLES: usize = 1000;
+
+/// What is the file of this machine in another format?
+#[derive(Clone)]
+pub struct Export {
+    /// The machine: its repeatable sources are its errors.
+    pub machine: Machine,
+    /// What is to be written.
+    pub format: Format,
+    /// Over how many random configurations the differences are taken.
+    pub samples: usize,
+    /// Of these configurations.
+    pub seed: u64,
+}
+
+/// What a machine can be exported to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// A table of Denavit-Hartenberg numbers, CSV.
+    Dh,
+    /// A URDF file with the origins of the real robot.
+    Urdf {
+        /// The file of the nominal robot.
+        file: PathBuf,
+        /// The link that is `F_0`; the root if not given.
+        base: Option<String>,
+        /// The link whose frame is the tool point; the only last one if not given.
+        tip: Option<String>,
+    },
+    /// The calibration of an arm of Universal Robots, YAML.
+    UrCalibration,
+}
+
+impl Format {
+    /// The names of all of them.
+    pub const NAMES: [&str; 3] = ["dh", "urdf", "ur-calibration"];
+}
+
+/// A file to be written.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExportedFile {
+    /// What it is called in a folder.
+    pub name: String,
+    /// All of it.
+    pub text: String,
+}
+
+/// Files in another format, and how good they are.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The machine's name.
+    pub name: String,
+    /// The format's name, and which kind of it.
+    pub format: String,
+    /// The length unit of the differences.
+    pub length: &'static str,
+    /// What is written: one file, or several that belong together.
+    pub files: Vec<ExportedFile>,
+    /// What is changed in a file that was given, as a diff shows it.
+    pub changes: Vec<String>,
+    /// What the format cannot hold, in sentences.
+    pub left_out: Vec<String>,
+    /// What the differences are, in words: of which tool from where.
+    pub compared: [&'static str; 2],
+    /// As the machine is without the export.
+    pub before: Difference,
+    /// What remains when the files are loaded and used.
+    pub remains: Difference,
+    /// Over how many configurations.
+    pub configurations: usize,
+    /// Which ones.
+    pub seed: u64,
+    /// The sign, shown by a number of this machine.
+    pub sign: String,
+}
+
+/// What a format makes of a machine.
+struct Written {
+    format: String,
+    files: Vec<ExportedFile>,
+    changes: Vec<String>,
+    left_out: Vec<String>,
+    compared: [&'static str; 2],
+    before: Difference,
+    remains: Difference,
+    sign: String,
+}
+
+/// How the differences of a model are called: of what it says from where the tool really is.
+const MODEL: [&str; 2] = ["nominal", "exported"];
+
+impl Export {
+    /// Writes the files as text, reads them back and compares.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, format, samples, seed } = self;
+        let found = Found::new(machine, *samples, *seed)?;
+        if found.is_nominal() {
+            notes.warn("this spec has no repeatable source: the nominal machine is exported");
+        }
+        let written = match format {
+            Format::Dh => dh::written(&found)?,
+            Format::Urdf { file, base, tip } => {
+                urdf::written(&found, urdf::From { file, base: base.as_deref(), tip: tip.as_deref() })?
+            }
+            Format::UrCalibration => ur_calibration::written(&found)?,
+        };
+        let Written { format, files, changes, left_out, compared, before, remains, sign } = written;
+        let report = Report {
+            name: machine.spec.name.clone(),
+            format,
+            length: machine.spec.length.symbol(),
+            files,
+            changes,
+            left_out,
+            compared,
+            before,
+            remains,
+            configurations: *samples,
+            seed: *seed,
+            sign,
+        };
+        finite(&machine.origin, report)
+    }
+
+    /// The files that it reads beside the spec.
+    pub(crate) fn beside(&self) -> Vec<PathBuf> {
+        match &self.format {
+            Format::Dh | Format::UrCalibration => Vec::new(),
+            Format::Urdf { file, .. } => vec![file.clone()],
+        }
+    }
+}
+
+/// A length or an angle as files have it: what is below 1e-15 is rounding.
+fn written(value: f64) -> f64 {
+    format!("{value:.15}").parse::<f64>().unwrap_or(value) + 0.0
+}
+
+/// What is said of the sign where nothing is wrong.
+fn as_nominal() -> String {
+    "Nothing is wrong with this machine: the numbers are the nominal ones.".to_owned()
+}
+
+/// A change below this, in any unit, is rounding.
+const UNCHANGED: f64 = 1e-12;

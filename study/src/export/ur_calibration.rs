@@ -1,0 +1,179 @@
+//! The calibration of an arm of Universal Robots, as its description for ROS reads it: YAML, `kinematics:`.
+//!
+//! Of six joints it has where each stands in the link before it, `T(x, y, z) Rz(yaw) Ry(pitch) Rx(roll)`, then a turn about z. The nominal frames
+//! are Craig's: z along the joint, x along the common normal with the joint before, `d` of a row within its joint.
+
+use std::fmt::Write;
+
+use abbe::{Manipulator, Pose};
+use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::spec::DhConvention;
+
+use super::dh::Table;
+use super::found::{Found, about_x, about_z};
+use super::origins::{Joint, origins};
+use super::{ExportedFile, MODEL, Written};
+use crate::import::described::{placed, roll_pitch_yaw};
+use crate::mistake;
+use crate::number::digits;
+
+/// The joints, and by how many quarter turns about x each axis is turned from that before.
+const JOINTS: [(&str, f64); 6] = [
+    ("shoulder", 0.0),
+    ("upper_arm", 1.0),
+    ("forearm", 0.0),
+    ("wrist_1", 0.0),
+    ("wrist_2", 1.0),
+    ("wrist_3", -1.0),
+];
+
+const KEYS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+/// The YAML, and what remains of the errors with it.
+pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
+    let refused = |message: String| {
+        let help = "the chain is that of an arm of Universal Robots, from `base` (F_0) on; other robots have `--to urdf`";
+        mistake::with_help(&found.origin, message, help)
+    };
+    let table = Table::nominal(found)?;
+    let frames = frames(&table);
+    let turning =
+        table.rows.iter().filter(|row| row.variable.is_some() && !row.prismatic && !row.reversed).count();
+    if turning != JOINTS.len() || table.rows.len() != JOINTS.len() {
+        return Err(refused(format!("{} joints turn here, and six in such an arm", turning)));
+    }
+    let mut joints = Vec::new();
+    let mut before = Pose::IDENTITY;
+    for ((name, quarters), (frame, i)) in JOINTS.iter().zip(frames.iter().zip(0..)) {
+        let origin = before.inverse().then(frame);
+        let expected = about_x(quarters * std::f64::consts::FRAC_PI_2, 0.0);
+        let turned = |k: usize| (0..3).map(|i| origin.0[k][i] * expected.0[k][i]).sum::<f64>() > 0.99;
+        if !(0..3).all(turned) {
+            return Err(refused(format!(
+                "the joint {name} does not stand in the one before it as in such an arm"
+            )));
+        }
+        let frame = found.spec.frames.iter().position(|frame| frame.variable == table.rows[i].variable);
+        joints.push(Joint { origin, axis: Some([0.0, 0.0, 1.0]), at_zero: Pose::IDENTITY, frame });
+        before = *frames.get(i).unwrap_or(&before);
+    }
+    let zero = vec![0.0; JOINTS.len()];
+    let evaluated = |error: abbe::Error| mistake::whole(&found.origin, &error);
+    let tool = before.inverse().then(&found.manipulator.pose(&zero, &found.s).map_err(evaluated)?);
+    let new = origins(found, &joints, &tool).map_err(evaluated)?;
+    let metres = found.spec.length.in_metres();
+    let text = text(found, &new, metres);
+    let read = read(&text, metres).ok_or_else(|| {
+        mistake::with_help(
+            "abbe export",
+            "what was written cannot be read",
+            "this is a mistake of abbe: please report the spec",
+        )
+    })?;
+    let variables: Vec<usize> = table.rows.iter().filter_map(|row| row.variable).collect();
+    let by_text = |q: &[f64]| {
+        let joints = read.iter().zip(&variables);
+        joints
+            .fold(Pose::IDENTITY, |pose, (origin, i)| pose.then(origin).then(&about_z(q[*i], 0.0)))
+            .then(&tool)
+    };
+    let mut left_out: Vec<String> = found.held_at_mean().into_iter().collect();
+    left_out.push(
+        "Behind the last joint there is no origin: of what is wrong there the file holds a turn about the axis and a shift along it. The rest \
+         belongs to the tool that the controller is told."
+            .to_owned(),
+    );
+    left_out.push(
+        "The hash is that of this spec. The driver compares it with that of the robot's own calibration, and warns where they differ."
+            .to_owned(),
+    );
+    Ok(Written {
+        format: "the calibration of an arm of Universal Robots (YAML)".to_owned(),
+        files: vec![ExportedFile { name: format!("{}.calibration.yaml", found.spec.name), text }],
+        changes: Vec::new(),
+        left_out,
+        compared: MODEL,
+        before: found.nominal(),
+        remains: found.of_model(by_text),
+        sign: sign(&joints, &new, metres),
+    })
+}
+
+/// The frames of the joints in `F_0`, with all variables 0.
+fn frames(table: &Table) -> Vec<Pose> {
+    let zero = vec![0.0; table.rows.len()];
+    let mut pose = table.base;
+    let mut frames = Vec::new();
+    for row in &table.rows {
+        let [theta, d, a, alpha] = row.numbers;
+        let behind = pose.then(&row.pose(table.convention, &zero));
+        frames.push(match table.convention {
+            DhConvention::Standard => pose.then(&about_z(theta, d)),
+            DhConvention::Modified => pose.then(&about_x(alpha, a)).then(&about_z(theta, d)),
+        });
+        pose = behind;
+    }
+    frames
+}
+
+fn text(found: &Found, origins: &[Pose], metres: f64) -> String {
+    let mut text = format!("# {}, as identified. In m and rad.\nkinematics:\n", found.spec.name);
+    for ((name, _), origin) in JOINTS.iter().zip(origins) {
+        let _ = writeln!(text, "  {name}:");
+        for (key, value) in KEYS.iter().zip(numbers(origin, metres)) {
+            let _ = writeln!(text, "    {key}: {value}");
+        }
+    }
+    let hash = u64::from_str_radix(found.spec.hash.get(..15).unwrap_or_default(), 16).unwrap_or_default();
+    text + &format!("  hash: calib_{hash}\n")
+}
+
+fn numbers(origin: &Pose, metres: f64) -> [f64; 6] {
+    let ([x, y, z], [roll, pitch, yaw]) = (origin.position().map(|v| v * metres), roll_pitch_yaw(origin));
+    [x, y, z, roll, pitch, yaw].map(super::written)
+}
+
+/// The origins of a text that was written so.
+fn read(text: &str, metres: f64) -> Option<Vec<Pose>> {
+    let mut values = text.lines().filter(|line| line.starts_with("    ")).map(|line| {
+        let (key, value) = line.trim().split_once(": ")?;
+        Some((key, value.parse::<f64>().ok()?))
+    });
+    let mut origins = Vec::new();
+    for _ in JOINTS {
+        let mut numbers = [0.0; 6];
+        for (number, expected) in numbers.iter_mut().zip(KEYS) {
+            let (key, value) = values.next()??;
+            *number = (key == expected).then_some(value)?;
+        }
+        let [x, y, z, roll, pitch, yaw] = numbers;
+        origins.push(placed([x, y, z].map(|v| v / metres), [roll, pitch, yaw]));
+    }
+    Some(origins)
+}
+
+/// The number that changes most, a turn as it moves what is a metre away.
+fn sign(joints: &[Joint], new: &[Pose], metres: f64) -> String {
+    let mut most = (super::UNCHANGED, String::new());
+    for ((name, _), (joint, new)) in JOINTS.iter().zip(joints.iter().zip(new)) {
+        for (i, (old, new)) in
+            numbers(&joint.origin, metres).into_iter().zip(numbers(new, metres)).enumerate()
+        {
+            let change = (new - old).abs();
+            if change > most.0 && change < 1.0 {
+                let (key, unit) = (KEYS[i], if i < 3 { "m" } else { "rad" });
+                let text = format!(
+                    "These are the numbers of the real arm, to be used in place of the nominal ones: {key} of {name} is {} {unit} where the \
+                     spec has {} {unit}. Nothing is to be subtracted from it.",
+                    digits(new, 8),
+                    digits(old, 8)
+                );
+                most = (change, text);
+            }
+        }
+    }
+    match most.1.is_empty() {
+        true => super::as_nominal(),
+        false => most.1,
+    }
+}

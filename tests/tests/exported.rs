@@ -1,0 +1,348 @@
+//! What was found of a machine in other formats: each read back by other means, and held against the machine.
+
+use std::path::Path;
+
+use abbe::analysis::{Workspace, random_joint_samples, sampling};
+use abbe::{Manipulator, Pose, drawn_pose, repeatable_magnitudes};
+use abbe_codegen::spec::{DhConvention, Spec};
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use abbe_study::Machine;
+use abbe_study::export::{Export, Format, Report, SAMPLES};
+use abbe_study::import;
+use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
+
+/// A shipped spec with sources of its own.
+fn machine(name: &str, sources: &str) -> Machine {
+    let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap();
+    let text = format!("{}\n{sources}", shipped.spec);
+    Machine::of_spec(Spec::parse(&format!("{name}.toml"), &text).unwrap(), name)
+}
+
+fn exported(machine: &Machine, format: Format) -> Report {
+    Export { machine: machine.clone(), format, samples: SAMPLES, seed: 0 }.run(&mut ()).unwrap()
+}
+
+/// The largest distance and turn between a model and the real tool, at other configurations than those of the report.
+fn difference(machine: &Machine, model: impl Fn(&[f64]) -> Matrix4<f64>) -> [f64; 2] {
+    let arm = Interpreter::new(machine.spec.clone());
+    let description = arm.description();
+    let moved: Vec<usize> = (0..description.variables.len()).collect();
+    let workspace = random_joint_samples(&arm, &moved, 300, 7).unwrap();
+    let magnitudes = repeatable_magnitudes(description);
+    let s = sampling::nominal_parameters(description);
+    let u = sampling::nominal_inputs(description);
+    let mut largest = [0.0_f64; 2];
+    for index in 0..workspace.len() {
+        let q = workspace.configuration(index).unwrap().q;
+        let real = matrix(&drawn_pose(&arm, &q, &s, &u, &magnitudes).unwrap());
+        let model = model(&q);
+        let shift = (real - model).fixed_view::<3, 1>(0, 3).norm();
+        let turn = (real - model).fixed_view::<3, 3>(0, 0).norm() / 2_f64.sqrt();
+        largest = [largest[0].max(shift), largest[1].max(turn)];
+    }
+    largest
+}
+
+fn matrix(pose: &Pose) -> Matrix4<f64> {
+    let rows = pose.rows();
+    Matrix4::from_fn(|i, j| rows[i][j])
+}
+
+fn about(axis: Vector3<f64>, turn: f64, along: f64) -> Isometry3<f64> {
+    let axis = nalgebra::Unit::new_normalize(axis);
+    Isometry3::from_parts(
+        Translation3::from(axis.into_inner() * along),
+        UnitQuaternion::from_axis_angle(&axis, turn),
+    )
+}
+
+/// The tool by a table of numbers, multiplied by hand.
+fn by_table(text: &str, q: &[f64], is_standard: bool) -> Matrix4<f64> {
+    let mut q = q.iter();
+    let mut pose = Isometry3::identity();
+    for line in text.lines().filter(|line| !line.starts_with('#')).skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let numbers: Vec<f64> = cells[2..].iter().map(|cell| cell.parse().unwrap()).collect();
+        let [sign, mut theta, mut d, a, alpha] = numbers[..] else { panic!("{line}") };
+        match cells[1] {
+            "revolute" => theta += sign * q.next().unwrap(),
+            "prismatic" => d += sign * q.next().unwrap(),
+            other => assert_eq!(other, "fixed"),
+        }
+        let (z, x) = (about(Vector3::z(), theta, d), about(Vector3::x(), alpha, a));
+        pose *= if is_standard { z * x } else { x * z };
+    }
+    assert!(q.next().is_none());
+    pose.to_homogeneous()
+}
+
+/// Errors of the numbers themselves: all of them are in the table.
+#[test]
+fn numbers_that_are_off_are_in_the_table() {
+    let standard = machine(
+        "ur5",
+        "[[source]]\nname = \"as built\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ndh = { theta = \"0.4 mrad\", a = \"0.3 mm\", alpha = \"-0.5 mrad\" }\n\
+         [[source]]\nname = \"elbow zero\"\nclass = \"repeatable\"\njoint = \"q3\"\nerror = \"-0.7 mrad\"\n\
+         [[source]]\nname = \"wrist\"\nclass = \"repeatable\"\nframe = \"wrist 2\"\ndh = { d = \"-0.2 mm\", alpha = \"0.3 mrad\" }\n",
+    );
+    let modified = machine(
+        "panda",
+        "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q4\"\nerror = \"0.6 mrad\"\n",
+    );
+    for (machine, is_standard) in [(standard, true), (modified, false)] {
+        let report = exported(&machine, Format::Dh);
+        let unit = machine.spec.length.in_metres();
+        assert!(report.before.position.largest * unit > 2e-4, "{report:?}");
+        assert!(
+            report.remains.position.largest * unit < 1e-9 && report.remains.angle.largest < 1e-9,
+            "{report:?}"
+        );
+        // The tool behind the flange comes beside the table.
+        let tool = if is_standard { 0.0 } else { 0.107 };
+        let tool = Matrix4::new_translation(&Vector3::new(0.0, 0.0, tool));
+        let [shift, turn] = difference(&machine, |q| by_table(&report.files[0].text, q, is_standard) * tool);
+        assert!(shift * unit < 1e-9 && turn < 1e-9, "{shift:e} {turn:e}");
+        assert!(report.left_out.iter().all(|line| !line.contains("held at its mean")));
+
+        // By `abbe import`, as any other table.
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("arm.csv");
+        std::fs::write(&file, &report.files[0].text).unwrap();
+        let convention = if is_standard { DhConvention::Standard } else { DhConvention::Modified };
+        let text = imported(&file, import::Format::Table { convention, units: import::Units::default() });
+        let read = Spec::parse("read.toml", &text).unwrap();
+        assert_eq!(read.length, machine.spec.length);
+        let names = |spec: &Spec| spec.variables.iter().map(|one| one.name.clone()).collect::<Vec<_>>();
+        assert_eq!(names(&read), names(&machine.spec));
+        let read = Interpreter::new(read);
+        let [shift, turn] = difference(&machine, |q| matrix(&read.pose(q, &[]).unwrap()) * tool);
+        assert!(shift * unit < 1e-9 && turn < 1e-9, "{shift:e} {turn:e}");
+    }
+}
+
+/// The PUMA is written in matrices, the Stanford arm slides: both have a table. A milling machine has none, and is told so.
+#[test]
+fn chains_of_any_form_have_a_table_if_they_are_of_one_convention() {
+    for (name, word) in
+        [("puma560", "standard"), ("stanford", "standard"), ("wam", "standard"), ("iiwa", "modified")]
+    {
+        let report = exported(&machine(name, ""), Format::Dh);
+        assert!(report.format.ends_with(word), "{}", report.format);
+    }
+    let job = Export { machine: machine("machine3", ""), format: Format::Dh, samples: 10, seed: 0 };
+    let mistake = job.run(&mut ()).unwrap_err();
+    assert!(
+        mistake.list[0].message.contains("the frame \"X\" has no Denavit-Hartenberg numbers"),
+        "{mistake:?}"
+    );
+}
+
+/// A tilt between parallel axes, about the normal that alpha does not turn about, is not in the table, and no number runs away.
+#[test]
+fn a_tilt_that_a_table_cannot_hold_remains() {
+    let tilt =
+        "[[source]]\nname = \"tilt\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ne_s = \"0.5 mrad\"\n";
+    let machine = machine("ur5", tilt);
+    let report = exported(&machine, Format::Dh);
+    let [shift, _] = difference(&machine, |q| by_table(&report.files[0].text, q, true));
+    assert!(
+        report.remains.position.largest > 0.01 && report.remains.position.rms < report.before.position.rms
+    );
+    // Other configurations of the same robot: the same size.
+    assert!((shift / report.remains.position.largest - 1.0).abs() < 0.3, "{shift} {:?}", report.remains);
+    for line in report.files[0].text.lines().skip(2) {
+        let numbers: Vec<f64> = line.split(',').skip(3).map(|cell| cell.parse().unwrap()).collect();
+        assert!(numbers.iter().all(|number| number.abs() < 500.0), "{line}");
+    }
+    assert!(report.left_out.iter().any(|line| line.contains("q2 and q3")), "{:?}", report.left_out);
+}
+
+/// What changes with the configuration is named, and only that; an input that is set stays.
+#[test]
+fn what_changes_is_held_at_its_mean() {
+    let machine = machine(
+        "ur5",
+        "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"0.3 mrad\"\n\
+         [[source]]\nname = \"windup\"\nclass = \"repeatable\"\njoint = \"q3\"\nerror = \"0.2 mrad * cos(q2)\"\n",
+    );
+    let report = exported(&machine, Format::Dh);
+    let said: Vec<&String> =
+        report.left_out.iter().filter(|line| line.contains("held at its mean")).collect();
+    assert!(matches!(said[..], [line] if line.ends_with(": \"windup\".")), "{:?}", report.left_out);
+    assert!(report.remains.position.largest > 0.01);
+}
+
+/// A lift, an arm with a joint that follows another, a screwed mount in the middle, and a camera beside the chain; written in every
+/// way that URDF has.
+const ROBOT: &str = "<?xml version=\"1.0\"?>\r
+<!-- The arm of the east cell. -->\r
+<robot name=\"arm\">
+  <link name=\"base\"/><link name=\"carriage\"/>\t<link name=\"upper\"/>
+  <link name=\"mount\"/><link name=\"fore\"/><link name=\"camera\"/><link name=\"wrist\"/><link name=\"tool\"/>
+  <joint name=\"lift\" type=\"prismatic\">
+    <parent link=\"base\"/><child link=\"carriage\"/>
+    <axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"0.8\" effort=\"1\" velocity=\"1\"/>   <!-- no origin -->
+  </joint>
+  <joint type='revolute' name='shoulder'>
+    <parent link='carriage'/><child link='upper'/>
+    <origin rpy='0.3 0 -1.5708' xyz='0.1   0.00 0.4' />
+    <axis xyz='0 0.6 0.8'/><limit lower='-2.6' upper='2.6' effort='1' velocity='1'/>
+  </joint>
+  <joint name=\"plate\" type=\"fixed\"><parent link=\"upper\"/><child link=\"mount\"/><origin xyz=\"0.2 0 0\"/></joint>
+  <joint name=\"elbow\" type=\"revolute\">
+    <parent link=\"mount\"/><child link=\"fore\"/><origin rpy=\"3.14159265 3.0 -3.1\"/>
+    <axis xyz=\"0 1 0\"/><limit lower=\"-2\" upper=\"2\" effort=\"1\" velocity=\"1\"/>
+  </joint>
+  <joint name=\"eye\" type=\"fixed\"><parent link=\"fore\"/><child link=\"camera\"/><origin xyz=\"0 0 0.1\"/></joint>
+  <joint name=\"wrist\" type=\"revolute\">
+    <parent link=\"fore\"/><child link=\"wrist\"/><origin xyz=\"0.4 0 0.05\" rpy=\"0 0 0\"/>
+    <axis xyz=\"0 1 0\"/><mimic joint=\"elbow\" multiplier=\"-0.5\" offset=\"0.2\"/><limit effort=\"1\" velocity=\"1\"/>
+  </joint>
+  <joint name=\"flange\" type=\"fixed\"><parent link=\"wrist\"/><child link=\"tool\"/><origin xyz=\"0.15 0 0\"/></joint>
+</robot>
+";
+
+/// Six constant errors of every frame, of both signs.
+fn all_errors(spec: &Spec) -> String {
+    let mut text = String::new();
+    for (i, frame) in spec.frames.iter().enumerate() {
+        let value = |k: usize| f64::from(u32::try_from((7 * i + 3 * k + 2) % 11).unwrap()) / 5.0 - 1.0;
+        let [x, y, z, s, r, p] = std::array::from_fn(value);
+        let name = &frame.name;
+        text += &format!(
+            "\n[[source]]\nname = \"all of {name}\"\nclass = \"repeatable\"\nframe = \"{name}\"\ne_x = \"{x} mm\"\ne_y = \"{y} mm\"\n\
+             e_z = \"{z} mm\"\ne_s = \"{s} mrad\"\ne_r = \"{r} mrad\"\ne_p = \"{p} mrad\"\n"
+        );
+    }
+    text
+}
+
+/// The spec of a file, by `abbe import`.
+fn imported(file: &Path, format: import::Format) -> String {
+    import::Import { file: file.to_owned(), format, round_angles: false }.run(&mut ()).unwrap().spec
+}
+
+fn urdf(file: &Path, fold: bool) -> String {
+    imported(file, import::Format::Urdf { base: None, tip: Some("tool".to_owned()), fold })
+}
+
+/// What stands in a text without what may change: the numbers of origins.
+fn without_origins(text: &str) -> String {
+    let mut kept = String::new();
+    let mut rest = text;
+    while let Some((before, behind)) = rest.split_once("<origin") {
+        kept += before;
+        rest = behind.split_once("/>").unwrap().1;
+    }
+    kept + rest
+}
+
+#[test]
+fn a_urdf_keeps_every_byte_but_its_origins_and_has_the_tool_where_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("robot.urdf");
+    for fold in [false, true] {
+        std::fs::write(&file, ROBOT).unwrap();
+        let text = urdf(&file, fold);
+        let nominal = Spec::parse("arm.toml", &text).unwrap();
+        let zero =
+            "\n[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"elbow\"\nerror = \"2 mrad\"\n";
+        let found = Spec::parse("found.toml", &(text.clone() + &all_errors(&nominal) + zero)).unwrap();
+        let machine = Machine::of_spec(found, "found.toml");
+        let format = Format::Urdf { file: file.clone(), base: None, tip: Some("tool".to_owned()) };
+        let report = exported(&machine, format.clone());
+        assert!(report.before.position.largest > 2e-3, "{:?}", report.before);
+        assert!(
+            report.remains.position.largest < 1e-9 && report.remains.angle.largest < 1e-9,
+            "{:?}",
+            report.remains
+        );
+
+        let written = &report.files[0].text;
+        // The joint without an origin has one now, on a line of its own.
+        let added =
+            if written.matches("<origin").count() > ROBOT.matches("<origin").count() { "    \n" } else { "" };
+        let expected = without_origins(ROBOT)
+            .replace("    <parent link=\"base\"", &format!("{added}    <parent link=\"base\""));
+        assert_eq!(without_origins(written), expected);
+        assert!(written.contains("<joint name=\"eye\" type=\"fixed\"><parent link=\"fore\"/><child link=\"camera\"/><origin xyz=\"0 0 0.1\"/></joint>"));
+
+        // By `abbe import`, as any other file.
+        std::fs::write(&file, written).unwrap();
+        let read = Interpreter::new(Spec::parse("read.toml", &urdf(&file, false)).unwrap());
+        let [shift, turn] = difference(&machine, |q| matrix(&read.pose(q, &[]).unwrap()));
+        assert!(shift < 1e-9 && turn < 1e-9, "{shift:e} {turn:e}");
+
+        // Nothing is left to be changed in the file of the real robot, if the spec is that of it.
+        let real = Machine::of_spec(Spec::parse("real.toml", &urdf(&file, fold)).unwrap(), "real.toml");
+        let again = exported(&real, format);
+        assert_eq!((&again.files[0].text, again.changes.len()), (written, 0));
+    }
+}
+
+/// Numbers of a catalogue, and the file of another robot.
+#[test]
+fn the_file_of_another_robot_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("robot.urdf");
+    std::fs::write(&file, ROBOT).unwrap();
+    let text = urdf(&file, false);
+    let machine = Machine::of_spec(Spec::parse("arm.toml", &text).unwrap(), "arm.toml");
+    for (old, new, tip, message) in [
+        ("0.4 0 0.05", "0.5 0 0.05", "tool", "this is not the robot of the spec"),
+        ("name", "name", "mount", "joints move between the links"),
+    ] {
+        std::fs::write(&file, ROBOT.replace(old, new)).unwrap();
+        let format = Format::Urdf { file: file.clone(), base: None, tip: Some(tip.to_owned()) };
+        let job = Export { machine: machine.clone(), format, samples: 20, seed: 0 };
+        let mistake = job.run(&mut ()).unwrap_err();
+        assert!(mistake.list[0].message.contains(message), "{mistake:?}");
+    }
+}
+
+/// The six joints of a UR5 by hand, and what is wrong before the last of them.
+#[test]
+fn a_calibration_has_the_joints_where_they_are() {
+    let nominal = machine("ur5", "");
+    let report = exported(&nominal, Format::UrCalibration);
+    assert!(report.remains.position.largest < 1e-9);
+    // The numbers of the description itself, but for those by which this arm differs.
+    let lines = |text: &str| -> Vec<f64> {
+        let lines = text.lines().filter(|line| line.starts_with("    "));
+        lines.map(|line| line.trim().split_once(": ").unwrap().1.parse().unwrap()).collect()
+    };
+    let half = std::f64::consts::FRAC_PI_2;
+    let expected = [
+        [0.0, 0.0, 0.08916, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, half, 0.0, 0.0],
+        [-0.425, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [-0.39225, 0.0, 0.10915, 0.0, 0.0, 0.0],
+        [0.0, -0.09456, 0.0, half, 0.0, 0.0],
+        [0.0, 0.1133, 0.0, -half, 0.0, 0.0],
+    ];
+    for (found, expected) in lines(&report.files[0].text).iter().zip(expected.as_flattened()) {
+        assert!((found - expected).abs() < 1e-12, "{}", report.files[0].text);
+    }
+
+    let mut errors = all_errors(&nominal.spec);
+    errors.truncate(errors.find("\n[[source]]\nname = \"all of wrist 3\"").unwrap());
+    let real = machine("ur5", &errors);
+    let report = exported(&real, Format::UrCalibration);
+    assert!(report.before.position.largest > 1.0, "{:?}", report.before);
+    let numbers = lines(&report.files[0].text);
+    // From the last joint to the tool nothing is wrong here, and nothing lies between: d6 is within the joint.
+    let [shift, turn] = difference(&real, |q| {
+        let mut pose = Isometry3::identity();
+        for (origin, q) in numbers.chunks_exact(6).zip(q) {
+            let [x, y, z, roll, pitch, yaw] = origin[..] else { panic!() };
+            let placed = Translation3::new(1e3 * x, 1e3 * y, 1e3 * z)
+                * UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+            pose *= placed * about(Vector3::z(), *q, 0.0);
+        }
+        pose.to_homogeneous()
+    });
+    assert!(shift < 1e-8 && turn < 1e-10, "{shift:e} {turn:e}");
+    let job = Export { machine: machine("panda", ""), format: Format::UrCalibration, samples: 5, seed: 0 };
+    assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("7 joints turn here, and six"));
+}
