@@ -1,6 +1,9 @@
-//! What jobs say while they work: notes on stderr, and how far they are, if somebody watches and it takes longer than a second.
+//! What jobs say while they work: notes on stderr, and, if somebody watches and it takes longer than a second, a line that says how
+//! far they are; where nothing can be counted, that they are at work and since when.
 
 use std::io::{IsTerminal, stderr};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use abbe_study::Notes;
@@ -11,31 +14,93 @@ use crate::output::note;
 /// How long nothing is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Whoever watches a job from a terminal.
-#[derive(Default)]
-pub(crate) struct Console {
-    /// When the first part of the work that is shown began.
-    begun: Option<Instant>,
+/// How often the line without a count moves.
+const BEAT: Duration = Duration::from_millis(250);
+
+/// The last line of the terminal.
+struct Line {
     bar: Option<ProgressBar>,
+    /// Whether it counts.
+    counts: bool,
+    /// When there was a count last.
+    counted: Option<Instant>,
+    over: bool,
 }
 
-impl Console {
-    /// Takes the line of the progress away.
+static LINE: Mutex<Line> = Mutex::new(Line { bar: None, counts: false, counted: None, over: false });
+
+impl Line {
+    fn hold() -> MutexGuard<'static, Self> {
+        LINE.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes it away.
     fn clear(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }
     }
+
+    /// A bar of that kind in place of another one.
+    fn show(&mut self, counts: bool, make: impl FnOnce() -> ProgressBar, template: &str) -> &ProgressBar {
+        if self.counts != counts {
+            self.clear();
+        }
+        self.counts = counts;
+        self.bar.get_or_insert_with(|| {
+            let bar = make();
+            ProgressStyle::with_template(template).map_or(bar.clone(), |style| bar.with_style(style))
+        })
+    }
+}
+
+/// A line for everything that has no count: reading, fitting, writing. It is there until [`done`].
+pub(crate) fn watch() {
+    if !stderr().is_terminal() {
+        return;
+    }
+    let begun = Instant::now();
+    // Where there are no more threads, there is no line.
+    let _ = thread::Builder::new().spawn(move || {
+        loop {
+            thread::sleep(BEAT);
+            let mut line = Line::hold();
+            if line.over {
+                return;
+            }
+            let silent = line.counted.unwrap_or(begun).elapsed();
+            if silent > PATIENCE {
+                let make = || ProgressBar::new_spinner().with_elapsed(begun.elapsed());
+                line.show(false, make, "{spinner} at work for {elapsed}, Ctrl-C ends it").tick();
+            }
+        }
+    });
+}
+
+/// The work is done: what is printed now stands alone.
+pub(crate) fn done() {
+    let mut line = Line::hold();
+    line.over = true;
+    line.clear();
+}
+
+/// Whoever watches a job from a terminal.
+#[derive(Default)]
+pub(crate) struct Console {
+    /// When the first part of the work that is shown began.
+    begun: Option<Instant>,
 }
 
 impl Notes for Console {
     fn note(&mut self, text: &str) {
-        self.clear();
+        let mut line = Line::hold();
+        line.clear();
         note(&format!("note: {text}"));
     }
 
     fn warn(&mut self, text: &str) {
-        self.clear();
+        let mut line = Line::hold();
+        line.clear();
         note(&format!("warning: {text}"));
     }
 
@@ -43,24 +108,15 @@ impl Notes for Console {
         let begun = *self.begun.get_or_insert_with(Instant::now);
         if done >= total {
             self.begun = None;
-            return self.clear();
+            return Line::hold().clear();
         }
         if begun.elapsed() < PATIENCE || !stderr().is_terminal() {
             return;
         }
-        let bar = self.bar.get_or_insert_with(|| {
-            let bar = ProgressBar::new(total as u64).with_elapsed(begun.elapsed());
-            let style = ProgressStyle::with_template(
-                "{bar:30} {pos} of {len} configurations, {eta} left, Ctrl-C ends it",
-            );
-            style.map_or(bar.clone(), |style| bar.with_style(style))
-        });
-        bar.set_position(done as u64);
-    }
-}
-
-impl Drop for Console {
-    fn drop(&mut self) {
-        self.clear();
+        let mut line = Line::hold();
+        line.counted = Some(Instant::now());
+        let make = || ProgressBar::new(total as u64).with_elapsed(begun.elapsed());
+        let template = "{bar:30} {pos} of {len} configurations, {eta} left, Ctrl-C ends it";
+        line.show(true, make, template).set_position(done as u64);
     }
 }

@@ -37,7 +37,10 @@ use output::Outcome;
 
 fn main() -> ExitCode {
     interrupt::clean_up_on_signals();
-    let result = run(&Arguments::parse());
+    let arguments = Arguments::parse();
+    console::watch();
+    let result = run(&arguments);
+    console::done();
     match result.and_then(|outcome| outcome.print()) {
         Ok(status) => status,
         Err(failure) => failure.report(),

@@ -129,7 +129,7 @@ impl<'a> Prediction<'a> {
     }
 
     fn deviation(&mut self, q: Vec<f64>, u: Vec<f64>) -> Result<f64, Failure> {
-        let row = Observation::new(0, q, u, Measurement::Points(Vec::new()));
+        let row = Observation::new(0, q, u, Measurement::Points(Vec::new().into()));
         let nothing = vec![0.0; self.covariance.len()];
         let (_, moves) = self.model.tool(&mut self.room, &row, &nothing)?;
         let mut variance = 0.0;

@@ -61,7 +61,7 @@ fn measured(samples: usize, seed: u64) -> Data {
     for side in [sides(0), sides(1)] {
         assert!(side.contains(&1.0) && side.contains(&-1.0) && side.iter().all(|side| side.abs() <= 1.0));
     }
-    observations.iter_mut().for_each(|row| row.u.clear());
+    observations.iter_mut().for_each(|row| row.u = Vec::new().into());
     Data { file: "simulated".to_owned(), observations, stations: vec![String::new()], ..Data::default() }
 }
 
@@ -99,7 +99,7 @@ fn backlash_goes_round() {
     let left = |text: &str| {
         let map = Map::parse("found.map.toml", text, &found.spec).unwrap();
         let mut data = test.clone();
-        data.observations.iter_mut().for_each(|row| row.u = vec![0.0; found.spec.inputs.len()]);
+        data.observations.iter_mut().for_each(|row| row.u = vec![0.0; found.spec.inputs.len()].into());
         let job = Measure { machine: found.clone(), map, data, accept: Acceptance::default() };
         job.run(&mut ()).unwrap().explained.left_mean
     };
@@ -126,7 +126,7 @@ fn inputs_in_one_line_are_kept() {
     let settings =
         Settings { loss: Loss::Squares, prior: Prior::Share(0.01), folds: 5, time: None, points: false };
     let mut data = measured(150, 1);
-    data.observations.iter_mut().for_each(|row| row.u = vec![0.0; 2]);
+    data.observations.iter_mut().for_each(|row| row.u = vec![0.0; 2].into());
     let job = Identify {
         machine: nominal.clone(),
         map: map.clone(),

@@ -199,7 +199,7 @@ fn rows_are_grouped_and_ordered_by_columns() {
     let (_folder, path) = file(&format!("{head}{rows}"));
     let numbers = |map: &Map| {
         let data = Data::read(&path, map).unwrap();
-        data.observations.iter().map(|row| (row.configuration, row.time)).collect::<Vec<_>>()
+        data.observations.iter().map(|row| (row.configuration, row.time())).collect::<Vec<_>>()
     };
     assert_eq!(numbers(&map(POINT)), [(0, None), (0, None), (1, None)]);
     let text = "[data]\ngroup = \"pose\"\ntime = \"minute\"\nuncertainty = \"0.02 mm\"\n\n[joints]\n";
@@ -403,7 +403,7 @@ fn names_of_the_spec_are_a_map() {
     let map = Map::from_names(&["q1".to_owned()], &spec);
     let (_folder, path) = file("q1,q2,q3,q4,q5,q6\n0.1,0.2,0.3,0.4,0.5,0.6\n");
     let data = Data::read_commanded(&path, &map).unwrap();
-    assert_eq!(data.observations[0].q, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    assert_eq!(*data.observations[0].q, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
     let (_folder, path) = file("q1,q2,q3,q4_deg,q5,q6\n0.1,0.2,0.3,0.4,0.5,0.6\n");
     let mistake = Data::read_commanded(&path, &map).unwrap_err().to_string();
     assert!(

@@ -38,8 +38,8 @@ impl Watched {
         let place = |i: usize| {
             let q = (0..6)
                 .map(|j| 1.2 * (1.7 * (i + 1) as f64 * (j + 2) as f64).sin() - 0.3 * j as f64)
-                .collect();
-            Observation::new(i as u64 + 2, q, Vec::new(), Measurement::Points(vec![Some([0.0; 3])]))
+                .collect::<Vec<f64>>();
+            Observation::new(i as u64 + 2, q, Vec::new(), Measurement::Points(vec![Some([0.0; 3])].into()))
         };
         Self { machine, interpreter, places: (0..POINTS).map(place).collect() }
     }

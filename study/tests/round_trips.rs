@@ -266,14 +266,14 @@ fn stations_of_rows_are_simulated() {
     let stated = STATION.replace("]]\n", "]]\nname = \"door\"\n");
     let rows = measured(&way.map(column, &format!("{stated}{}", way.mounted)), 8, 5);
     let mut at = Data { stations: vec!["door".to_owned(), "wall".to_owned()], ..rows };
-    at.observations.iter_mut().enumerate().for_each(|(i, row)| row.station = i % 2);
+    at.observations.iter_mut().enumerate().for_each(|(i, row)| row.station = i as u32 % 2);
     let simulated = |map: Map| {
         let at = Places::Rows(at.clone());
         Simulate { machine: real(), map, at, noise: Some(0.0), outliers: 0.0, random: false, seed: 1 }
             .run(&mut ())
     };
     let report = simulated(way.map(column, &way.mounted)).unwrap();
-    let stations: Vec<usize> = report.observations.iter().map(|row| row.station).collect();
+    let stations: Vec<u32> = report.observations.iter().map(|row| row.station).collect();
     assert_eq!(stations, [0, 1, 0, 1, 0, 1, 0, 1]);
     let refused = simulated(way.map(column, &format!("{stated}{}", way.mounted))).unwrap_err().to_string();
     for said in ["rows of station `wall`", "the map does not say where it is", "add a [[station]]"] {

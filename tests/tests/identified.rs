@@ -213,14 +213,14 @@ fn with_backlash(backlash: &str, samples: usize) -> Data {
     for row in &mut data.observations {
         let direction = if first { 0.0 } else { (row.q[0] - before).signum() };
         (before, first) = (row.q[0], false);
-        row.u = vec![direction];
+        row.u = vec![direction].into();
     }
     let machine = machine(&truth);
     let map = map("exact", POINT, &machine);
     let at = Places::Rows(data);
     let job = Simulate { machine, map, at, noise: None, outliers: 0.0, random: false, seed: 8 };
     let mut observations = job.run(&mut ()).unwrap().observations;
-    observations.iter_mut().for_each(|row| row.u.clear());
+    observations.iter_mut().for_each(|row| row.u = Vec::new().into());
     Data { file: "data.csv".to_owned(), observations, ..Data::default() }
 }
 

@@ -56,7 +56,7 @@ fn commanded_points() -> Result<(), Missing> {
 fn observations(file: &str) -> Result<Vec<Observation>, Missing> {
     let observation = |(line, row): (u64, &Vec<f64>)| {
         let point = std::array::from_fn(|i| row[1 + i] - row[4 + i]);
-        Observation::new(line, joints(row), Vec::new(), Measurement::Points(vec![Some(point)]))
+        Observation::new(line, joints(row), Vec::new(), Measurement::Points(vec![Some(point)].into()))
     };
     Ok((2..).zip(&rows(file)?).map(observation).collect())
 }

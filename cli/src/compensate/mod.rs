@@ -4,14 +4,14 @@ mod text;
 
 use abbe_codegen::spec::Spec;
 use abbe_report::Provenance;
-use abbe_study::compensate::{Compensate, check_poses};
+use abbe_study::compensate::{Compensate, Report, check_poses};
 use abbe_study::data::{Data, Map};
 
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, Outputs, json};
+use crate::output::{Outcome, Outputs, Rows, json};
 
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -24,10 +24,23 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     };
     let job = Compensate { machine, map, data, poses: arguments.poses, tolerance };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
-    let commands = outputs.wanted(arguments.out.as_deref())?;
+    let out = arguments.out.as_deref();
+    let mut commands = out.map(|file| outputs.rows(file, &job.heading())).transpose()?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
-    let report = job.run(&mut Console::default())?;
-    let commands = commands.map(|file| file.fill(&report.table(&job.map).csv())).transpose()?;
+    let mut rows = Vec::new();
+    // JSON and pictures are of all rows; a file of commands needs one after the other.
+    let keep = arguments.running.json || page.is_some();
+    let report = job.each(&mut Console::default(), |row| {
+        if let Some(csv) = &mut commands {
+            csv.row(job.label(&row), &row.numbers(&job.map))?;
+        }
+        if keep {
+            rows.push(row);
+        }
+        Ok::<_, Failure>(())
+    })?;
+    let report = Report { rows, ..report };
+    let commands = commands.map(Rows::finish).transpose()?;
     let page = page.map(|file| {
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);

@@ -5,14 +5,8 @@ use std::path::Path;
 use abbe::{Class, Description, VariableKind};
 
 use abbe_report::text::{Table, wrapped};
-use abbe_study::compensate::{Report, Row, Size};
+use abbe_study::compensate::{Report, Size, Told};
 use abbe_study::number::{error_decimals, fixed, length, short};
-
-/// Corrections of a joint by more degrees than this are pointed at.
-const FAR: f64 = 10.0;
-
-/// How many rows are shown one by one.
-const SHOWN: usize = 10;
 
 pub(super) fn text(description: &Description, report: &Report, out: Option<&Path>) -> String {
     let mut parts = vec![format!("{}: compensated\n\n", description.title)];
@@ -43,7 +37,7 @@ pub(super) fn text(description: &Description, report: &Report, out: Option<&Path
     parts.push(wrapped(from, 0) + "\n");
     parts.push(commands(description, report));
     if let Some(file) = out {
-        parts.push(format!("{}: {} rows\n", file.display(), report.rows.len()));
+        parts.push(format!("{}: {} rows\n", file.display(), report.told.rows));
     }
     parts.join("\n")
 }
@@ -68,7 +62,7 @@ fn commands(description: &Description, report: &Report) -> String {
     let names: Vec<String> = names.collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let mut table = Table::new(&[&["line"][..], &names, &["before", "after"]].concat());
-    for row in report.rows.iter().take(SHOWN) {
+    for row in &report.told.first {
         let values = description.variables.iter().zip(&row.q.0);
         let values = values.map(|(variable, (_, value))| match variable.kind {
             VariableKind::Revolute => format!("{:.4}", value.to_degrees()),
@@ -79,7 +73,7 @@ fn commands(description: &Description, report: &Report) -> String {
         table.row([&[row.line.to_string()][..], &values.collect::<Vec<_>>(), &left].concat());
     }
     let right: Vec<usize> = (0..description.variables.len() + 3).collect();
-    let more = report.rows.len().saturating_sub(SHOWN);
+    let more = report.told.rows - report.told.first.len();
     let more = if more > 0 { format!("… and {more} more\n") } else { String::new() };
     format!("Corrected commands\n{}{more}", table.right(&right))
 }
@@ -93,26 +87,22 @@ fn done(description: &Description, report: &Report) -> String {
     let tolerance = length(report.tolerance, description.length);
     let mut text = format!(
         "{} of {} rows are compensated: no more than {tolerance}{turn} is left at the tool point.",
-        report.compensated,
-        report.rows.len()
+        report.compensated, report.told.rows
     );
     text = wrapped(&text, 0) + "\n";
-    let failed = report.rows.iter().filter_map(|row| Some((row.line, row.reason.as_ref()?)));
-    let failed: Vec<String> = failed.map(|(line, reason)| format!("line {line}: {reason}")).collect();
-    for line in failed.iter().take(SHOWN) {
-        text += &format!("  {}\n", wrapped(line, 4));
+    let Told { failed, reasons, far, farthest, .. } = &report.told;
+    for (line, reason) in reasons {
+        text += &format!("  {}\n", wrapped(&format!("line {line}: {reason}"), 4));
     }
-    if failed.len() > SHOWN {
-        text += &format!("  … and {} more\n", failed.len() - SHOWN);
+    if *failed > reasons.len() {
+        text += &format!("  … and {} more\n", failed - reasons.len());
     }
-    let far: Vec<&Row> = report.rows.iter().filter(|row| row.largest_turn > FAR.to_radians()).collect();
-    if let Some(most) = far.iter().max_by(|a, b| a.largest_turn.total_cmp(&b.largest_turn)) {
+    if let Some((line, turn)) = farthest {
         let sentence = format!(
-            "In {} rows a joint turns by more than {FAR}° from its command (line {}: by {:.0}°): look at them before they are \
+            "In {far} rows a joint turns by more than {}° from its command (line {line}: by {:.0}°): look at them before they are \
              sent.",
-            far.len(),
-            most.line,
-            most.largest_turn.to_degrees()
+            Told::FAR,
+            turn.to_degrees()
         );
         text += &(wrapped(&sentence, 0) + "\n");
     }

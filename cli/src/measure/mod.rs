@@ -2,9 +2,10 @@
 
 mod text;
 
+use abbe_codegen::spec::Spec;
 use abbe_report::Provenance;
 use abbe_study::data::{Data, Map};
-use abbe_study::measure::Measure;
+use abbe_study::measure::{Measure, Report};
 
 use crate::arguments;
 use crate::console::Console;
@@ -28,21 +29,24 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
             Some((outputs.file(&folder.join("errors.csv"))?, outputs.file(&folder.join(abbe_report::PAGE))?))
         }
     };
+    let spec = job.machine.spec.clone();
+    let Some((errors, page)) = files else {
+        return outcome(arguments, &spec, &job.figures(&mut Console::default())?);
+    };
     let report = job.run(&mut Console::default())?;
-    let spec = &job.machine.spec;
-    if let Some((errors, page)) = files {
-        let provenance = Provenance::new(
-            spec,
-            Some(&job.map),
-            [("measurements", &arguments.measured.data)],
-            arguments.date.as_ref(),
-        )?;
-        let text = abbe_report::measurement(spec, &job.map, &report, &provenance);
-        outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
-    }
+    let provenance = Provenance::new(
+        &spec,
+        Some(&job.map),
+        [("measurements", &arguments.measured.data)],
+        arguments.date.as_ref(),
+    )?;
+    let text = abbe_report::measurement(&spec, &job.map, &report, &provenance);
+    outputs.finish([errors.fill(&report.table().csv())?, page.fill(&text)?])?;
+    outcome(arguments, &spec, &report)
+}
+
+fn outcome(arguments: &arguments::Measure, spec: &Spec, report: &Report) -> Result<Outcome, Failure> {
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    Ok(Outcome::checked(
-        if arguments.running.json { json(&report)? } else { text::text(spec, &report) },
-        accepted,
-    ))
+    let text = if arguments.running.json { json(report)? } else { text::text(spec, report) };
+    Ok(Outcome::checked(text, accepted))
 }

@@ -13,7 +13,7 @@ mod places;
 mod record;
 pub(crate) mod temporary;
 
-use std::io::{self, ErrorKind, Write, stderr, stdout};
+use std::io::{self, ErrorKind, Read, Write, stderr, stdout};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -22,7 +22,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 
 pub(crate) use outputs::Outputs;
-pub(crate) use pending::Pending;
+pub(crate) use pending::{Pending, Rows};
 
 /// What a command found out.
 #[derive(Debug)]
@@ -53,7 +53,7 @@ impl Outcome {
     pub(crate) fn print(&self) -> Result<ExitCode, Failure> {
         match self.aside {
             true => note(self.text.trim_end()),
-            false => print(self.text.as_bytes())?,
+            false => print(&mut self.text.as_bytes())?,
         }
         Ok(ExitCode::from(u8::from(!self.passed)))
     }
@@ -64,9 +64,9 @@ impl Outcome {
 pub(crate) struct Printed(bool);
 
 /// Writes to stdout; a reader who has seen enough is no failure.
-fn print(bytes: &[u8]) -> Result<(), Failure> {
+fn print(content: &mut impl Read) -> Result<(), Failure> {
     let mut out = stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
+    match io::copy(content, &mut out).and_then(|_| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::of("stdout", format!("cannot write the results: {error}")))
         }

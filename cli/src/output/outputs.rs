@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use abbe_study::Reads;
+use abbe_study::data::Heading;
 
 use super::identity::Identity;
-use super::pending::{Content, Pending};
+use super::pending::{Content, Pending, Rows};
 use super::place::{Place, is_stdout, parent};
 use super::places::{Complete, put};
 use super::temporary::{self, Folders};
@@ -57,6 +58,11 @@ impl Outputs {
     /// As [`file`](Self::file), if one is wanted.
     pub(crate) fn wanted(&mut self, path: Option<&Path>) -> Result<Option<Pending>, Failure> {
         path.map(|path| self.file(path)).transpose()
+    }
+
+    /// As [`file`](Self::file), for a table that is written row by row.
+    pub(crate) fn rows(&mut self, path: &Path, heading: &Heading) -> Result<Rows, Failure> {
+        Rows::new(self.file(path)?, heading)
     }
 
     /// Makes a folder for files, or says why none must be written there.
@@ -127,17 +133,18 @@ impl Outputs {
                     names.push(file.path);
                     complete.push(Complete { file: content, place, hash });
                 }
-                (place, Content::Memory(content)) => through.push((file.path, place, content)),
+                (place, Content::Apart(content)) => through.push((file.path, place, content)),
                 (_, Content::Beside(_)) => {}
             }
         }
-        for (path, place, content) in through {
+        for (path, place, mut content) in through {
+            content.rewind().map_err(|error| cannot_write(&path, &error))?;
             match place {
                 Place::Stdout => {
-                    print(&content)?;
+                    print(&mut content)?;
                     printed = Printed(true);
                 }
-                _ => write_through(&path, &content).map_err(|error| cannot_write(&path, &error))?,
+                _ => write_through(&path, &mut content).map_err(|error| cannot_write(&path, &error))?,
             }
         }
         remember(&written);
@@ -151,9 +158,9 @@ impl Outputs {
 }
 
 /// Writes to what is no regular file, or is opened already: at its end.
-fn write_through(path: &Path, content: &[u8]) -> io::Result<()> {
+fn write_through(path: &Path, content: &mut impl Read) -> io::Result<()> {
     let mut file = File::options().append(true).open(path)?;
-    file.write_all(content)?;
+    io::copy(content, &mut file)?;
     file.flush()
 }
 

@@ -4,8 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use abbe_study::data::{Csv, Heading};
 use sha2::{Digest, Sha256};
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, SpooledTempFile};
 
 use super::place::{Place, parent};
 use super::{cannot_write, temporary};
@@ -21,12 +22,15 @@ pub(crate) struct Pending {
     hash: Sha256,
 }
 
-/// Where it is until then.
+/// Where it is until then: beside its place; or, for pipes and devices, in memory, and beyond [`SMALL`] in a file without a name.
 #[derive(Debug)]
 pub(super) enum Content {
     Beside(NamedTempFile<File>),
-    Memory(Vec<u8>),
+    Apart(SpooledTempFile),
 }
+
+/// What is kept in memory, in bytes.
+const SMALL: usize = 1 << 20;
 
 impl Pending {
     pub(super) fn begin(path: &Path, place: Place) -> Result<Self, Failure> {
@@ -36,7 +40,7 @@ impl Pending {
                 let begun = temporary::file(parent(file), old.as_ref());
                 Content::Beside(begun.map_err(|error| cannot_write(path, &error))?)
             }
-            Place::Stdout | Place::Through(_) => Content::Memory(Vec::new()),
+            Place::Stdout | Place::Through(_) => Content::Apart(SpooledTempFile::new(SMALL)),
         };
         Ok(Self { path: path.to_owned(), place, content, hash: Sha256::new() })
     }
@@ -64,7 +68,7 @@ impl Write for Pending {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = match &mut self.content {
             Content::Beside(file) => file.as_file_mut().write(bytes)?,
-            Content::Memory(memory) => memory.write(bytes)?,
+            Content::Apart(file) => file.write(bytes)?,
         };
         self.hash.update(&bytes[..written]);
         Ok(written)
@@ -72,5 +76,29 @@ impl Write for Pending {
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
+    }
+}
+
+/// A CSV file that is written row by row.
+pub(crate) struct Rows {
+    path: PathBuf,
+    csv: Csv<Pending>,
+}
+
+impl Rows {
+    pub(super) fn new(file: Pending, heading: &Heading) -> Result<Self, Failure> {
+        let path = file.path.clone();
+        let csv = Csv::new(file, heading).map_err(|error| cannot_write(&path, &error))?;
+        Ok(Self { path, csv })
+    }
+
+    /// A row: a label, if there is a column of them, and numbers.
+    pub(crate) fn row(&mut self, label: Option<&str>, numbers: &[Option<f64>]) -> Result<(), Failure> {
+        self.csv.row(label, numbers).map_err(|error| cannot_write(&self.path, &error))
+    }
+
+    /// The file with all rows in it.
+    pub(crate) fn finish(self) -> Result<Pending, Failure> {
+        self.csv.finish().map_err(|error| cannot_write(&self.path, &error))
     }
 }

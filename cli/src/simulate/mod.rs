@@ -1,5 +1,7 @@
 //! `abbe simulate`: measurements of a machine whose errors are known.
 
+use std::path::Path;
+
 use abbe_study::data::{Data, Map};
 use abbe_study::simulate::{Places, Simulate};
 
@@ -28,14 +30,18 @@ pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
         seed: arguments.seed,
     };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
-    let out = outputs.wanted(arguments.out.as_deref())?;
-    let report = job.run(&mut Console::default())?;
-    let table = &report.table;
-    let printed = outputs.finish(out.map(|file| file.fill(&table.csv())).transpose()?)?;
-    let text = match &arguments.out {
-        _ if arguments.running.json => json(&report)?,
-        Some(file) => format!("{}: {} rows\n", file.display(), table.rows.len()),
-        None => table.csv(),
-    };
-    Ok(Outcome::passed(text).beside(printed))
+    let mut watch = Console::default();
+    if arguments.running.json {
+        let out = outputs.wanted(arguments.out.as_deref())?;
+        let report = job.run(&mut watch)?;
+        let printed = outputs.finish(out.map(|file| file.fill(&report.table.csv())).transpose()?)?;
+        return Ok(Outcome::passed(json(&report)?).beside(printed));
+    }
+    let mut csv = outputs.rows(arguments.out.as_deref().unwrap_or(Path::new("-")), &job.heading())?;
+    let count = job.each(&mut watch, |row| csv.row(row.label, &row.numbers))?;
+    let printed = outputs.finish([csv.finish()?])?;
+    Ok(match &arguments.out {
+        Some(file) => Outcome::passed(format!("{}: {count} rows\n", file.display())).beside(printed),
+        None => Outcome::passed(String::new()),
+    })
 }

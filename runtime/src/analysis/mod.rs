@@ -67,7 +67,7 @@ use reach::Inverse;
 pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
 #[cfg(feature = "identify")]
 pub(crate) use sweep::in_order;
-pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, sweep};
+pub use sweep::{BLOCK, Row, Sweepable, Unevaluated, in_order_until, sweep};
 pub use uncertainty::{
     COVERAGE, Compliance, Contribution, DRAWS, ErrorsAt, Statement, compliance, errors_at, normal_compliance,
     student_95,

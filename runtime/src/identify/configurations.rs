@@ -39,7 +39,7 @@ pub struct Configurations {
 impl Configurations {
     /// Those of these rows.
     pub fn new<'o>(rows: impl IntoIterator<Item = &'o Observation>) -> Self {
-        Self::from_keys(rows.into_iter().map(|row| row.configuration))
+        Self::from_numbers(rows.into_iter().map(|row| row.configuration as usize).collect())
     }
 
     /// The rows of as many configurations, drawn with replacement: one repetition of the bootstrap where rows depend on each other
@@ -79,6 +79,24 @@ impl Configurations {
         let mut ends = vec![0; self.count];
         order.iter().enumerate().for_each(|(place, row)| ends[self.number[*row]] = place + 1);
         Groups { order, ends }
+    }
+
+    /// Rows with the same number belong together: what may be a million is numbered in place.
+    pub(super) fn from_numbers(mut number: Vec<usize>) -> Self {
+        let largest = number.iter().copied().max().unwrap_or_default();
+        if largest > 1024 + 4 * number.len() {
+            return Self::from_keys(number);
+        }
+        const NONE: u32 = u32::MAX;
+        let (mut known, mut count) = (vec![NONE; largest + 1], 0);
+        for number in &mut number {
+            let known = &mut known[*number];
+            if *known == NONE {
+                (*known, count) = (count, count + 1);
+            }
+            *number = *known as usize;
+        }
+        Self { count: count as usize, number }
     }
 
     /// Rows with the same key belong together.
@@ -123,5 +141,13 @@ mod tests {
         assert_eq!(rows.resampled(1, 3), rows.resampled(1, 3));
         assert_ne!(rows.resampled(1, 3), rows.resampled(2, 3));
         assert!(Configurations::from_keys([0; 0]).resampled(1, 0).is_empty());
+    }
+
+    #[test]
+    fn numbers_are_keys() {
+        for numbers in [vec![], vec![3, 0, 3, 2, 9, 0], vec![5, 1 << 40, 5, 7]] {
+            let found = Configurations::from_numbers(numbers.clone());
+            assert_eq!(found, Configurations::from_keys(numbers));
+        }
     }
 }

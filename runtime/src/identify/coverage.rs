@@ -26,10 +26,10 @@ fn machine(targets: usize) -> Model<'static> {
 fn planned(model: &Model, configurations: usize, visits: usize) -> Vec<Observation> {
     let samples = joint_samples(&Pps, &[0, 1, 2, 3, 4, 5], configurations).unwrap().reached();
     let rounds = (0..visits).flat_map(|_| samples.iter().enumerate());
-    let nothing = Measurement::Points(vec![Some([0.0; 3]); model.targets.len()]);
+    let nothing = Measurement::Points(vec![Some([0.0; 3]); model.targets.len()].into());
     let row = |(line, (configuration, sample)): (u64, (usize, &crate::analysis::Configuration))| {
         let row = Observation::new(line, sample.q.clone(), Vec::new(), nothing.clone());
-        Observation { configuration, ..row }
+        Observation { configuration: configuration as u32, ..row }
     };
     (2..).zip(rounds).map(row).collect()
 }
@@ -52,7 +52,7 @@ fn drawn(
     let mut room = model.room();
     let measured = list.iter().map(|row| {
         let pose = model.pose(&mut room, row, &truth).unwrap();
-        let shift = shared[row.configuration];
+        let shift = shared[row.configuration as usize];
         let points = model.targets.iter().map(|target| {
             let at = pose.apply(*target);
             Some(core::array::from_fn(|i| at[i] + shift[i] + normal(noise)))

@@ -66,16 +66,19 @@ pub fn drift(model: &Model, rows: &[&Observation], x: &[f64]) -> Result<Option<D
                 count += 1.0;
             })?;
             if count > 0.0 {
-                means.push((row.time.unwrap_or(place as f64), place, sum.map(|sum| sum / count)));
+                means.push((row.time().unwrap_or(place as f64), place, sum.map(|sum| sum / count)));
             }
         }
         Ok(means)
     };
-    let mut errors: Vec<Timed> = Vec::new();
+    let mut errors: Vec<Timed> = Vec::with_capacity(rows.len());
     by_blocks(rows, block, |means| {
         errors.extend(means.into_iter().map(|(time, place, mean)| (time, rows[place], mean)));
     })?;
-    errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // A stable sort takes room for half of them, and they are in order most of the time.
+    if !errors.is_sorted_by(|a, b| a.0.total_cmp(&b.0).is_le()) {
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
     Ok(judged(&errors))
 }
 
@@ -86,30 +89,32 @@ fn judged(errors: &[Timed]) -> Option<Drift> {
     let tenth = errors.len() / 10;
     let distances = |part: &[Timed]| part.iter().map(|e| norm(e.2)).sum::<f64>() / part.len().max(1) as f64;
     let ends = [distances(&errors[..tenth]), distances(&errors[errors.len() - tenth..])];
-    let configurations = Configurations::new(errors.iter().map(|e| e.1));
-    let rows = configurations.rows();
-    let groups = rows.slices();
-    let again: usize = groups.iter().map(|group| group.len()).filter(|visits| *visits > 1).sum();
-    let visited_again = 2 * again > errors.len();
-    let mut values: Vec<[f64; 4]> =
-        errors.iter().map(|(_, _, [x, y, z])| [*x, *y, *z, norm([*x, *y, *z])]).collect();
+    let Configurations { count, number } = Configurations::new(errors.iter().map(|e| e.1));
+    let mut visits = vec![0_u32; count];
+    number.iter().for_each(|at| visits[*at] += 1);
+    let again: u32 = visits.iter().filter(|visits| **visits > 1).sum();
+    let visited_again = 2 * again as usize > errors.len();
+    let of_row = |i: usize| {
+        let [x, y, z] = errors[i].2;
+        [x, y, z, norm([x, y, z])]
+    };
+    // By configuration the mean of its visits, where they are taken off.
+    let mut means = vec![[0.0; 4]; if visited_again { count } else { 0 }];
     if visited_again {
-        for group in &groups {
-            let mean: [f64; 4] = core::array::from_fn(|a| {
-                group.iter().map(|i| values[*i][a]).sum::<f64>() / group.len() as f64
-            });
-            group.iter().for_each(|i| (0..4).for_each(|a| values[*i][a] -= mean[a]));
+        for (i, at) in number.iter().enumerate() {
+            let value = of_row(i);
+            (0..4).for_each(|a| means[*at][a] += value[a] / f64::from(visits[*at]));
         }
     }
-    let kept: Vec<usize> =
-        (0..errors.len()).filter(|i| !visited_again || groups[configurations.number[*i]].len() > 1).collect();
+    let value = |i: usize, a: usize| of_row(i)[a] - means.get(number[i]).map_or(0.0, |mean| mean[a]);
+    let kept: Vec<usize> = (0..errors.len()).filter(|i| !visited_again || visits[number[*i]] > 1).collect();
     if kept.len() < FEWEST {
         return None;
     }
     let pieces: Vec<&[usize]> = kept.chunks(kept.len().div_ceil(PIECES)).collect();
     let n = pieces.len();
-    let mean = |piece: &[usize], value: &dyn Fn(usize) -> f64| {
-        piece.iter().map(|i| value(*i)).sum::<f64>() / piece.len() as f64
+    let mean = |piece: &[usize], of: &dyn Fn(usize) -> f64| {
+        piece.iter().map(|i| of(*i)).sum::<f64>() / piece.len() as f64
     };
     let joints = errors[0].1.q.len();
     let mut nuisance = vec![DVector::repeat(n, 1.0)];
@@ -122,9 +127,7 @@ fn judged(errors: &[Timed]) -> Option<Drift> {
     let nuisance = orthonormal(&nuisance);
     let cleaned = |column: DVector<f64>| nuisance.iter().fold(column, |c, z| &c - z * z.dot(&c));
     let values: Vec<DVector<f64>> = (0..4)
-        .map(|a| {
-            cleaned(DVector::from_iterator(n, pieces.iter().map(|piece| mean(piece, &|i| values[i][a]))))
-        })
+        .map(|a| cleaned(DVector::from_iterator(n, pieces.iter().map(|piece| mean(piece, &|i| value(i, a))))))
         .collect();
     let (first, last) = (errors[kept[0]].0, errors[kept[kept.len() - 1]].0);
     let time = |i: usize| if last > first { (errors[i].0 - first) / (last - first) } else { 0.0 };
@@ -219,9 +222,9 @@ mod tests {
                 i as u64,
                 places[configuration].to_vec(),
                 Vec::new(),
-                Measurement::Points(vec![]),
+                Measurement::Points(vec![].into()),
             );
-            Observation { configuration, ..row }
+            Observation { configuration: configuration as u32, ..row }
         };
         let rows: Vec<Observation> = (0..count).map(row).collect();
         let normal = rand_distr::Normal::new(0.0, 1.0).unwrap();

@@ -81,7 +81,8 @@ impl Distances {
     /// With the sums `d_c = Σ_i (v_ci − v̄)` over the values of each of `C` configurations:
     /// `s² = C/(C − 1) · Σ d_c² / n²`, which for one value each is that of a mean.
     fn mean(&self) -> (f64, f64, usize) {
-        let Configurations { count, number } = Configurations::from_keys(self.0.iter().map(|(at, _)| at));
+        let Configurations { count, number } =
+            Configurations::from_numbers(self.0.iter().map(|(at, _)| *at).collect());
         let n = self.0.len().max(1) as f64;
         let mean = self.0.iter().map(|(_, value)| value).sum::<f64>() / n;
         let mut sums = vec![0.0; count];

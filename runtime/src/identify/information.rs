@@ -247,7 +247,7 @@ impl Model<'_> {
     ) -> Result<Observation, Failure> {
         let mut expected = observation.clone();
         if let Measurement::Pose(pose) = &mut expected.measured {
-            *pose = self.pose(room, observation, &vec![0.0; self.unknowns.len()])?;
+            **pose = self.pose(room, observation, &vec![0.0; self.unknowns.len()])?;
         }
         Ok(expected)
     }

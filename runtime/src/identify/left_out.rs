@@ -84,7 +84,7 @@ impl LeftOut {
                         columns[(at, j)] = derivatives[term.unknown] * factor;
                     }
                     columns[(at, terms.len())] = -weight * residual;
-                    configuration.push(data[i].configuration);
+                    configuration.push(data[i].configuration as usize);
                     at += 1;
                 })?;
             }
@@ -251,8 +251,8 @@ fn chosen_rows(data: &[Observation], fit: &Fit, folds: &Folds, most: usize) -> V
     let numbers: usize = data.iter().map(Observation::count).sum();
     let step = numbers.div_ceil(most.max(1)).max(1);
     let mut rows = vec![Vec::new(); folds.count];
-    for i in
-        (0..data.len()).filter(|i| fit.weights[*i] >= REJECTED && data[*i].configuration.is_multiple_of(step))
+    for i in (0..data.len())
+        .filter(|i| fit.weights[*i] >= REJECTED && (data[*i].configuration as usize).is_multiple_of(step))
     {
         rows[folds.fold[i]].push(i);
     }

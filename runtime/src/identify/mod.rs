@@ -49,10 +49,10 @@
 //! let truth = [0.3, 1e-3];
 //! let measure = |line: u64| {
 //!     let q = vec![0.1 * line as f64, 1.5 - 0.15 * line as f64];
-//!     let nothing = Measurement::Points(vec![None]);
+//!     let nothing = Measurement::Points(vec![None].into());
 //!     let planned = Observation::new(line, q, Vec::new(), nothing);
 //!     let point = arm.pose(&mut arm.room(), &planned, &truth)?.position();
-//!     Ok(Observation { measured: Measurement::Points(vec![Some(point)]), ..planned })
+//!     Ok(Observation { measured: Measurement::Points(vec![Some(point)].into()), ..planned })
 //! };
 //! let data = (1..=20).map(measure).collect::<Result<Vec<_>, Failure>>()?;
 //!
@@ -97,6 +97,7 @@ mod tool_points;
 mod touch;
 mod triangle;
 mod unknown;
+mod values;
 mod variance;
 
 #[cfg(test)]
@@ -116,17 +117,18 @@ pub use groups::{Group, Reason, groups};
 pub use identifiable::{Identifiable, THRESHOLD, Weak, identifiable, knowable};
 pub use information::Criterion;
 pub use model::Model;
-pub use observation::{Measurement, Observation, Uncertainty};
+pub use observation::{Approach, Measurement, Observation, Uncertainty};
 pub use options::Options;
 pub use reading::{Fixture, Gauge, Place, Reading, tangents};
 pub use registration::{Registration, register};
 pub use residuals::Room;
 pub use robust::{Loss, robust_scale};
 pub use select::{Factored, Offer, Selection, select};
-pub use simulate::{Chance, simulate};
+pub use simulate::{Chance, Simulated, simulate};
 pub use station::Station;
 pub use statistics::{FTest, Observability, deviation_beyond, f_test, student_beyond, student_factor};
 pub use tool_points::ToolPoints;
 pub use touch::touched;
 pub use unknown::{Role, Unknown};
+pub use values::{Inputs, Points, Values};
 pub use variance::{VarianceComponent, variance_components};

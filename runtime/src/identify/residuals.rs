@@ -35,7 +35,7 @@ impl Model<'_> {
         room.errors.fill([0.0; 6]);
         room.tool = [0.0; 6];
         room.base = [0.0; 6];
-        room.station = observation.station;
+        room.station = observation.station as usize;
         room.targets.copy_from_slice(&self.targets);
         room.fixtures.fill([0.0; 3]);
         for (zero, reading) in room.zeros.iter_mut().zip(&self.readings) {
@@ -52,7 +52,7 @@ impl Model<'_> {
         }
         for (unknown, value) in self.unknowns.iter().zip(x) {
             match *unknown {
-                Unknown::Base(station, component) if station == observation.station => {
+                Unknown::Base(station, component) if station == room.station => {
                     room.base[component.index()] += value;
                 }
                 Unknown::Base(..) => {}
@@ -75,12 +75,12 @@ impl Model<'_> {
 
     /// Runs along the chain: where everything is, and how it moves.
     fn chain(&self, room: &mut Room, observation: &Observation, x: &[f64]) -> Result<(), Failure> {
-        let station = self.stations.get(observation.station).ok_or(Failure::Observation {
+        let station = self.stations.get(observation.station as usize).ok_or(Failure::Observation {
             line: observation.line,
             error: Error::Count {
                 quantity: Quantity::Pose,
                 expected: self.stations.len(),
-                found: observation.station + 1,
+                found: observation.station as usize + 1,
             },
         })?;
         self.errors(room, observation, x)
@@ -96,7 +96,7 @@ impl Model<'_> {
         let last = room.errors.len();
         let tool = frames[last].after.then(&transforms[last]);
         frames.push(Frame::new(&tool.then(&self.mounting), displaced[last + 1].by(&room.tool)));
-        if let Some(from) = &observation.from {
+        if let Some(from) = observation.from() {
             let mut start = room.start.take().unwrap_or_else(|| Box::new(self.room()));
             self.chain(&mut start, from, x)?;
             room.start = Some(start);
@@ -367,7 +367,7 @@ impl Model<'_> {
             let mut norms = Vec::with_capacity(rows.len());
             for (i, row) in rows.iter().enumerate() {
                 let Some(x) = x(first + i) else { continue };
-                let norm = |deviation| norms.push((row.configuration, sampling::norm(deviation)));
+                let norm = |deviation| norms.push((row.configuration as usize, sampling::norm(deviation)));
                 self.each_deviation(&mut room, row, x, norm)?;
             }
             Ok(norms)

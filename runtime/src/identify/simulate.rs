@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 use rand_distr::Normal;
 
-use super::{Failure, Measurement, Model, Observation, Unknown, touched};
+use super::{Failure, Measurement, Model, Observation, Room, Unknown, touched};
 use crate::analysis::sampling::{draw, stream};
 use crate::chain::displacement;
 use crate::{Class, Distribution};
@@ -33,25 +33,47 @@ const APART: u64 = 0x6d65_6173_7572_6564;
 ///
 /// Observation i follows from the seed and i alone. What was measured says which targets are seen, or that poses are.
 pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<Vec<Observation>, Failure> {
-    let description = model.manipulator.description();
-    let sources = description.sources.iter().enumerate();
-    let random: Vec<(usize, Distribution)> = sources
-        .filter_map(|(i, source)| match source.class {
-            Class::Random(distribution) if chance.random_sources => Some((i, distribution)),
-            _ => None,
-        })
-        .collect();
-    let model = model.with(random.iter().map(|(i, _)| Unknown::Magnitude(*i)).collect());
-    let mut room = model.room();
-    let first = list.first().map_or(&[][..], |row| &row.q);
-    let moved: Vec<usize> =
-        (0..first.len()).filter(|j| list.iter().any(|row| row.q[*j] != first[*j])).collect();
-    let one = |(i, asked): (usize, &Observation)| {
+    let mut simulated = Simulated::new(model, list, chance);
+    list.iter().enumerate().map(|(i, asked)| simulated.row(i, asked)).collect()
+}
+
+/// The same row by row: for lists that are too long to be there twice.
+pub struct Simulated<'a> {
+    model: Model<'a>,
+    /// The random sources that are drawn.
+    random: Vec<Distribution>,
+    /// The joints that are not the same in all rows.
+    moved: Vec<usize>,
+    chance: Chance,
+    room: Room,
+}
+
+impl<'a> Simulated<'a> {
+    /// Of these rows, and no others.
+    pub fn new(model: &Model<'a>, list: &[Observation], chance: &Chance) -> Self {
+        let sources = model.manipulator.description().sources.iter().enumerate();
+        let (unknowns, random) = sources
+            .filter_map(|(i, source)| match source.class {
+                Class::Random(distribution) if chance.random_sources => {
+                    Some((Unknown::Magnitude(i), distribution))
+                }
+                _ => None,
+            })
+            .unzip();
+        let model = model.with(unknowns);
+        let first = list.first().map_or(&[][..], |row| &row.q);
+        let moved = (0..first.len()).filter(|j| list.iter().any(|row| row.q[*j] != first[*j])).collect();
+        Self { room: model.room(), model, random, moved, chance: *chance }
+    }
+
+    /// What would be seen at row `i` of them.
+    pub fn row(&mut self, i: usize, asked: &Observation) -> Result<Observation, Failure> {
+        let Self { model, random, moved, chance, room } = self;
         let mut numbers = stream(chance.seed ^ APART, i);
-        let x: Vec<f64> = random.iter().map(|(_, distribution)| draw(*distribution, &mut numbers)).collect();
-        let asked = &touching(&model, asked, &x, &moved, chance, &mut numbers)?;
-        let pose = model.pose(&mut room, asked, &x)?;
-        let readings = model.values(&mut room, asked, &x)?;
+        let x: Vec<f64> = random.iter().map(|distribution| draw(*distribution, &mut numbers)).collect();
+        let asked = &touching(model, asked, &x, moved, chance, &mut numbers)?;
+        let pose = model.pose(room, asked, &x)?;
+        let readings = model.values(room, asked, &x)?;
         let gross = numbers.random::<f64>() < chance.outliers;
         let mut wrong = || if gross { numbers.random_range(-chance.gross..=chance.gross) } else { 0.0 };
         let shift = [wrong(), wrong(), wrong()];
@@ -71,7 +93,7 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
                 let turn = [0; 3].map(|_| noise(chance.noise.angle));
                 let mut seen = pose.then(&displacement(&[0.0, 0.0, 0.0, turn[0], turn[1], turn[2]]));
                 seen.0[3] = core::array::from_fn(|k| pose.0[3][k] + shift[k] + noise(chance.noise.length));
-                Measurement::Pose(seen)
+                Measurement::Pose(Box::new(seen))
             }
             Measurement::Readings(asked) => {
                 let factor = chance.noise.length / model.uncertainty.length;
@@ -85,8 +107,7 @@ pub fn simulate(model: &Model, list: &[Observation], chance: &Chance) -> Result<
             }
         };
         Ok(Observation { measured, ..asked.clone() })
-    };
-    list.iter().enumerate().map(one).collect()
+    }
 }
 
 /// The same observation, where the real machine touches what it is to touch.
@@ -109,5 +130,5 @@ fn touching(
         return Ok(asked.clone());
     }
     let q = touched(model, asked, x, &wanted, moved)?.ok_or(Failure::Untouched { line: asked.line })?;
-    Ok(Observation { q, ..asked.clone() })
+    Ok(Observation { q: q.into(), ..asked.clone() })
 }

@@ -29,8 +29,11 @@ impl Model<'_> {
         let (mut room, x) = (model.room(), vec![0.0; p]);
         let length = self.uncertainty.length;
         let one = |row: &Observation| {
-            let seen =
-                Observation { measured: Measurement::Points(points.clone()), weight: 1.0, ..row.clone() };
+            let seen = Observation {
+                measured: Measurement::Points(points.clone().into()),
+                weight: 1.0,
+                ..row.clone()
+            };
             let mut moves = Matrix3xX::zeros(p);
             let mut axis = 0;
             model.linear(&mut room, &seen, &x, |_, row| {

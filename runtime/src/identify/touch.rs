@@ -35,7 +35,7 @@ pub fn touched(
     for _ in 0..60 {
         let here = off(&place)?;
         if here.amax() < TOUCHED {
-            return Ok(Some(place.q));
+            return Ok(Some(place.q.to_vec()));
         }
         let mut jacobian = DMatrix::zeros(here.len(), moved.len());
         for (column, j) in moved.iter().enumerate() {

@@ -58,6 +58,8 @@ impl Prepared<'_> {
         let Watching { gathering, notes, .. } = watching;
         notes.progress(range.len(), range.len());
         let budget = budget.map_err(|refused| job.not_evaluated(*workspace, &refused, description))?;
+        // Of a sweep that was stopped there is a part.
+        notes.go_on()?;
         Ok(Gathered { budget, figures: gathering.map(Gathering::data) })
     }
 
@@ -181,7 +183,8 @@ impl Watch for Watching<'_, '_, '_> {
         self.gathering.iter_mut().for_each(|gathering| gathering.add(row));
     }
 
-    fn done(&mut self, before: usize) {
+    fn done(&mut self, before: usize) -> bool {
         self.notes.progress(before - self.range.start, self.range.len());
+        !self.notes.stop()
     }
 }

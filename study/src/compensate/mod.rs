@@ -5,11 +5,11 @@ mod reason;
 mod rows;
 
 use abbe::Pose;
-use abbe::identify::{Figures, Measurement};
+use abbe::identify::{Measurement, Observation};
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use crate::data::{Base, Data, Map, Summary, Table, Unusable};
+use crate::data::{Base, Data, Heading, Map, Summary, Table, Unusable};
 use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::{Machine, Notes, finite, mistake};
 
@@ -50,8 +50,11 @@ pub struct Report {
     pub mobility: usize,
     /// Rows outside the ranges that were fitted, and how well the machine is known there; nothing if there are none.
     pub extrapolated: Option<Extrapolated>,
-    /// Row by row.
+    /// Row by row; nothing if they were given away.
     pub rows: Vec<Row>,
+    /// What is to be said of all of them.
+    #[serde(skip)]
+    pub told: Told,
     /// Rows that cannot be used.
     pub unusable: Vec<Unusable>,
     /// The file.
@@ -60,6 +63,49 @@ pub struct Report {
     /// The names of its stations.
     #[serde(skip)]
     pub stations: Vec<String>,
+}
+
+/// What is to be said of rows, however many there are.
+#[derive(Debug, Default)]
+pub struct Told {
+    /// How many there are.
+    pub rows: usize,
+    /// The first of them.
+    pub first: Vec<Row>,
+    /// How many are not compensated.
+    pub failed: usize,
+    /// The first of those: line and reason.
+    pub reasons: Vec<(u64, String)>,
+    /// In how many a joint turns far from its command.
+    pub far: usize,
+    /// The line where one turns most, and by how much: rad.
+    pub farthest: Option<(u64, f64)>,
+}
+
+impl Told {
+    /// How many rows and reasons are told one by one.
+    const SHOWN: usize = 10;
+    /// Turns of a joint by more degrees than this are far.
+    pub const FAR: f64 = 10.0;
+
+    fn add(&mut self, row: &Row) {
+        self.rows += 1;
+        if self.first.len() < Self::SHOWN {
+            self.first.push(row.clone());
+        }
+        if let Some(reason) = &row.reason {
+            self.failed += 1;
+            if self.reasons.len() < Self::SHOWN {
+                self.reasons.push((row.line, reason.clone()));
+            }
+        }
+        if row.largest_turn > Self::FAR.to_radians() {
+            self.far += 1;
+            if self.farthest.is_none_or(|(_, turn)| row.largest_turn >= turn) {
+                self.farthest = Some((row.line, row.largest_turn));
+            }
+        }
+    }
 }
 
 /// Figures of the norms of ΔX: lengths in the spec's unit, angles in rad.
@@ -75,56 +121,116 @@ pub struct Size {
     pub angle_max: f64,
 }
 
-impl Size {
-    fn new(norms: impl Iterator<Item = Norms>) -> Self {
-        let (lengths, angles): (Vec<f64>, Vec<f64>) = norms.map(|norms| (norms.length, norms.angle)).unzip();
-        let Figures { mean, rms, max, .. } = Figures::from_norms(lengths);
-        Self { mean, rms, max, angle_max: angles.into_iter().fold(0.0, f64::max) }
+/// Sums of norms, of which their figures follow.
+#[derive(Default)]
+struct Sums {
+    count: usize,
+    lengths: f64,
+    squares: f64,
+    length_max: f64,
+    angle_max: f64,
+}
+
+impl Sums {
+    fn add(&mut self, Norms { length, angle }: Norms) {
+        self.count += 1;
+        self.lengths += length;
+        self.squares += length * length;
+        self.length_max = self.length_max.max(length);
+        self.angle_max = self.angle_max.max(angle);
+    }
+
+    fn size(&self) -> Size {
+        let n = self.count.max(1) as f64;
+        let (mean, rms) = (self.lengths / n, (self.squares / n).sqrt());
+        Size { mean, rms, max: self.length_max, angle_max: self.angle_max }
     }
 }
 
 impl Compensate {
     /// Corrects row by row.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let mut rows = Vec::new();
+        let report = self.each(notes, |row| {
+            rows.push(row);
+            Ok::<_, Diagnostics>(())
+        })?;
+        Ok(Report { rows, ..report })
+    }
+
+    /// Corrects row by row, and gives each away: no matter how many there are. The report has none of them.
+    pub fn each<E: From<Diagnostics>>(
+        &self,
+        notes: &mut dyn Notes,
+        mut take: impl FnMut(Row) -> Result<(), E>,
+    ) -> Result<Report, E> {
         let Self { machine, map, tolerance, .. } = self;
         if self.poses {
             check_poses(map)?;
         }
         let manipulator = machine.evaluator(true);
-        let mut data = self.data.completed(map, &*manipulator, &machine.spec).into_owned();
-        in_f0(map, &mut data);
+        let data = self.data.completed(map, &*manipulator, &machine.spec);
         let places = data.observations.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated = extrapolated(&machine.spec, &*manipulator, "rows", places, notes);
         let task = Task::new(&*manipulator, self.poses, *tolerance)?;
-        let rows = rows::rows(&task, &mut data, notes)?;
+        let in_f0 = InF0::new(map, &data);
+        let (mut told, mut before, mut after) = (Told::default(), Sums::default(), Sums::default());
+        let mut unusable = data.unusable.clone();
+        rows::rows(&task, &data, &in_f0, notes, |found| {
+            match found {
+                Ok(row) => {
+                    let row = finite(&self.data.file, row)?;
+                    told.add(&row);
+                    before.add(row.before);
+                    after.add(row.after);
+                    take(row)?;
+                }
+                Err(row) => unusable.push(row),
+            }
+            Ok::<_, E>(())
+        })?;
+        unusable.sort_by_key(|row| row.line);
+        if told.rows == 0 {
+            return Err(rows::nothing(&data, &unusable).into());
+        }
         let report = Report {
             name: machine.spec.name.clone(),
             length: machine.spec.length.symbol(),
-            compensated: rows.iter().filter(|row| row.reason.is_none()).count(),
+            compensated: told.rows - told.failed,
             tolerance: *tolerance,
             mobility: task.mobility,
             extrapolated,
-            before: Size::new(rows.iter().map(|row| row.before)),
-            after: Size::new(rows.iter().map(|row| row.after)),
-            file: Summary { rows: rows.len(), ..data.summary() },
-            unusable: data.unusable,
-            stations: data.stations,
-            rows,
+            before: before.size(),
+            after: after.size(),
+            file: Summary { rows: told.rows, unusable: unusable.clone(), ..data.summary() },
+            unusable,
+            stations: data.stations.clone(),
+            rows: Vec::new(),
+            told,
         };
-        finite(&self.data.file, report)
+        Ok(finite(&self.data.file, report)?)
     }
 }
 
 /// Poses as the tool has them in `F_0`: without the station from where they are seen and what is mounted on the tool.
-fn in_f0(map: &Map, data: &mut Data) {
-    let stands = |station: usize| data.stations.get(station).and_then(|name| map.stations.pose(name));
-    let stations: Vec<Pose> =
-        (0..data.stations.len().max(1)).map(|i| stands(i).unwrap_or(Pose::IDENTITY).inverse()).collect();
-    let mounting = map.mounting().inverse();
-    for row in &mut data.observations {
+struct InF0 {
+    stations: Vec<Pose>,
+    mounting: Pose,
+}
+
+impl InF0 {
+    fn new(map: &Map, data: &Data) -> Self {
+        let stands = |station: usize| data.stations.get(station).and_then(|name| map.stations.pose(name));
+        let stations =
+            (0..data.stations.len().max(1)).map(|i| stands(i).unwrap_or(Pose::IDENTITY).inverse()).collect();
+        Self { stations, mounting: map.mounting().inverse() }
+    }
+
+    fn row(&self, mut row: Observation) -> Observation {
         if let Measurement::Pose(pose) = &mut row.measured {
-            *pose = stations[row.station].then(pose).then(&mounting);
+            **pose = self.stations[row.station as usize].then(pose).then(&self.mounting);
         }
+        row
     }
 }
 
@@ -141,23 +247,48 @@ pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
 impl Report {
     /// Whether every row is compensated.
     pub fn complete(&self) -> bool {
-        self.compensated == self.rows.len() + self.unusable.len()
+        self.compensated == self.told.rows + self.unusable.len()
     }
 
     /// The corrected commands in the columns and units of the data, and what they leave.
     pub fn table(&self, map: &Map) -> Table {
-        let mut heading = map.heading(false);
-        let added = ["line", "error_before", "error_after", "angle_before", "angle_after", "compensated"];
-        heading.extend(added.map(str::to_owned));
-        let rows = self.rows.iter().map(|row| {
-            let mut values = map.numbers(&row.corrected, [0.0; 3], false);
-            let done = f64::from(u8::from(row.reason.is_none()));
-            let Row { line, before, after, .. } = row;
-            let added = [*line as f64, before.length, after.length, before.angle, after.angle, done];
-            values.extend(added.map(Some));
-            values
-        });
+        let rows = self.rows.iter().map(|row| row.numbers(map)).collect();
         let labels = map.labels(self.rows.iter().map(|row| &row.corrected), &self.stations);
-        Table { heading, rows: rows.collect(), labels }
+        Table { heading: heading(map), rows, labels }
+    }
+}
+
+impl Compensate {
+    /// What stands above the corrected commands.
+    pub fn heading(&self) -> Heading {
+        let named = self.map.stations.column.is_some();
+        let labels = if named { self.data.stations.clone() } else { Vec::new() };
+        Heading { names: heading(&self.map), labels }
+    }
+
+    /// The name of a row's station, if there is a column of these.
+    pub fn label(&self, row: &Row) -> Option<&str> {
+        let station = row.corrected.station as usize;
+        let label = self.map.stations.column.as_ref();
+        label.map(|_| self.data.stations.get(station).map_or("", |name| name))
+    }
+}
+
+fn heading(map: &Map) -> Vec<String> {
+    let mut heading = map.heading(false);
+    let added = ["line", "error_before", "error_after", "angle_before", "angle_after", "compensated"];
+    heading.extend(added.map(str::to_owned));
+    heading
+}
+
+impl Row {
+    /// The corrected command in the columns and units of the data, and what it leaves.
+    pub fn numbers(&self, map: &Map) -> Vec<Option<f64>> {
+        let mut values = map.numbers(&self.corrected, [0.0; 3], false);
+        let done = f64::from(u8::from(self.reason.is_none()));
+        let Self { line, before, after, .. } = self;
+        let added = [*line as f64, before.length, after.length, before.angle, after.angle, done];
+        values.extend(added.map(Some));
+        values
     }
 }

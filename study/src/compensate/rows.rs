@@ -1,14 +1,20 @@
 //! Row by row.
 
-use abbe::analysis::{ReachError, Target, compensated, inverse, mobility, obstacle, sampling};
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
+use abbe::analysis::{
+    ReachError, Target, compensated, in_order_until, inverse, mobility, obstacle, sampling,
+};
 use abbe::compensator::{Compensated, norms};
 use abbe::identify::{Measurement, Observation};
 use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
+use super::InF0;
 use super::reason::reason;
-use crate::data::Data;
+use crate::data::{Data, Unusable};
 use crate::number::{Named, of_variable};
 use crate::{Notes, mistake};
 
@@ -29,7 +35,7 @@ impl Norms {
 }
 
 /// The corrected commands of a row.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Its line in the file.
     pub line: u64,
@@ -96,43 +102,64 @@ impl<'a> Task<'a> {
     }
 }
 
-/// All rows that can be evaluated, for their joints or for the poses that were measured; the others go to the unusable ones.
-pub(super) fn rows(task: &Task<'_>, data: &mut Data, notes: &mut dyn Notes) -> Result<Vec<Row>, Diagnostics> {
-    let description = task.description;
-    let mut rows = Vec::new();
-    let observations = std::mem::take(&mut data.observations);
-    let total = observations.len();
-    for (done, asked) in observations.into_iter().enumerate() {
-        notes.progress(done, total);
-        notes.go_on()?;
-        match row(task, &asked) {
-            Ok(Corrected { found, reason, largest_turn }) => {
-                let Compensated { q, before, after, .. } = found;
-                let names = description.variables.iter().map(|variable| variable.name.to_string());
-                rows.push(Row {
-                    line: asked.line,
-                    changes: q.iter().zip(&asked.q).map(|(corrected, asked)| corrected - asked).collect(),
-                    q: Named(names.zip(q.clone()).collect()),
-                    before: Norms::new(&before),
-                    after: Norms::new(&after),
-                    reason,
-                    largest_turn,
-                    corrected: Observation { q, ..asked },
-                });
+/// Rows that one thread takes at a time.
+const BLOCK: usize = 64;
+
+/// Every row that can be evaluated, for its joints or for the pose that was measured; or why it cannot.
+pub(super) fn rows<E: From<Diagnostics>>(
+    task: &Task<'_>,
+    data: &Data,
+    in_f0: &InF0,
+    notes: &mut dyn Notes,
+    mut take: impl FnMut(Result<Row, Unusable>) -> Result<(), E>,
+) -> Result<(), E> {
+    let asked = &data.observations;
+    let blocks: Vec<&[Observation]> = asked.chunks(BLOCK).collect();
+    // A failure of `take`, and a stop, end the blocks as one of their own does.
+    let (mut done, mut failed) = (0, None);
+    let made = |block: usize| {
+        let rows = blocks[block].iter().map(|asked| one(task, in_f0.row(asked.clone())));
+        Ok::<Vec<_>, Infallible>(rows.collect())
+    };
+    let taken = |rows: Vec<Result<Row, Unusable>>| {
+        notes.progress(done, asked.len());
+        done += rows.len();
+        let all = notes.go_on().map_err(E::from);
+        match all.and_then(|()| rows.into_iter().try_for_each(&mut take)) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                failed = Some(error);
+                ControlFlow::Break(())
             }
-            Err(reason) => data.leave_out(asked.line, &reason),
         }
-    }
-    if rows.is_empty() {
-        let why = data.unusable.first().map(|row| format!(": {}: {}", data.place(row.line), row.reason));
-        let message = format!("no row can be compensated{}", why.unwrap_or_default());
-        return Err(mistake::with_help(
-            &data.file,
-            message,
-            "are the units of the map and the limits of the joints right?",
-        ));
-    }
-    Ok(rows)
+    };
+    let Ok(()) = in_order_until(blocks.len(), made, taken);
+    notes.progress(asked.len(), asked.len());
+    failed.map_or(Ok(()), Err)
+}
+
+fn one(task: &Task<'_>, asked: Observation) -> Result<Row, Unusable> {
+    let Corrected { found, reason, largest_turn } =
+        row(task, &asked).map_err(|reason| Unusable { line: asked.line, reason })?;
+    let Compensated { q, before, after, .. } = found;
+    let names = task.description.variables.iter().map(|variable| variable.name.to_string());
+    Ok(Row {
+        line: asked.line,
+        changes: q.iter().zip(asked.q.iter()).map(|(corrected, asked)| corrected - asked).collect(),
+        q: Named(names.zip(q.clone()).collect()),
+        before: Norms::new(&before),
+        after: Norms::new(&after),
+        reason,
+        largest_turn,
+        corrected: Observation { q: q.into(), ..asked },
+    })
+}
+
+/// No row could be compensated.
+pub(super) fn nothing(data: &Data, unusable: &[Unusable]) -> Diagnostics {
+    let why = unusable.first().map(|row| format!(": {}: {}", data.place(row.line), row.reason));
+    let message = format!("no row can be compensated{}", why.unwrap_or_default());
+    mistake::with_help(&data.file, message, "are the units of the map and the limits of the joints right?")
 }
 
 /// A pose is first brought to the ideal tool; of a machine that moves it in fewer than six ways, its point is.
@@ -144,14 +171,14 @@ fn row(task: &Task<'_>, asked: &Observation) -> Result<Corrected, String> {
             let all: Vec<usize> = (0..q.len()).collect();
             let target = match task.mobility {
                 0..6 => Target::Point(wanted.position()),
-                _ => Target::Pose(*wanted),
+                _ => Target::Pose(**wanted),
             };
             let ideal = inverse(manipulator, s, q, &all, &target);
-            (Some(wanted), ideal.map_err(|reason| unreached(description, &reason))?)
+            (Some(&**wanted), ideal.map_err(|reason| unreached(description, &reason))?)
         }
         _ => {
             within_limits(description, q)?;
-            (None, q.clone())
+            (None, q.to_vec())
         }
     };
     corrected(task, target, &start, u).map_err(|error| evaluation(description, &error))

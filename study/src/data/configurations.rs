@@ -1,6 +1,6 @@
 //! Which rows are visits of one configuration: joints and inputs are the same, as far as values can be told apart.
 
-use abbe::identify::{Configurations, Observation};
+use abbe::identify::Observation;
 use abbe_codegen::expr::Unit;
 use abbe_codegen::spec::{Spec, VariableKind};
 
@@ -32,35 +32,62 @@ pub(super) fn number_configurations(rows: &mut [Observation], resolution: &[Opti
     let mut numbers = vec![0; rows.len()];
     for (i, resolution) in resolution.iter().enumerate() {
         let values: Vec<f64> =
-            rows.iter().map(|row| *row.q.iter().chain(&row.u).nth(i).unwrap_or(&0.0)).collect();
-        let levels = levels(&values, *resolution);
-        numbers = Configurations::from_keys(numbers.into_iter().zip(levels)).number;
+            rows.iter().map(|row| *row.q.iter().chain(row.u.iter()).nth(i).unwrap_or(&0.0)).collect();
+        numbers = numbered(&numbers, &levels(&values, *resolution));
     }
     rows.iter_mut().zip(numbers).for_each(|(row, number)| row.configuration = number);
 }
 
+/// Numbers pairs, from 0 in the order in which they come first: sorted, for there may be a million.
+fn numbered(first: &[u32], second: &[u32]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..first.len() as u32).collect();
+    let pair = |i: u32| (first[i as usize], second[i as usize]);
+    order.sort_unstable_by_key(|i| (pair(*i), *i));
+    // The first row of every pair, for all of its rows.
+    let mut numbers = vec![0; order.len()];
+    for rows in order.chunk_by(|a, b| pair(*a) == pair(*b)) {
+        rows.iter().for_each(|i| numbers[*i as usize] = rows[0]);
+    }
+    drop(order);
+    let mut next = 0;
+    for i in 0..numbers.len() {
+        // Rows before this one have their numbers already.
+        let first = numbers[i] as usize;
+        numbers[i] = if first == i { next } else { numbers[first] };
+        next += u32::from(first == i);
+    }
+    numbers
+}
+
 /// Numbers values so that those of one level lie within the resolution: from the least on, a level begins where a value is
 /// farther from the beginning of the last. Without a resolution, it is a share of what the values span.
-fn levels(values: &[f64], resolution: Option<f64>) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+fn levels(values: &[f64], resolution: Option<f64>) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..values.len() as u32).collect();
+    let value = |i: u32| values[i as usize];
+    order.sort_unstable_by(|a, b| value(*a).total_cmp(&value(*b)));
     let ends = order.first().zip(order.last());
-    let span = ends.map_or(0.0, |(first, last)| values[*last] - values[*first]);
+    let span = ends.map_or(0.0, |(first, last)| value(*last) - value(*first));
     let resolution = resolution.unwrap_or(SHARE * span);
     let (mut level, mut begins) = (0, f64::NEG_INFINITY);
     let mut levels = vec![0; values.len()];
     for i in order {
-        if values[i] - begins > resolution {
-            (level, begins) = (level + 1, values[i]);
+        if value(i) - begins > resolution {
+            (level, begins) = (level + 1, value(i));
         }
-        levels[i] = level;
+        levels[i as usize] = level;
     }
     levels
 }
 
 #[cfg(test)]
 mod tests {
-    use super::levels;
+    use super::{levels, numbered};
+
+    #[test]
+    fn pairs_are_numbered_as_they_come() {
+        assert_eq!(numbered(&[7, 1, 7, 7, 1, 0], &[2, 0, 3, 2, 0, 2]), [0, 1, 2, 0, 1, 3]);
+        assert_eq!(numbered(&[], &[]), [0_u32; 0]);
+    }
 
     #[test]
     fn values_within_the_resolution_are_the_same() {

@@ -70,10 +70,17 @@ impl FromRows {
     }
 }
 
+impl Map {
+    /// Whether an input follows from the rows.
+    pub(crate) fn follows_from_rows(&self) -> bool {
+        self.inputs.iter().any(|channel| matches!(channel, Channel::FromRows(_)))
+    }
+}
+
 impl Data {
     /// The same rows with the inputs that follow from them; `manipulator` is that of the spec.
     pub(crate) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
-        if !map.inputs.iter().any(|channel| matches!(channel, Channel::FromRows(_))) {
+        if !map.follows_from_rows() {
             return Cow::Borrowed(self);
         }
         let mut data = self.clone();
@@ -91,8 +98,8 @@ impl Data {
 /// The indices of rows in the order in which they were measured: that of their times, if all have one.
 pub(crate) fn in_order(rows: &[Observation]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rows.len()).collect();
-    if rows.iter().all(|row| row.time.is_some()) {
-        let time = |i: usize| rows[i].time.unwrap_or_default();
+    if rows.iter().all(|row| row.time().is_some()) {
+        let time = |i: usize| rows[i].time().unwrap_or_default();
         order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
     }
     order
@@ -128,7 +135,7 @@ fn moments(
     // A turn of the joint moves the point by `z × (p − o)`: a difference of poses says the same for all kinds of frames.
     const STEP: f64 = 1e-4;
     let mut height = |row: &Observation, by: f64| {
-        let mut q = row.q.clone();
+        let mut q = row.q.to_vec();
         q[variable] += by;
         manipulator.transforms(&q, &s, &mut transforms).ok()?;
         let place = transforms[..=at].iter().fold(Pose::IDENTITY, |before, one| before.then(one)).position();

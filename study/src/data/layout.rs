@@ -13,10 +13,10 @@ impl Map {
         let known: Vec<f64> = numbers.iter().flatten().copied().collect();
         let point = |factor: f64| std::array::from_fn(|i| known[i] * factor);
         Ok(match &self.layout {
-            Layout::Point(_, factor) => Measurement::Points(vec![Some(point(*factor))]),
+            Layout::Point(_, factor) => Measurement::Points(vec![Some(point(*factor))].into()),
             Layout::Difference(_, _, factor) => {
                 let actual = std::array::from_fn(|i| (known[i] - known[3 + i]) * factor);
-                Measurement::Points(vec![Some(actual)])
+                Measurement::Points(vec![Some(actual)].into())
             }
             Layout::Targets(targets) => {
                 let points = numbers.chunks_exact(3).zip(targets).map(|(three, target)| match three {
@@ -27,7 +27,7 @@ impl Map {
             }
             Layout::Pose(_, factor, turn) => {
                 let [x, y, z] = rotation::from_numbers(turn, &known[3..])?;
-                Measurement::Pose(Pose([x, y, z, point(*factor)]))
+                Measurement::Pose(Box::new(Pose([x, y, z, point(*factor)])))
             }
             Layout::Instruments(all) => Measurement::Readings(all.read(numbers)?),
         })
@@ -52,7 +52,7 @@ impl Map {
         rows: impl IntoIterator<Item = &'o Observation>,
         names: &[String],
     ) -> Vec<String> {
-        let name = |row: &Observation| names.get(row.station).cloned().unwrap_or_default();
+        let name = |row: &Observation| names.get(row.station as usize).cloned().unwrap_or_default();
         match self.stations.column {
             Some(_) => rows.into_iter().map(name).collect(),
             None => Vec::new(),
@@ -61,7 +61,7 @@ impl Map {
 
     /// The numbers of a row; `ideal` is the commanded tool point, for differences.
     pub fn numbers(&self, row: &Observation, ideal: [f64; 3], measured: bool) -> Vec<Option<f64>> {
-        let channels = self.joints.iter().zip(&row.q).chain(self.inputs.iter().zip(&row.u));
+        let channels = self.joints.iter().zip(row.q.iter()).chain(self.inputs.iter().zip(row.u.iter()));
         let commanded = channels.filter_map(|(channel, value)| match channel {
             Channel::Column(_, factor) => Some(Some(value / factor)),
             Channel::Fixed(_) | Channel::FromRows(_) => None,
@@ -87,7 +87,7 @@ impl Map {
                 numbers.extend(spread(difference, *factor));
             }
             (Layout::Targets(targets), Measurement::Points(points)) => {
-                for (target, point) in targets.iter().zip(points) {
+                for (target, point) in targets.iter().zip(points.iter()) {
                     numbers.extend(spread(*point, target.factor));
                 }
             }

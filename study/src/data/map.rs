@@ -212,9 +212,11 @@ impl Map {
         let Some(all) = self.instruments().filter(|all| all.count_from_before()) else { return rows };
         let mut before: Option<Observation> = None;
         for row in &mut rows {
-            let here = Observation { from: None, ..row.clone() };
-            row.from = before.replace(here).map(Box::new);
-            if let (None, Measurement::Readings(readings)) = (&row.from, &mut row.measured) {
+            row.approach_mut().from = None;
+            row.approach_mut().from = before.replace(row.clone());
+            if let (None, Measurement::Readings(readings)) =
+                (&row.approach_mut().from.clone(), &mut row.measured)
+            {
                 *readings = all.at_first(std::mem::take(readings));
             }
         }
@@ -224,9 +226,9 @@ impl Map {
     /// What stands for a measurement before there is one, in a setup if the map has a column for those.
     pub(super) fn unmeasured(&self, setup: Option<f64>) -> Measurement {
         match &self.layout {
-            Layout::Pose(..) => Measurement::Pose(Pose::IDENTITY),
+            Layout::Pose(..) => Measurement::Pose(Box::new(Pose::IDENTITY)),
             Layout::Instruments(all) => Measurement::Readings(all.unread(&all.read_in(setup))),
-            _ => Measurement::Points(vec![Some([0.0; 3]); self.targets().len()]),
+            _ => Measurement::Points(vec![Some([0.0; 3]); self.targets().len()].into()),
         }
     }
 

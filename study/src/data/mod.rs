@@ -40,7 +40,7 @@ pub(crate) use rotation::reread;
 pub use rows::{Data, Summary, Unusable};
 pub use source::{Cells, Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
-pub use table::Table;
+pub use table::{Csv, Heading, Table};
 pub use turn::{Order, Turn};
 
 pub(crate) use rotation::quaternion;

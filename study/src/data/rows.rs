@@ -1,12 +1,12 @@
 //! Rows of a data file: what can be used, and what cannot and why.
 
-use std::collections::HashMap;
-use std::hash::{BuildHasher, RandomState};
+use std::hash::{BuildHasher, Hash, Hasher, RandomState};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe::identify::{Configurations, Measurement, Observation};
+use abbe::identify::{Approach, Configurations, Measurement, Observation};
 use abbe_codegen::diagnostic::Diagnostics;
+use hashbrown::HashTable;
 use serde::Serialize;
 
 use super::column::{Channel, Column};
@@ -117,9 +117,7 @@ impl Data {
         let [group, direction, time] =
             [&map.group, &map.direction, &map.time].map(|column| column.as_ref().and_then(|c| place(&c)));
         let (mut groups, mut directions) = (Vec::new(), Vec::new());
-        // By a hash of their digits, the place of the first row that has it.
-        let mut known: HashMap<u64, usize> = HashMap::new();
-        let digits = RandomState::new();
+        let mut known = Known::default();
         // Where the machine was before, for instruments that tell how far it moved since.
         let from_before = map.instruments().is_some_and(Instruments::count_from_before);
         let mut before: Option<Observation> = None;
@@ -127,25 +125,24 @@ impl Data {
             let record = record?;
             let measured = (columns == Wanted::Measured).then_some(&measured[..]);
             let here = from_before.then(|| row(&record, &commanded, None, map).ok()).flatten();
-            let row = row(&record, &commanded, measured, map).and_then(|(bits, row)| {
-                let hash = digits.hash_one(bits);
-                let before = known.get(&hash).map(|place| &data.observations[*place]);
-                if once && before.is_some_and(|before| is_same(before, &row)) {
+            let row = row(&record, &commanded, measured, map).and_then(|row| {
+                if once && known.has(&row, &data.observations) {
                     return Err("the same as a row before it, digit by digit".to_owned());
                 }
-                Ok((hash, row))
+                if moved_from_nowhere(&row, before.as_ref(), map) {
+                    return Err("how far it moved was read, and there is no row before it".to_owned());
+                }
+                Ok((row, time.map(|place| record.time(place)).transpose()?))
             });
-            let row = row.and_then(|(hash, row)| match moved_from_nowhere(&row, before.as_ref(), map) {
-                true => Err("how far it moved was read, and there is no row before it".to_owned()),
-                false => Ok((hash, row)),
-            });
-            let row = row.and_then(|row| Ok((row, time.map(|place| record.time(place)).transpose()?)));
             match row {
-                Ok(((hash, observation), time)) => {
-                    known.entry(hash).or_insert(data.observations.len());
+                Ok((observation, time)) => {
                     let station = station.map_or(0, |place| data.station(&record.text(place)));
-                    let from = before.take().map(|from| Box::new(Observation { station, ..from }));
-                    data.observations.push(Observation { time, station, from, ..observation });
+                    let from = before.take().map(|from| Observation { station, ..from });
+                    let approach = Approach { time, from, ..Approach::default() };
+                    data.observations.push(Observation { station, ..observation }.approached(approach));
+                    if once {
+                        known.add(&data.observations);
+                    }
                     groups.extend(group.map(|place| record.text(place).into_owned()));
                     directions.extend(direction.map(|place| record.text(place).into_owned()));
                 }
@@ -153,17 +150,19 @@ impl Data {
                 Err(reason) if from_before && reason == NOTHING_READ => {}
                 Err(reason) => data.unusable.push(Unusable { line: record.line, reason }),
             }
-            before = here.map(|(_, here)| here);
+            before = here;
         }
+        drop(known);
         let directions = Configurations::from_keys(directions).number;
-        data.observations.iter_mut().zip(directions).for_each(|(row, number)| row.direction = number);
+        let directions = data.observations.iter_mut().zip(directions).filter(|(_, number)| *number > 0);
+        directions.for_each(|(row, number)| row.approach_mut().direction = number);
         match group {
             Some(_) => {
                 let numbers = Configurations::from_keys(groups).number;
                 data.observations
                     .iter_mut()
                     .zip(numbers)
-                    .for_each(|(row, number)| row.configuration = number);
+                    .for_each(|(row, number)| row.configuration = number as u32);
             }
             None => number_configurations(&mut data.observations, &map.resolution),
         }
@@ -180,21 +179,22 @@ impl Data {
     }
 
     /// The index of a station; one of that name is added if there is none.
-    fn station(&mut self, name: &str) -> usize {
-        self.stations.iter().position(|station| station == name).unwrap_or_else(|| {
+    fn station(&mut self, name: &str) -> u32 {
+        let known = self.stations.iter().position(|station| station == name);
+        known.unwrap_or_else(|| {
             self.stations.push(name.to_owned());
             self.stations.len() - 1
-        })
+        }) as u32
     }
 
     /// The same rows with their stations numbered as in `other`, or the first name that is not there.
     pub fn at_stations(&self, other: &Self) -> Result<Self, String> {
         let mut data = Self { stations: other.stations.clone(), ..self.clone() };
         for row in &mut data.observations {
-            let name = self.stations.get(row.station).map_or("", |name| name);
+            let name = self.stations.get(row.station as usize).map_or("", |name| name);
             let found = other.stations.iter().position(|station| station == name);
-            row.station =
-                found.or((other.stations.is_empty() && name.is_empty()).then_some(0)).ok_or(name)?;
+            let found = found.or((other.stations.is_empty() && name.is_empty()).then_some(0));
+            row.station = found.ok_or(name)? as u32;
         }
         Ok(data)
     }
@@ -262,8 +262,40 @@ impl Summary {
     }
 }
 
-/// The digits of a row, by which it is known again.
-type Bits = Vec<u64>;
+/// The places of rows, by a hash of their digits: 5 bytes for each.
+#[derive(Default)]
+struct Known {
+    places: HashTable<u32>,
+    digits: RandomState,
+}
+
+impl Known {
+    /// Whether one of the rows says the same.
+    fn has(&self, row: &Observation, rows: &[Observation]) -> bool {
+        self.places.find(hash(&self.digits, row), |place| is_same(&rows[*place as usize], row)).is_some()
+    }
+
+    /// The last of the rows is known from now on.
+    fn add(&mut self, rows: &[Observation]) {
+        let hash_of = |place: usize| hash(&self.digits, &rows[place]);
+        let last = rows.len() - 1;
+        self.places.insert_unique(hash_of(last), last as u32, |place| hash_of(*place as usize));
+    }
+}
+
+fn hash(digits: &RandomState, row: &Observation) -> u64 {
+    let mut hasher = digits.build_hasher();
+    row.q.iter().chain(row.u.iter()).for_each(|value| value.to_bits().hash(&mut hasher));
+    let mut number = |value: Option<f64>| value.map(f64::to_bits).hash(&mut hasher);
+    match &row.measured {
+        Measurement::Points(points) => {
+            points.iter().for_each(|point| (0..3).for_each(|axis| number(point.map(|point| point[axis]))));
+        }
+        Measurement::Pose(pose) => pose.0.as_flattened().iter().for_each(|value| number(Some(*value))),
+        Measurement::Readings(readings) => readings.iter().for_each(|reading| number(*reading)),
+    }
+    hasher.finish()
+}
 
 /// Whether two rows say the same.
 fn is_same(a: &Observation, b: &Observation) -> bool {
@@ -276,7 +308,7 @@ fn row(
     commanded: &[usize],
     measured: Option<&[usize]>,
     map: &Map,
-) -> Result<(Bits, Observation), String> {
+) -> Result<Observation, String> {
     if let Some(reason) = record.too_long() {
         return Err(reason);
     }
@@ -288,15 +320,13 @@ fn row(
         // All rows tell it together.
         Channel::FromRows(_) => 0.0,
     };
-    let q = map.joints.iter().map(&mut channel).collect();
-    let u = map.inputs.iter().map(&mut channel).collect();
-    let mut bits: Bits = commanded.iter().map(|value| value.to_bits()).collect();
+    let q: Vec<f64> = map.joints.iter().map(&mut channel).collect();
+    let u: Vec<f64> = map.inputs.iter().map(&mut channel).collect();
     let Some(places) = measured else {
-        return Ok((bits, Observation::new(record.line, q, u, map.unmeasured(values.next()))));
+        return Ok(Observation::new(record.line, q, u, map.unmeasured(values.next())));
     };
     let numbers = measured_numbers(record, places, map)?;
-    bits.extend(numbers.iter().flatten().map(|value| value.to_bits()));
-    Ok((bits, Observation::new(record.line, q, u, map.measurement(&numbers)?)))
+    Ok(Observation::new(record.line, q, u, map.measurement(&numbers)?))
 }
 
 /// The numbers of what was measured, none where a target was hidden: its three fields are empty.

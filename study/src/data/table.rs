@@ -1,6 +1,7 @@
 //! Rows to be written: a heading and numbers.
 
 use std::borrow::Cow;
+use std::io::{self, Write};
 
 use abbe_codegen::cell::harmless;
 use csv::{QuoteStyle, WriterBuilder};
@@ -18,29 +19,64 @@ pub struct Table {
     pub labels: Vec<String>,
 }
 
+/// What stands above rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Heading {
+    /// The names of the columns.
+    pub names: Vec<String>,
+    /// All texts that the column before the others may have; none if there is no such column.
+    pub labels: Vec<String>,
+}
+
 impl Table {
     /// As text: digits enough for a nanometre, and nothing that a spreadsheet would run.
     pub fn csv(&self) -> String {
+        let heading = Heading { names: self.heading.clone(), labels: self.labels.clone() };
+        let written = || {
+            let mut csv = Csv::new(Vec::new(), &heading)?;
+            for (i, row) in self.rows.iter().enumerate() {
+                csv.row(self.labels.get(i).map(String::as_str), row)?;
+            }
+            csv.finish()
+        };
+        // A vector takes everything.
+        String::from_utf8(written().unwrap_or_default()).unwrap_or_default()
+    }
+}
+
+/// The same text, written row by row.
+pub struct Csv<W: Write>(csv::Writer<W>);
+
+impl<W: Write> Csv<W> {
+    /// Begins with the heading.
+    pub fn new(to: W, heading: &Heading) -> io::Result<Self> {
         // What stands between cells in other countries would be taken for that, were it not in quotes.
-        let texts = || self.heading.iter().chain(&self.labels);
-        let quotes = match texts().any(|text| text.contains([';', '\t'])) {
+        let mut texts = heading.names.iter().chain(&heading.labels);
+        let quotes = match texts.any(|text| text.contains([';', '\t'])) {
             true => QuoteStyle::NonNumeric,
             false => QuoteStyle::Necessary,
         };
         let mut builder = WriterBuilder::new();
         builder.comment(Some(b'#')).flexible(true).quote_style(quotes);
-        let mut writer = builder.from_writer(Vec::new());
-        let mut write = |record: Vec<Cow<'_, str>>| {
-            // A vector takes everything.
-            let _ = writer.write_record(record.iter().map(|cell| cell.as_bytes()));
-        };
-        write(self.heading.iter().map(|name| harmless(name)).collect());
-        for (i, row) in self.rows.iter().enumerate() {
-            let label = self.labels.get(i).map(|label| harmless(label));
-            let cells = row.iter().map(|value| value.map_or("".into(), |value| number(value).into()));
-            write(label.into_iter().chain(cells).collect());
-        }
-        String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+        let mut csv = Self(builder.from_writer(to));
+        csv.write(heading.names.iter().map(|name| harmless(name)))?;
+        Ok(csv)
+    }
+
+    /// A row: a label, if there is a column of them, and numbers; what was not measured is an empty field.
+    pub fn row(&mut self, label: Option<&str>, numbers: &[Option<f64>]) -> io::Result<()> {
+        let cells = numbers.iter().map(|value| value.map_or("".into(), |value| number(value).into()));
+        self.write(label.map(harmless).into_iter().chain(cells))
+    }
+
+    fn write<'c>(&mut self, record: impl Iterator<Item = Cow<'c, str>>) -> io::Result<()> {
+        let record: Vec<Cow<'_, str>> = record.collect();
+        self.0.write_record(record.iter().map(|cell| cell.as_bytes())).map_err(io::Error::from)
+    }
+
+    /// The end; where it was written to.
+    pub fn finish(self) -> io::Result<W> {
+        self.0.into_inner().map_err(|error| error.into_error())
     }
 }
 

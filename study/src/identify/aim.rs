@@ -37,7 +37,7 @@ pub(crate) fn aimed(
         let wanted: Vec<Option<f64>> = aim.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
         if let Some(q) = touched(&aim.model, &configuration, &[], &wanted, &moved)? {
             let measured = Measurement::Readings(aim.unread.clone());
-            aimed.push(Observation { q, measured, ..configuration });
+            aimed.push(Observation { q: q.into(), measured, ..configuration });
         }
     }
     Ok(aimed)

@@ -114,7 +114,8 @@ pub(super) fn with_columns<'d>(
         })
         .collect();
     for (n, i) in order.into_iter().enumerate() {
-        data.observations[i].u.extend(columns.iter().map(|column| column[n]));
+        let u = &mut data.observations[i].u;
+        *u = u.iter().copied().chain(columns.iter().map(|column| column[n])).collect::<Vec<f64>>().into();
     }
     Cow::Owned(data)
 }

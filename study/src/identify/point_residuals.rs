@@ -50,7 +50,7 @@ impl<'m> Valued<'m> {
         let both = before.missed(row)?.into_iter().zip(self.missed(row)?);
         let one = |(before, after)| PointResidual {
             line: row.line,
-            q: row.q.clone(),
+            q: row.q.to_vec(),
             point,
             before,
             after,

@@ -45,8 +45,8 @@ impl Change {
             Self::Turned(other) => row.measured = turned(row.measured, map, other),
             Self::Inverse => row.measured = inverse(row.measured),
         }
-        if let Some(from) = row.from.take() {
-            row.from = Some(Box::new(self.apply(*from, setup, map)));
+        if let Some(approach) = &mut row.approach {
+            approach.from = approach.from.take().map(|from| self.apply(from, setup, map));
         }
         row
     }
@@ -148,9 +148,12 @@ pub(super) fn orientations(map: &Map) -> Vec<Change> {
 fn points(measured: Measurement, change: impl Fn([f64; 3]) -> [f64; 3]) -> Measurement {
     match measured {
         Measurement::Points(points) => {
-            Measurement::Points(points.into_iter().map(|point| point.map(&change)).collect())
+            Measurement::Points(points.iter().map(|point| point.map(&change)).collect())
         }
-        Measurement::Pose(Pose([x, y, z, position])) => Measurement::Pose(Pose([x, y, z, change(position)])),
+        Measurement::Pose(mut pose) => {
+            pose.0[3] = change(pose.position());
+            Measurement::Pose(pose)
+        }
         Measurement::Readings(_) => measured,
     }
 }
@@ -158,9 +161,10 @@ fn points(measured: Measurement, change: impl Fn([f64; 3]) -> [f64; 3]) -> Measu
 /// The numbers of the orientation, read another way.
 fn turned(measured: Measurement, map: &Map, other: &Turn) -> Measurement {
     match (&measured, &map.layout) {
-        (Measurement::Pose(Pose([x, y, z, position])), Layout::Pose(_, _, turn)) => {
-            let [x, y, z] = reread(turn, other, &[*x, *y, *z]);
-            Measurement::Pose(Pose([x, y, z, *position]))
+        (Measurement::Pose(pose), Layout::Pose(_, _, turn)) => {
+            let [x, y, z, position] = pose.0;
+            let [x, y, z] = reread(turn, other, &[x, y, z]);
+            Measurement::Pose(Box::new(Pose([x, y, z, position])))
         }
         _ => measured,
     }
@@ -170,7 +174,7 @@ fn inverse(measured: Measurement) -> Measurement {
     let Measurement::Pose(mut pose) = measured else { return measured };
     let position = pose.position();
     pose.0[3] = [0.0; 3];
-    let mut back = pose.inverse();
-    back.0[3] = position;
-    Measurement::Pose(back)
+    *pose = pose.inverse();
+    pose.0[3] = position;
+    Measurement::Pose(pose)
 }

@@ -233,7 +233,7 @@ fn ideal<'a>(manipulator: &'a dyn Manipulator, map: &Map) -> Model<'a> {
 /// The points that were measured of every target, none of those that were not.
 fn points(model: &Model, observation: &Observation) -> Vec<Option<[f64; 3]>> {
     match &observation.measured {
-        Measurement::Points(points) => points.clone(),
+        Measurement::Points(points) => points.to_vec(),
         Measurement::Pose(_) => Vec::new(),
         Measurement::Readings(values) => {
             let coordinate = |j: usize, k: usize| {
@@ -327,7 +327,7 @@ pub(super) fn registered(
     let mut room = model.room();
     let model = Model { stations: vec![Station::at(Pose::IDENTITY); station + 1], ..model.clone() };
     let (mut from, mut to) = (Vec::new(), Vec::new());
-    for observation in data.iter().filter(|row| row.station == station) {
+    for observation in data.iter().filter(|row| row.station as usize == station) {
         let pose = model.pose(&mut room, observation, &vec![0.0; model.unknowns.len()])?;
         if let Measurement::Pose(measured) = &observation.measured {
             from.push(pose.position());

@@ -1,6 +1,6 @@
 //! ΔX of every row, equation (5): measured minus ideal.
 
-use abbe::identify::{Measurement, Model, Observation, register};
+use abbe::identify::{Failure, Measurement, Model, Observation, Room, register};
 use abbe::{Orientation, Pose, deviation};
 use abbe_codegen::diagnostic::Diagnostics;
 
@@ -34,30 +34,61 @@ pub(super) fn at_single_target<'a>(model: &Model<'a>) -> Model<'a> {
     Model { mounting, targets: vec![[0.0; 3]], ..model.clone() }
 }
 
-/// The errors of all rows; those that show too little of the tool go to the unusable ones.
-pub(super) fn row_errors(setup: &Setup, data: &mut Data) -> Result<Vec<RowError>, Diagnostics> {
-    let mut rows = Vec::new();
-    let seen = at_single_target(&setup.ideal);
-    let mut room = seen.room();
-    for observation in std::mem::take(&mut data.observations) {
-        let ideal = seen.pose(&mut room, &observation, &[]);
-        let ideal = ideal.map_err(|failure| mistake::whole(&data.file, &failure))?;
-        match pose(&seen.targets, &observation.measured, &ideal) {
-            Some(real) => rows.push(RowError {
-                error: deviation(Orientation::RotationVector, &ideal, &real),
-                point: real.position(),
-                observation,
-            }),
-            None => {
-                data.leave_out(observation.line, "fewer than three targets were seen: they make no frame");
-            }
-        }
+/// x, y, z and the turn by which the tool was off, and the tool point as measured.
+type Seen = ([f64; 6], [f64; 3]);
+
+/// The errors of rows, one after the other: they are not kept.
+pub(super) struct Errors<'a> {
+    seen: Model<'a>,
+    room: Room,
+}
+
+impl<'a> Errors<'a> {
+    pub(super) fn new(setup: &Setup<'a>) -> Self {
+        let seen = at_single_target(&setup.ideal);
+        Self { room: seen.room(), seen }
     }
-    if rows.is_empty() {
+
+    /// The error of a row, and the tool point as measured; none if it shows too little of the tool.
+    pub(super) fn at(&mut self, row: &Observation) -> Result<Option<Seen>, Failure> {
+        let ideal = self.seen.pose(&mut self.room, row, &[])?;
+        let real = pose(&self.seen.targets, &row.measured, &ideal);
+        Ok(real.map(|real| (deviation(Orientation::RotationVector, &ideal, &real), real.position())))
+    }
+
+    /// The same with its row, of which it is known that it shows enough.
+    pub(super) fn of(&mut self, row: &Observation) -> Result<RowError, Failure> {
+        let (error, point) = self.at(row)?.unwrap_or_default();
+        Ok(RowError { observation: row.clone(), error, point })
+    }
+}
+
+/// Moves rows that show too little of the tool to the unusable ones.
+pub(super) fn leave_out(setup: &Setup, data: &mut Data) -> Result<(), Diagnostics> {
+    let mut errors = Errors::new(setup);
+    let (mut failed, mut hidden) = (None, Vec::new());
+    data.observations.retain(|row| match errors.at(row) {
+        Ok(Some(_)) => true,
+        Ok(None) => {
+            hidden.push(row.line);
+            false
+        }
+        Err(failure) => {
+            failed.get_or_insert(failure);
+            true
+        }
+    });
+    if let Some(failure) = failed {
+        return Err(mistake::whole(&data.file, &failure));
+    }
+    for line in hidden {
+        data.leave_out(line, "fewer than three targets were seen: they make no frame");
+    }
+    if data.observations.is_empty() {
         let help = "three of them make a frame";
         return Err(mistake::with_help(&data.file, "no row shows three targets", help));
     }
-    Ok(rows)
+    Ok(())
 }
 
 pub(super) fn norm(v: [f64; 3]) -> f64 {
@@ -67,7 +98,7 @@ pub(super) fn norm(v: [f64; 3]) -> f64 {
 /// The pose of the tool, as it was measured; a single point has the orientation that it should have.
 pub(super) fn pose(targets: &[[f64; 3]], measured: &Measurement, ideal: &Pose) -> Option<Pose> {
     match measured {
-        Measurement::Pose(pose) => Some(*pose),
+        Measurement::Pose(pose) => Some(**pose),
         Measurement::Readings(_) => None,
         Measurement::Points(points) if targets.len() == 1 => {
             let mut pose = *ideal;
@@ -75,7 +106,8 @@ pub(super) fn pose(targets: &[[f64; 3]], measured: &Measurement, ideal: &Pose) -
             Some(pose)
         }
         Measurement::Points(points) => {
-            let both = targets.iter().zip(points).filter_map(|(target, point)| Some((*target, (*point)?)));
+            let both =
+                targets.iter().zip(points.iter()).filter_map(|(target, point)| Some((*target, (*point)?)));
             let (from, to): (Vec<_>, Vec<_>) = both.unzip();
             register(&from, &to).filter(|found| found.breadth > 1e-3).map(|found| found.pose)
         }

@@ -4,7 +4,7 @@ use abbe::Class;
 use abbe::identify::{Chance, Failure, Figures, Observation, Unknown, simulate};
 use serde::Serialize;
 
-use super::errors::{RowError, at_single_target, pose};
+use super::errors::{Errors, at_single_target, pose};
 use crate::identify::Setup;
 
 /// How far the sources of the spec go.
@@ -38,7 +38,7 @@ const CONTENT: f64 = 0.95;
 /// So many rows are simulated to find it: its content is then within ±0.3 % (two standard deviations).
 const SIMULATED: usize = 20_000;
 
-pub(super) fn explained(setup: &Setup, rows: &[RowError]) -> Result<Explained, Failure> {
+pub(super) fn explained(setup: &Setup, rows: &[Observation]) -> Result<Explained, Failure> {
     let sources = setup.description.sources.iter().enumerate();
     let random: Vec<(usize, f64)> = sources
         .filter_map(|(i, source)| match source.class {
@@ -47,19 +47,18 @@ pub(super) fn explained(setup: &Setup, rows: &[RowError]) -> Result<Explained, F
         })
         .collect();
     let judge = Judge { setup, random: &random };
-    let (mut before, mut left, mut distances) = (Vec::new(), Vec::new(), Vec::new());
-    let mut room = judge.room();
+    let edge = judge.edge(rows)?;
+    let (mut before, mut left, mut inside) = (0.0, Vec::new(), 0);
+    let (mut room, mut errors) = (judge.room(), Errors::new(setup));
     for row in rows {
-        distances.push(judge.judged(&mut room, &row.observation, row.point)?);
+        let (_, point) = errors.at(row)?.unwrap_or_default();
+        inside += usize::from(judge.judged(&mut room, row, point)? <= edge);
         // Where it was measured: at every target.
         let Room { room, .. } = &mut room;
-        left.extend(setup.real.distances(room, &row.observation, &[])?);
-        before.extend(setup.ideal.distances(room, &row.observation, &[])?);
+        left.extend(setup.real.distances(room, row, &[])?);
+        before += setup.ideal.distances(room, row, &[])?.iter().map(|v| v * v).sum::<f64>();
     }
-    let edge = judge.edge(rows)?;
-    let inside = distances.iter().filter(|distance| **distance <= edge).count();
-    let squares = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
-    let share = 1.0 - squares(&left) / squares(&before).max(f64::MIN_POSITIVE);
+    let share = 1.0 - left.iter().map(|v| v * v).sum::<f64>() / before.max(f64::MIN_POSITIVE);
     let figures = Figures::from_norms(left);
     Ok(Explained {
         left_mean: figures.mean,
@@ -134,9 +133,9 @@ impl<'a> Judge<'a> {
 
     /// The distance that 95 % of the rows do not exceed where the machine is as the spec says: the same rows simulated on the
     /// exact chain, as they would be measured.
-    fn edge(&self, rows: &[RowError]) -> Result<f64, Failure> {
+    fn edge(&self, rows: &[Observation]) -> Result<f64, Failure> {
         let step = rows.len().div_ceil(SIMULATED).max(1);
-        let list: Vec<Observation> = rows.iter().step_by(step).map(|row| row.observation.clone()).collect();
+        let list: Vec<Observation> = rows.iter().step_by(step).cloned().collect();
         let mut room = self.room();
         let ideal = at_single_target(&self.setup.ideal);
         let mut ideal_room = ideal.room();

@@ -9,6 +9,8 @@ mod iso9283;
 mod readings;
 mod sentences;
 
+use std::borrow::Cow;
+
 use abbe::identify::{self, Figures, Observation, drift};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
@@ -20,6 +22,7 @@ use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::identify::{Order, Setup, Sizes, check_readings};
 use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake, number};
 
+use errors::Errors;
 pub use errors::RowError;
 use readings::{Readings, readings};
 
@@ -110,20 +113,51 @@ pub struct Size {
     pub three_sigma: f64,
 }
 
-impl Size {
-    fn new(name: &'static str, unit: &'static str, values: &[f64]) -> Self {
-        let n = values.len().max(1) as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let squares = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-        Self {
+/// Values that come one after the other, for their [`Size`]. Sums about the mean so far: Welford, 1962.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    count: f64,
+    mean: f64,
+    about_mean: f64,
+    squares: f64,
+    max: f64,
+}
+
+impl Sums {
+    fn add(&mut self, value: f64) {
+        self.count += 1.0;
+        let before = value - self.mean;
+        self.mean += before / self.count;
+        self.about_mean += before * (value - self.mean);
+        self.squares += value * value;
+        self.max = self.max.max(value.abs());
+    }
+
+    fn size(&self, name: &'static str, unit: &'static str) -> Size {
+        Size {
             name,
             unit,
-            mean: mean + 0.0,
-            rms: (values.iter().map(|v| v * v).sum::<f64>() / n).sqrt(),
-            max: values.iter().fold(0.0, |most: f64, v| most.max(v.abs())),
-            three_sigma: 3.0 * (squares / (n - 1.0).max(1.0)).sqrt(),
+            mean: self.mean + 0.0,
+            rms: (self.squares / self.count.max(1.0)).sqrt(),
+            max: self.max,
+            three_sigma: 3.0 * (self.about_mean / (self.count - 1.0).max(1.0)).sqrt(),
         }
     }
+}
+
+/// How often it is said how far the work is.
+const TOLD: usize = 1000;
+
+/// By number of a configuration, whether more than one row is a visit of it.
+fn visited_again(rows: &[Observation]) -> Vec<bool> {
+    let count = rows.iter().map(|row| row.configuration as usize + 1).max().unwrap_or_default();
+    let (mut once, mut again) = (vec![false; count], vec![false; count]);
+    for row in rows {
+        let at = row.configuration as usize;
+        again[at] |= once[at];
+        once[at] = true;
+    }
+    again
 }
 
 /// Errors of more than this share of the arm are none of a machine.
@@ -150,25 +184,39 @@ fn far(rms: f64, fitted: Option<f64>, setup: &Setup) -> String {
 impl Measure {
     /// Compares every row with the ideal machine and with the predicted one.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        let Self { machine, map, data, accept } = self;
+        self.judged(self.data.clone(), true, notes)
+    }
+
+    /// The same without ΔX row by row, for a table or pictures: of a million rows there is not much more than these.
+    pub fn figures(mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let data = std::mem::take(&mut self.data);
+        self.judged(data, false, notes)
+    }
+
+    fn judged(&self, data: Data, keep: bool, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, map, accept, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
-        let data = data.completed(map, &interpreter, &machine.spec).into_owned();
+        let data = match data.completed(map, &interpreter, &machine.spec) {
+            Cow::Owned(completed) => completed,
+            Cow::Borrowed(_) => data,
+        };
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
         let fitted = check_readings(&setup, map, &data)?;
         let base_fitted = setup.find_places(map, &data)?;
         let mut seen = match map.instruments() {
             Some(all) => Seen::of_readings(&setup, all, data)?,
-            None => Seen::of_points(&setup, data)?,
+            None => Seen::of_points(&setup, data, keep, notes)?,
         };
         let rows = &seen.data.observations;
         let places = rows.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated = extrapolated(&machine.spec, &interpreter, "rows", places, notes);
-        let Figures { rms, configurations, standard_error, .. } = seen.norms.figures();
+        let Figures { rms, configurations, standard_error, .. } = seen.norms;
         if rms > LARGE * setup.arm {
             notes.warn(&far(rms, fitted, &setup));
         }
         let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = seen.explained;
         let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
+        notes.go_on()?;
         let observations: Vec<&Observation> = rows.iter().collect();
         let order = drift(&setup.real, &observations, &[]);
         let order = order.map_err(|failure| mistake::whole(&seen.data.file, &failure))?;
@@ -184,14 +232,14 @@ impl Measure {
             explained: seen.explained,
             accepted,
             extrapolated,
-            repeated: iso9283::repeated(&seen.rows, setup.pose || setup.ideal.targets.len() > 1),
+            repeated: iso9283::repeated(&seen.visits, setup.pose || setup.ideal.targets.len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
             order: order.map(|drift| Order::new(drift, setup.description.length)),
             unusable: seen.data.unusable.len(),
             file: seen.data.summary(),
             base_fitted,
-            about_barycentres: iso9283::about_barycentres(&seen.rows),
+            about_barycentres: iso9283::about_barycentres(&seen.visits),
             row_errors: seen.rows,
             row_readings: seen.row_readings,
             numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
@@ -205,8 +253,11 @@ struct Seen {
     errors: Vec<Size>,
     instruments: Vec<InstrumentErrors>,
     explained: Explained,
-    /// The norms of the errors, each with its configuration.
-    norms: identify::Distances,
+    /// The norms of the errors.
+    norms: Figures,
+    /// Rows of configurations that were visited again.
+    visits: Vec<RowError>,
+    /// All rows, if they are kept.
     rows: Vec<RowError>,
     row_readings: Vec<RowReadings>,
     /// The rows that were used.
@@ -214,32 +265,61 @@ struct Seen {
 }
 
 impl Seen {
-    fn of_points(setup: &Setup, mut data: Data) -> Result<Self, Diagnostics> {
-        let rows = errors::row_errors(setup, &mut data)?;
+    fn of_points(
+        setup: &Setup,
+        mut data: Data,
+        keep: bool,
+        notes: &mut dyn Notes,
+    ) -> Result<Self, Diagnostics> {
+        errors::leave_out(setup, &mut data)?;
+        let fail = |failure: identify::Failure| mistake::whole(&data.file, &failure);
         let unit = setup.description.length.symbol();
-        let along = |axis: usize| rows.iter().map(|row| row.error[axis]).collect::<Vec<_>>();
-        let mut errors: Vec<Size> = ["x", "y", "z"]
-            .into_iter()
-            .enumerate()
-            .map(|(i, name)| Size::new(name, unit, &along(i)))
-            .collect();
-        errors.push(Size::new("norm", unit, &rows.iter().map(RowError::distance).collect::<Vec<_>>()));
-        if setup.pose || setup.ideal.targets.len() > 1 {
-            let names = ["about x", "about y", "about z"].into_iter().enumerate();
-            errors.extend(names.map(|(i, name)| Size::new(name, "rad", &along(3 + i))));
+        let numbers = if setup.pose || setup.ideal.targets.len() > 1 { 6 } else { 3 };
+        let mut sizes = vec![Sums::default(); numbers + 1];
+        let (mut errors, mut norms) = (Errors::new(setup), identify::Distances::default());
+        let again = visited_again(&data.observations);
+        let (mut visits, mut rows) = (Vec::new(), Vec::new());
+        for (i, row) in data.observations.iter().enumerate() {
+            if i.is_multiple_of(TOLD) {
+                notes.progress(i, data.observations.len());
+                notes.go_on()?;
+            }
+            let row = errors.of(row).map_err(fail)?;
+            let distance = row.distance();
+            sizes[..numbers].iter_mut().zip(row.error).for_each(|(size, value)| size.add(value));
+            sizes[numbers].add(distance);
+            norms.0.push((row.observation.configuration as usize, distance));
+            if again[row.observation.configuration as usize] {
+                visits.push(row.clone());
+            }
+            if keep {
+                rows.push(row);
+            }
         }
-        let explained = explained::explained(setup, &rows);
-        let explained = explained.map_err(|failure| mistake::whole(&data.file, &failure))?;
-        let norms = rows.iter().map(|row| (row.observation.configuration, row.distance()));
-        let norms = identify::Distances(norms.collect());
-        data.observations = rows.iter().map(|row| row.observation.clone()).collect();
-        Ok(Self { errors, instruments: Vec::new(), explained, norms, rows, row_readings: Vec::new(), data })
+        notes.progress(data.observations.len(), data.observations.len());
+        let norms = norms.figures();
+        let of = |i: usize, name, unit| sizes[i].size(name, unit);
+        let mut errors: Vec<Size> = (0..3).map(|i| of(i, ["x", "y", "z"][i], unit)).collect();
+        errors.push(of(numbers, "norm", unit));
+        errors.extend((3..numbers).map(|i| of(i, ["about x", "about y", "about z"][i - 3], "rad")));
+        let explained = explained::explained(setup, &data.observations).map_err(fail)?;
+        Ok(Self {
+            errors,
+            instruments: Vec::new(),
+            explained,
+            norms,
+            visits,
+            rows,
+            row_readings: Vec::new(),
+            data,
+        })
     }
 
     fn of_readings(setup: &Setup, all: &Instruments, data: Data) -> Result<Self, Diagnostics> {
         let Readings { instruments, explained, rows: row_readings, norms } =
             readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, &failure))?;
-        Ok(Self { errors: Vec::new(), instruments, explained, norms, rows: Vec::new(), row_readings, data })
+        let (errors, visits, rows) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { errors, instruments, explained, norms: norms.figures(), visits, rows, row_readings, data })
     }
 }
 

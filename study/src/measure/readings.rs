@@ -121,7 +121,7 @@ fn of_instrument(instrument: &Instrument, rows: &[Observation], of: &[Vec<Option
             [number] => (*number)?,
             several => several.iter().map(|number| Some((*number)?.powi(2))).sum::<Option<f64>>()?.sqrt(),
         };
-        Some((row.configuration, size / instrument.factor))
+        Some((row.configuration as usize, size / instrument.factor))
     };
     Distances(rows.iter().zip(of).filter_map(one).collect())
 }

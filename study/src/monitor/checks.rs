@@ -120,7 +120,7 @@ fn name(calendar: Calendar) -> &'static str {
 fn split(mut data: Data, dates: &[String]) -> Vec<(Calendar, Check)> {
     let mut checks: Vec<(Calendar, Check)> = Vec::new();
     for (row, date) in std::mem::take(&mut data.observations).into_iter().zip(dates) {
-        let time = row.time.unwrap_or_default();
+        let time = row.time().unwrap_or_default();
         let calendar = parse_date(date).map_or(Calendar::Days, |(calendar, _)| calendar);
         match checks.last_mut() {
             Some((_, check)) if check.time.floor() == time.floor() => check.data.observations.push(row),

@@ -176,14 +176,14 @@ fn one_station(check: &Check, map: &Map) -> Result<(), Diagnostics> {
 fn sorted(check: &Check, setup: &Setup, places: &mut Vec<Observation>) -> Visits {
     let mut visits: Visits = vec![Vec::new(); places.len()];
     for row in &check.data.observations {
-        let to_base = setup.real.stations[row.station].pose.inverse();
-        let whole = |points: &Vec<Option<[f64; 3]>>| points.iter().all(Option::is_some);
+        let to_base = setup.real.stations[row.station as usize].pose.inverse();
+        let whole = |points: &[Option<[f64; 3]>]| points.iter().all(Option::is_some);
         let measured = match &row.measured {
             Measurement::Points(points) if !whole(points) => continue,
             Measurement::Points(points) => Measurement::Points(
                 points.iter().map(|point| point.map(|point| to_base.apply(point))).collect(),
             ),
-            Measurement::Pose(pose) => Measurement::Pose(to_base.then(pose)),
+            Measurement::Pose(pose) => Measurement::Pose(Box::new(to_base.then(pose))),
             // Fixtures stand in F_0.
             Measurement::Readings(readings) if readings.iter().any(Option::is_none) => continue,
             readings @ Measurement::Readings(_) => readings.clone(),
@@ -201,7 +201,7 @@ fn sorted(check: &Check, setup: &Setup, places: &mut Vec<Observation>) -> Visits
 
 /// Inputs do not count: what they do is in the model.
 fn same(a: &Observation, b: &Observation, setup: &Setup) -> bool {
-    let mut variables = setup.description.variables.iter().zip(a.q.iter().zip(&b.q));
+    let mut variables = setup.description.variables.iter().zip(a.q.iter().zip(b.q.iter()));
     variables.all(|(variable, (a, b))| {
         let unit = if variable.kind == VariableKind::Revolute { 1.0 } else { setup.arm };
         (a - b).abs() <= SAME * unit

@@ -162,7 +162,7 @@ impl Plan {
                 let (asked, counts) = sets.rows(manipulator, description, notes)?;
                 let rows = (1..).zip(asked).map(|(line, asked): (u64, Configuration)| {
                     let u = asked.u.clone();
-                    Observation { u, ..self.map.planned(line, asked) }
+                    Observation { u: u.into(), ..self.map.planned(line, asked) }
                 });
                 let rows = self.map.in_sequence(self.aimed(setup, rows.collect())?);
                 let rows = seen_nominally(model, rows.into_iter()).map_err(fail)?;
@@ -241,7 +241,7 @@ impl Plan {
             let every: Vec<usize> = (0..description.variables.len()).collect();
             places = joint_samples(manipulator, &every, 100).map_err(fail)?.reached();
         }
-        let nothing = || Measurement::Points(Vec::new());
+        let nothing = || Measurement::Points(Vec::new().into());
         let rows = (1..).zip(places).map(|(line, place)| Observation::new(line, place.q, place.u, nothing()));
         Ok(rows.collect())
     }

@@ -1,14 +1,16 @@
 //! Measurements of a machine whose errors are known.
 
+use std::borrow::Cow;
+
 use abbe::Manipulator;
-use abbe::analysis::{Workspace, random_joint_samples};
-use abbe::identify::{Chance, Failure, Observation, Uncertainty, simulate};
+use abbe::analysis::{JointSamples, Workspace, random_joint_samples};
+use abbe::identify::{Chance, Failure, Observation, Simulated, Uncertainty};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Input;
 use abbe_interpreter::Interpreter;
 use serde::Serialize;
 
-use crate::data::{Channel, Data, Map, Table};
+use crate::data::{Channel, Data, Heading, Instruments, Map, Table};
 use crate::identify::{Setup, aimed, unaimed};
 use crate::number::quantity;
 use crate::workspace::has_range;
@@ -55,9 +57,54 @@ pub struct Report {
     pub observations: Vec<Observation>,
 }
 
+/// A row of them.
+pub struct Row<'r> {
+    /// What was measured.
+    pub observation: Observation,
+    /// The name of its station, if there is a column of these.
+    pub label: Option<&'r str>,
+    /// Its numbers in the columns and units of the map.
+    pub numbers: Vec<Option<f64>>,
+}
+
+/// How often it is said how far the work is.
+const TOLD: usize = 1000;
+
 impl Simulate {
     /// Measures row by row.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Heading { names: heading, .. } = self.heading();
+        let mut table = Table { heading, ..Table::default() };
+        let mut observations = Vec::new();
+        self.each(notes, |row| {
+            observations.push(row.observation);
+            table.labels.extend(row.label.map(str::to_owned));
+            table.rows.push(row.numbers);
+            Ok::<_, Diagnostics>(())
+        })?;
+        Ok(Report { table, observations })
+    }
+
+    /// What stands above the rows.
+    pub fn heading(&self) -> Heading {
+        let labels = if self.map.stations.column.is_some() { self.stations() } else { Vec::new() };
+        Heading { names: self.map.heading(true), labels }
+    }
+
+    /// The names of the stations.
+    fn stations(&self) -> Vec<String> {
+        match &self.at {
+            Places::Rows(data) if !data.stations.is_empty() => data.stations.clone(),
+            _ => self.map.station_names(),
+        }
+    }
+
+    /// Measures row by row, and gives each away: no matter how many there are. How many there were.
+    pub fn each<E: From<Diagnostics>>(
+        &self,
+        notes: &mut dyn Notes,
+        mut take: impl FnMut(Row) -> Result<(), E>,
+    ) -> Result<usize, E> {
         let Self { machine, map, .. } = self;
         let interpreter = Interpreter::new(machine.spec.clone());
         let description = interpreter.description();
@@ -65,16 +112,14 @@ impl Simulate {
             Places::Rows(data) => Setup::at_stations_of(&interpreter, map, data)?,
             Places::Samples(_) => Setup::at_home(&interpreter, map)?,
         };
-        let sampled;
-        let list = match &self.at {
-            Places::Rows(data) => data,
-            Places::Samples(count) => {
-                self.note_fixed_inputs(notes);
-                sampled = self.sampled(&interpreter, &setup, *count)?;
-                &sampled
-            }
+        if let Places::Samples(_) = &self.at {
+            self.note_fixed_inputs(notes);
+        }
+        let asked = self.asked(&interpreter, &setup)?;
+        let file = match &self.at {
+            Places::Rows(data) => &data.file,
+            Places::Samples(_) => "--samples",
         };
-        let list = &list.completed(map, &interpreter, &machine.spec);
         let Uncertainty { length, angle } = map.uncertainty;
         let noise = self.noise.unwrap_or(length);
         let chance = Chance {
@@ -84,11 +129,15 @@ impl Simulate {
             random_sources: self.random,
             seed: self.seed,
         };
+        let place = |line: u64| match &self.at {
+            Places::Rows(data) => data.place(line),
+            Places::Samples(_) => format!("row {line}"),
+        };
         let fail = |failure: Failure| match failure {
             Failure::Observation { line, error } => {
-                mistake::not_evaluated(&list.file, &list.place(line), &error, description)
+                mistake::not_evaluated(file, &place(line), &error, description)
             }
-            failure => mistake::whole(&list.file, &failure),
+            failure => mistake::whole(file, &failure),
         };
         if let Some(all) = map.instruments()
             && all.count_from_before()
@@ -97,20 +146,66 @@ impl Simulate {
             let message =
                 "displacements from row to row cannot be simulated beside instruments that are touched";
             let help = "simulate them in a map of their own";
-            return Err(mistake::with_help(map.path(), message, help));
+            return Err(mistake::with_help(map.path(), message, help).into());
         }
-        let asked = map.in_sequence(list.observations.clone());
-        let observations = simulate(&setup.real, &asked, &chance).map_err(fail)?;
-        let mut room = setup.ideal.room();
-        let row = |observation: &Observation| {
-            let ideal = setup.ideal.pose(&mut room, observation, &[])?.position();
-            Ok(map.numbers(observation, ideal, true))
+        let stations = self.stations();
+        let listed = match &asked {
+            Asked::Listed(rows) => rows,
+            Asked::Sampled { .. } => &[][..],
         };
-        let rows: Result<Vec<_>, Failure> = observations.iter().map(row).collect();
-        let names = if list.stations.is_empty() { map.station_names() } else { list.stations.clone() };
-        let labels = map.labels(&observations, &names);
-        let table = Table { heading: map.heading(true), rows: rows.map_err(fail)?, labels };
-        finite(&list.file, Report { table, observations })
+        let mut simulated = Simulated::new(&setup.real, listed, &chance);
+        let mut room = setup.ideal.room();
+        for i in 0..asked.len() {
+            if i.is_multiple_of(TOLD) {
+                notes.progress(i, asked.len());
+                notes.go_on()?;
+            }
+            let observation = simulated.row(i, &asked.row(i, map)).map_err(fail)?;
+            let ideal = setup.ideal.pose(&mut room, &observation, &[]).map_err(fail)?.position();
+            let numbers = map.numbers(&observation, ideal, true);
+            let numbers = finite(format!("{file}: {}", place(observation.line)), numbers)?;
+            let label = map.stations.column.is_some();
+            let label = label.then(|| stations.get(observation.station as usize).map_or("", |name| name));
+            take(Row { observation, label, numbers })?;
+        }
+        notes.progress(asked.len(), asked.len());
+        Ok(asked.len())
+    }
+
+    /// Where is measured: random configurations are made one by one where each is a row.
+    fn asked<'s>(&'s self, interpreter: &Interpreter, setup: &Setup) -> Result<Asked<'s>, Diagnostics> {
+        let Self { machine, map, .. } = self;
+        let list = match &self.at {
+            Places::Rows(data) => Cow::Borrowed(data),
+            Places::Samples(count) => {
+                if map.instruments().is_none() && !map.follows_from_rows() {
+                    let (samples, stations) = (self.samples(interpreter, *count)?, map.station_names().len());
+                    return Ok(Asked::Sampled { samples, stations });
+                }
+                Cow::Owned(self.sampled(interpreter, setup, *count)?)
+            }
+        };
+        let rows = match list {
+            Cow::Borrowed(data) => match data.completed(map, interpreter, &machine.spec) {
+                Cow::Borrowed(data) => Cow::Borrowed(&data.observations[..]),
+                Cow::Owned(data) => Cow::Owned(data.observations),
+            },
+            Cow::Owned(data) => {
+                Cow::Owned(data.completed(map, interpreter, &machine.spec).into_owned().observations)
+            }
+        };
+        Ok(Asked::Listed(match map.instruments().is_some_and(Instruments::count_from_before) {
+            true => Cow::Owned(map.in_sequence(rows.into_owned())),
+            false => rows,
+        }))
+    }
+
+    fn samples(&self, manipulator: &dyn Manipulator, count: usize) -> Result<JointSamples, Diagnostics> {
+        let moved: Vec<usize> = self.map.moved().collect();
+        let inputs = self.map.moved_inputs(&self.machine);
+        random_joint_samples(manipulator, &moved, count, self.seed)
+            .and_then(|samples| samples.inputs(manipulator, &inputs))
+            .map_err(|error| mistake::whole(&self.machine.origin, &error))
     }
 
     /// Says which inputs could be drawn within their ranges if the map had a column for them.
@@ -141,17 +236,10 @@ impl Simulate {
         setup: &Setup,
         count: usize,
     ) -> Result<Data, Diagnostics> {
-        let moved: Vec<usize> = self.map.moved().collect();
-        let inputs = self.map.moved_inputs(&self.machine);
         let tries = if self.map.instruments().is_some() { TRIES * count } else { count };
-        let samples = random_joint_samples(manipulator, &moved, tries, self.seed)
-            .and_then(|samples| samples.inputs(manipulator, &inputs));
-        let samples = samples.map_err(|error| mistake::whole(&self.machine.origin, &error))?.reached();
         let stations = self.map.station_names();
-        let rows = (1..).zip(samples).enumerate().map(|(i, (line, sample))| {
-            let station = i % stations.len();
-            Observation { station, ..self.map.planned(line, sample) }
-        });
+        let tried = Asked::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
+        let rows = (0..tried.len()).map(|i| tried.row(i, &self.map).into_owned());
         let observations = aimed(setup, &self.map, rows.collect(), count)
             .map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
         if observations.is_empty() {
@@ -159,5 +247,37 @@ impl Simulate {
         }
         let file = "--samples".to_owned();
         Ok(Data { file, observations, stations: stations.clone(), ..Data::default() })
+    }
+}
+
+/// The rows that are measured.
+enum Asked<'a> {
+    Listed(Cow<'a, [Observation]>),
+    /// One after the other at as many stations.
+    Sampled {
+        samples: JointSamples,
+        stations: usize,
+    },
+}
+
+impl Asked<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Listed(rows) => rows.len(),
+            Self::Sampled { samples, .. } => samples.len(),
+        }
+    }
+
+    fn row(&self, i: usize, map: &Map) -> Cow<'_, Observation> {
+        match self {
+            Self::Listed(rows) => Cow::Borrowed(&rows[i]),
+            Self::Sampled { samples, stations } => {
+                let mut place = samples.home().clone();
+                // Samples of joints can all be had.
+                let _ = samples.fill(i, &mut place);
+                let station = (i % stations) as u32;
+                Cow::Owned(Observation { station, ..map.planned(i as u64 + 1, place) })
+            }
+        }
     }
 }

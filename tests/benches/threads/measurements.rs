@@ -22,7 +22,7 @@ pub(crate) fn asked(model: &Model) -> Vec<Observation> {
     let moved: Vec<usize> = (0..description.variables.len()).collect();
     let row = |i: usize| {
         let q = joint_sample(description, arm, &moved, i);
-        let seen = Measurement::Points(vec![Some([0.0; 3]); TARGETS.len()]);
+        let seen = Measurement::Points(vec![Some([0.0; 3]); TARGETS.len()].into());
         Observation::new(i as u64 + 1, q, Vec::new(), seen)
     };
     (0..ROWS).map(row).collect()

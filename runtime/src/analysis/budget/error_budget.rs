@@ -75,8 +75,10 @@ pub trait Watch {
     }
     /// A configuration that was reached; in order.
     fn row(&mut self, _row: &Row) {}
-    /// All configurations before this one are done with.
-    fn done(&mut self, _before: usize) {}
+    /// All configurations before this one are done with; whether to go on. Who ends it gets the budget of these.
+    fn done(&mut self, _before: usize) -> bool {
+        true
+    }
 }
 
 impl Watch for () {}

@@ -1,11 +1,11 @@
 //! Budgets in parts: a workspace is divided into chunks, and what was gathered of some merges with that of others.
 
 use core::fmt;
-use core::ops::Range;
+use core::ops::{ControlFlow, Range};
 
 use super::gathering::{self, Beginning, Gathering, Scattered};
 use super::{Asked, Budget, OrientationErrors, RemainingErrors, Residual, Watch, remaining_errors};
-use crate::analysis::sweep::{BLOCK, Block, Sweepable, Unevaluated, in_order, ready, sweep};
+use crate::analysis::sweep::{BLOCK, Block, Sweepable, Unevaluated, in_order_until, ready, sweep};
 use crate::analysis::workspace::One;
 use crate::analysis::{Measurand, Subset, UnreachableSummary, Workspace};
 use crate::lanes::{InstructionSet, Kernel, Lanes, Register};
@@ -118,19 +118,22 @@ impl<'a> Survey<'a> {
         at(chunks.start)..at(chunks.end)
     }
 
-    /// Evaluates some chunks. Errors as for [`sweep`].
+    /// Evaluates some chunks, and no more than those that are done when the watcher ends it. Errors as for [`sweep`].
     pub fn part(&self, chunks: Range<usize>, watch: &mut dyn Watch) -> Result<BudgetPart, Unevaluated> {
         let chunks = chunks.start..chunks.end.min(self.chunks()).max(chunks.start);
         let mut total = self.nothing(chunks.start);
         let (rows, mut here) = (watch.rows(), self.workspace.home().clone());
-        in_order(
+        in_order_until(
             chunks.len(),
             |i| InstructionSet::best().run(Chunk { survey: self, number: chunks.start + i, rows }),
             |(part, blocks)| {
                 blocks.iter().for_each(|block| block.visit(&mut here, &mut |row| watch.row(row)));
                 let done = self.configurations(&part.chunks).end;
                 total.put(part);
-                watch.done(done);
+                match watch.done(done) {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
             },
         )?;
         Ok(total)

@@ -1,5 +1,6 @@
 //! Blocks of work, done in parallel and taken in order.
 
+use core::ops::ControlFlow;
 #[cfg(feature = "parallel")]
 use core::sync::atomic::{AtomicBool, Ordering};
 #[cfg(feature = "parallel")]
@@ -29,11 +30,30 @@ pub(crate) fn in_order<T: Send, E: Send>(
     make: impl Fn(usize) -> Result<T, E> + Sync,
     mut take: impl FnMut(T),
 ) -> Result<(), E> {
+    in_order_until(count, make, |made| {
+        take(made);
+        ControlFlow::Continue(())
+    })
+}
+
+/// The same until one that is taken is to be the last: those that are being made then are made, and no others.
+///
+/// Blocks are to be short: whoever wants the work to end waits for as many as there are threads.
+pub fn in_order_until<T: Send, E: Send>(
+    count: usize,
+    make: impl Fn(usize) -> Result<T, E> + Sync,
+    mut take: impl FnMut(T) -> ControlFlow<()>,
+) -> Result<(), E> {
     #[cfg(feature = "parallel")]
     if rayon::current_num_threads() > 1 && count > 1 {
         return in_parallel(count, &make, &mut take);
     }
-    (0..count).try_for_each(|block| make(block).map(&mut take))
+    for block in 0..count {
+        if take(make(block)?).is_break() {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// A block that was made, or nothing if that panicked.
@@ -44,7 +64,7 @@ type Made<T, E> = (usize, Option<Result<T, E>>);
 fn in_parallel<T: Send, E: Send>(
     count: usize,
     make: &(impl Fn(usize) -> Result<T, E> + Sync),
-    take: &mut impl FnMut(T),
+    take: &mut impl FnMut(T) -> ControlFlow<()>,
 ) -> Result<(), E> {
     let ahead = AHEAD * rayon::current_num_threads();
     let failed = &AtomicBool::new(false);
@@ -76,13 +96,17 @@ fn in_parallel<T: Send, E: Send>(
                     None => {}
                 }
             }
-            match ready.pop_front().flatten() {
-                Some(Ok(made)) => take(made),
+            let goes_on = match ready.pop_front().flatten() {
+                Some(Ok(made)) => take(made).is_continue(),
                 Some(Err(error)) => {
                     failed.store(true, Ordering::Relaxed);
                     return Err(error);
                 }
-                None => {}
+                None => true,
+            };
+            if !goes_on {
+                failed.store(true, Ordering::Relaxed);
+                break;
             }
         }
         Ok(())
@@ -117,7 +141,32 @@ fn next<T>(receiver: &mpsc::Receiver<T>) -> Option<T> {
 
 #[cfg(all(test, feature = "parallel"))]
 mod tests {
-    use super::in_order;
+    use core::ops::ControlFlow;
+
+    use super::{in_order, in_order_until};
+
+    /// Of a thousand blocks some hundred may be ahead of the one that is the last: not all.
+    #[test]
+    fn no_block_is_begun_behind_the_last() {
+        use std::sync::atomic::{AtomicUsize, Ordering};
+
+        for threads in [1, 2, 5] {
+            let (begun, mut taken) = (AtomicUsize::new(0), 0);
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let ended = pool.install(|| {
+                let make = |i: usize| {
+                    begun.fetch_add(1, Ordering::SeqCst);
+                    Ok::<usize, ()>(i)
+                };
+                in_order_until(1000, make, |i| {
+                    taken += 1;
+                    if i == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                })
+            });
+            assert_eq!((ended, taken), (Ok(()), 21));
+            assert!(begun.load(Ordering::SeqCst) <= 21 + threads * super::AHEAD, "{begun:?}");
+        }
+    }
 
     #[test]
     fn blocks_come_in_order_whatever_the_number_of_threads() {

@@ -7,6 +7,7 @@ mod sweepable;
 
 pub(super) use block::Block;
 pub(crate) use in_order::in_order;
+pub use in_order::in_order_until;
 pub(super) use rows::ready;
 pub use rows::{BLOCK, Row, Unevaluated, sweep};
 pub use sweepable::Sweepable;

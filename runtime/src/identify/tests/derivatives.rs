@@ -42,7 +42,7 @@ fn derivatives_are_those_of_the_exact_chain() {
     let pose = pose.with(pose.constants(true));
     // The pose that would be seen is about where it should be, not half a turn away.
     let near = pose.pose(&mut pose.room(), &observation(&q, 0), &vec![0.0; pose.unknowns.len()]).unwrap();
-    differences(&pose, &Observation { measured: Measurement::Pose(near), ..observation(&q, 0) });
+    differences(&pose, &Observation { measured: Measurement::Pose(Box::new(near)), ..observation(&q, 0) });
 }
 
 /// One reading of every gauge.
@@ -84,9 +84,10 @@ fn derivatives_of_readings_are_exact() {
     let sources = model.repeatable().into_iter().map(Unknown::Magnitude);
     let all = model.constants(false).into_iter().chain(sources);
     let model = model.with(all.chain(Component::ALL.map(Unknown::Tool)).collect());
-    let from = Some(Box::new(observation(&[700.0, 100.0, 350.0, -0.4, 0.02, 0.05], 0)));
+    let from = Some(observation(&[700.0, 100.0, 350.0, -0.4, 0.02, 0.05], 0));
     let measured = Measurement::Readings(vec![Some(0.0); 7]);
-    let seen = Observation { from, measured, ..observation(&q, 1) };
+    let seen =
+        Observation { measured, ..observation(&q, 1) }.approached(Approach { from, ..Approach::default() });
     differences(&model, &seen);
     assert_eq!(seen.count(), 7);
     let hidden = Measurement::Readings(vec![None, Some(1.0), None, None, Some(2.0), None, None]);

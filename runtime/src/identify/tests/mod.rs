@@ -21,8 +21,8 @@ fn observation(q: &[f64], points: usize) -> Observation {
 
 fn numbered(line: u64, q: &[f64], points: usize) -> Observation {
     let measured = match points {
-        0 => Measurement::Pose(Pose::IDENTITY),
-        _ => Measurement::Points(vec![Some([0.0; 3]); points]),
+        0 => Measurement::Pose(Box::new(Pose::IDENTITY)),
+        _ => Measurement::Points(vec![Some([0.0; 3]); points].into()),
     };
     Observation::new(line, q.to_vec(), Vec::new(), measured)
 }

@@ -29,11 +29,11 @@ pub struct Directions {
 impl Directions {
     /// None where nothing was approached from two directions.
     pub(super) fn new(rows: &[RowError], oriented: bool) -> Option<Self> {
-        let mut configurations: BTreeMap<usize, BTreeMap<usize, Vec<&RowError>>> = BTreeMap::new();
+        let mut configurations: BTreeMap<u32, BTreeMap<usize, Vec<&RowError>>> = BTreeMap::new();
         for row in rows {
             let observation = &row.observation;
             let directions = configurations.entry(observation.configuration).or_default();
-            directions.entry(observation.direction).or_default().push(row);
+            directions.entry(observation.direction()).or_default().push(row);
         }
         configurations.retain(|_, directions| directions.len() > 1);
         let (mut positions, mut turns) = (Vec::new(), Vec::new());

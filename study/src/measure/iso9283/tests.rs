@@ -5,8 +5,8 @@ use abbe::identify::{Measurement, Observation};
 use super::{MeanAndMax, RowError, repeated};
 
 /// A visit of a configuration that is commanded to `at`.
-fn visit(configuration: usize, at: [f64; 3], error: [f64; 6]) -> RowError {
-    let mut observation = Observation::new(1, Vec::new(), Vec::new(), Measurement::Points(Vec::new()));
+fn visit(configuration: u32, at: [f64; 3], error: [f64; 6]) -> RowError {
+    let mut observation = Observation::new(1, Vec::new(), Vec::new(), Measurement::Points(Vec::new().into()));
     observation.configuration = configuration;
     RowError { observation, error, point: std::array::from_fn(|k| at[k] + error[k]) }
 }
@@ -52,7 +52,7 @@ fn repeatability_counts_the_spread_of_distances() {
 fn variation_by_direction() {
     let from = |direction: usize, x: f64, y: f64, a: f64| {
         let mut row = visit(7, [0.0; 3], [x, y, 0.0, a, 0.0, 0.0]);
-        row.observation.direction = direction;
+        row.observation.approach_mut().direction = direction;
         row
     };
     let rows = [
@@ -88,7 +88,7 @@ fn drift_in_the_order_of_time() {
     let at = |i: usize| {
         let (block, side) = (i / 10, if i.is_multiple_of(2) { 0.5 } else { -0.5 });
         let mut row = visit(0, [0.0; 3], [1.0 + 3.0 * block as f64 + side, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        row.observation.time = Some(i as f64);
+        row.observation.approach_mut().time = Some(i as f64);
         row
     };
     // The file has them in another order.

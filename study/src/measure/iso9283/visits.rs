@@ -21,9 +21,9 @@ impl RowError {
 pub(super) fn visits(rows: &[RowError]) -> Vec<Visits<'_>> {
     let mut order: Vec<&RowError> = rows.iter().collect();
     // A stable sort: rows without a time stay in their order.
-    let time = |row: &RowError| row.observation.time.unwrap_or_default();
+    let time = |row: &RowError| row.observation.time().unwrap_or_default();
     order.sort_by(|a, b| time(a).total_cmp(&time(b)));
-    let mut groups: BTreeMap<usize, Visits<'_>> = BTreeMap::new();
+    let mut groups: BTreeMap<u32, Visits<'_>> = BTreeMap::new();
     for row in order {
         groups.entry(row.observation.configuration).or_default().push(row);
     }

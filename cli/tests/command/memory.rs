@@ -1,0 +1,99 @@
+//! How much memory a row takes: what a long file takes more than a short one, row by row. Memory is the same on every computer,
+//! time is not.
+
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
+
+use tempfile::tempdir;
+
+use crate::running::{command, prints, shipped, write};
+
+/// Rows of the two files.
+const ROWS: [usize; 2] = [5_000, 45_000];
+
+const MAP: &str = r#"
+[data]
+uncertainty = "0.02 mm"
+[joints]
+q1 = { column = "q1", unit = "rad" }
+q2 = { column = "q2", unit = "rad" }
+q3 = { column = "q3", unit = "rad" }
+q4 = { column = "q4", unit = "rad" }
+q5 = { column = "q5", unit = "rad" }
+q6 = { column = "q6", unit = "rad" }
+[point]
+columns = ["x", "y", "z"]
+unit = "mm"
+"#;
+
+/// The most memory that a command had while it was looked at, which is nearly until its end: bytes.
+fn peak(words: &[&str]) -> f64 {
+    let mut child = command(words).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    let mut most = 0.0_f64;
+    loop {
+        let text = fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok());
+        most = most.max(1024.0 * kilobytes.unwrap_or_default());
+        if let Some(status) = child.try_wait().unwrap() {
+            assert!(status.code().is_some_and(|code| code < 2), "{words:?}: {status}");
+            return most;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// Bytes that a row more takes.
+fn of_a_row(words: impl Fn(usize) -> Vec<String>) -> f64 {
+    let [few, many] = ROWS.map(|rows| {
+        let words = words(rows);
+        peak(&words.iter().map(String::as_str).collect::<Vec<_>>())
+    });
+    (many - few) / (ROWS[1] - ROWS[0]) as f64
+}
+
+fn data(folder: &Path, rows: usize) -> String {
+    folder.join(format!("{rows}.csv")).to_str().unwrap().to_owned()
+}
+
+/// A million rows take so many MB, beside some 10 MB for everything else; `measure` a little more than 200.
+#[test]
+fn rows_are_small() {
+    let folder = tempdir().unwrap();
+    let map = write(folder.path(), "map.toml", MAP);
+    let spec = write(folder.path(), "arm.toml", shipped("ur5"));
+    let [map, spec] = [&map, &spec].map(|path| path.to_str().unwrap());
+    let out = folder.path().join("out.csv");
+    let out = out.to_str().unwrap();
+    for rows in ROWS {
+        let count = rows.to_string();
+        let file = data(folder.path(), rows);
+        prints(&["simulate", spec, "--map", map, "--samples", &count, "--out", &file]);
+    }
+    let own = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>();
+    let on = |command: &str, more: &[&str]| {
+        let more = own(more);
+        let at =
+            |rows| [own(&[command, spec, &data(folder.path(), rows), "--map", map]), more.clone()].concat();
+        of_a_row(at)
+    };
+    let samples = of_a_row(|rows| {
+        own(&["simulate", spec, "--map", map, "--samples", &rows.to_string(), "--out", out, "--force"])
+    });
+    let found = [
+        ("simulate --samples", samples, 20.0),
+        ("simulate", on("simulate", &["--out", out, "--force"]), 190.0),
+        ("compensate", on("compensate", &["--out", out, "--force"]), 190.0),
+        ("measure", on("measure", &[]), 210.0),
+        ("identify", on("identify", &[]), 270.0),
+    ];
+    for (name, bytes, most) in found {
+        println!("{name}: {bytes:.0} bytes a row");
+        assert!(bytes < most, "{name}: {bytes} bytes a row, not {most}");
+    }
+}

@@ -1,0 +1,153 @@
+//! The few numbers of a row, without an allocation for each.
+
+use std::ops::{Deref, DerefMut};
+
+/// How many numbers are kept in place.
+const FEW: usize = 7;
+
+/// The values of the joints: a slice of numbers, up to seven of them in place.
+#[derive(Clone, Debug)]
+pub struct Values(Kept);
+
+#[derive(Clone, Debug)]
+enum Kept {
+    Few(u8, [f64; FEW]),
+    Many(Box<[f64]>),
+}
+
+impl Deref for Values {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        match &self.0 {
+            Kept::Few(count, values) => &values[..usize::from(*count)],
+            Kept::Many(values) => values,
+        }
+    }
+}
+
+impl DerefMut for Values {
+    fn deref_mut(&mut self) -> &mut [f64] {
+        match &mut self.0 {
+            Kept::Few(count, values) => &mut values[..usize::from(*count)],
+            Kept::Many(values) => values,
+        }
+    }
+}
+
+impl PartialEq for Values {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl From<&[f64]> for Values {
+    fn from(values: &[f64]) -> Self {
+        if values.len() > FEW {
+            return Self(Kept::Many(values.into()));
+        }
+        let mut few = [0.0; FEW];
+        few[..values.len()].copy_from_slice(values);
+        Self(Kept::Few(values.len() as u8, few))
+    }
+}
+
+impl From<Vec<f64>> for Values {
+    fn from(values: Vec<f64>) -> Self {
+        Self::from(&values[..])
+    }
+}
+
+/// The values of the inputs: a slice of numbers. Most machines have none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inputs(Option<Box<Box<[f64]>>>);
+
+impl Deref for Inputs {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        self.0.as_ref().map_or(&[], |values| values)
+    }
+}
+
+impl DerefMut for Inputs {
+    fn deref_mut(&mut self) -> &mut [f64] {
+        self.0.as_mut().map_or(&mut [], |values| values)
+    }
+}
+
+impl From<Vec<f64>> for Inputs {
+    fn from(values: Vec<f64>) -> Self {
+        Self((!values.is_empty()).then(|| Box::new(values.into())))
+    }
+}
+
+/// The points of the targets, none where one was hidden: a slice of them, a single one in place.
+#[derive(Clone, Debug)]
+pub struct Points(Seen);
+
+#[derive(Clone, Debug)]
+enum Seen {
+    One(Option<[f64; 3]>),
+    Many(Box<[Option<[f64; 3]>]>),
+}
+
+impl Deref for Points {
+    type Target = [Option<[f64; 3]>];
+
+    fn deref(&self) -> &[Option<[f64; 3]>] {
+        match &self.0 {
+            Seen::One(point) => std::slice::from_ref(point),
+            Seen::Many(points) => points,
+        }
+    }
+}
+
+impl DerefMut for Points {
+    fn deref_mut(&mut self) -> &mut [Option<[f64; 3]>] {
+        match &mut self.0 {
+            Seen::One(point) => std::slice::from_mut(point),
+            Seen::Many(points) => points,
+        }
+    }
+}
+
+impl PartialEq for Points {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl From<Vec<Option<[f64; 3]>>> for Points {
+    fn from(points: Vec<Option<[f64; 3]>>) -> Self {
+        match points[..] {
+            [point] => Self(Seen::One(point)),
+            _ => Self(Seen::Many(points.into())),
+        }
+    }
+}
+
+impl FromIterator<Option<[f64; 3]>> for Points {
+    fn from_iter<I: IntoIterator<Item = Option<[f64; 3]>>>(points: I) -> Self {
+        points.into_iter().collect::<Vec<_>>().into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Inputs, Points, Values};
+
+    #[test]
+    fn they_are_what_they_were_made_of() {
+        for count in 0..12 {
+            let values: Vec<f64> = (0..count).map(f64::from).collect();
+            let mut kept = Values::from(values.clone());
+            assert_eq!(*kept, values[..]);
+            kept.iter_mut().for_each(|value| *value += 1.0);
+            assert!(kept != Values::from(values.clone()) || count == 0);
+            assert_eq!(*Inputs::from(values.clone()), values[..]);
+            let points: Vec<_> = values.iter().map(|v| (*v > 1.0).then_some([*v; 3])).collect();
+            assert_eq!(*Points::from(points.clone()), points[..]);
+        }
+    }
+}
