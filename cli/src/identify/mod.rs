@@ -46,11 +46,11 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;
     let terms = families(&arguments.terms);
-    let job = Identify { machine, map, data, test, terms, harmonics, settings, accept };
+    let mut job = Identify { machine, map, data, test, terms, harmonics, settings, accept };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let out = arguments.out.as_deref().map(|file| begin(file, &mut outputs)).transpose()?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
-    let report = job.run(&mut Console::default())?;
+    let report = job.run_once(&mut Console::default())?;
     let out = out.map(|(spec, map, name)| Ok::<_, Failure>((found(name, &job, &report)?, spec, map)));
     let (written, out) = match out.transpose()? {
         None => (None, Vec::new()),

@@ -61,7 +61,24 @@ fn data(folder: &Path, rows: usize) -> String {
     folder.join(format!("{rows}.csv")).to_str().unwrap().to_owned()
 }
 
-/// A million rows take so many MB, beside some 10 MB for everything else; `measure` a little more than 200.
+/// The first twenty rows of a file again and again, twenty-five times a day, each a little higher.
+fn visited_again(folder: &Path, rows: usize) -> String {
+    let text = fs::read_to_string(data(folder, rows)).unwrap();
+    let mut lines = text.lines();
+    let mut checks = format!("day,{}\n", lines.next().unwrap());
+    let places: Vec<(&str, f64)> = lines
+        .take(20)
+        .map(|line| line.rsplit_once(',').unwrap())
+        .map(|(q, z)| (q, z.parse().unwrap()))
+        .collect();
+    for i in 0..rows {
+        let (first, z) = places[i % places.len()];
+        checks += &format!("{},{first},{}\n", i / 500, z + 1e-3 * (i as f64).sin());
+    }
+    write(folder, &format!("again-{rows}.csv"), &checks).to_str().unwrap().to_owned()
+}
+
+/// A million rows take so many MB, beside some 10 MB for everything else.
 #[test]
 fn rows_are_small() {
     let folder = tempdir().unwrap();
@@ -77,23 +94,33 @@ fn rows_are_small() {
     }
     let own = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>();
     let on = |command: &str, more: &[&str]| {
-        let more = own(more);
-        let at =
-            |rows| [own(&[command, spec, &data(folder.path(), rows), "--map", map]), more.clone()].concat();
-        of_a_row(at)
+        of_a_row(|rows| own(&[&[command, spec, &data(folder.path(), rows), "--map", map], more].concat()))
     };
     let samples = of_a_row(|rows| {
         own(&["simulate", spec, "--map", map, "--samples", &rows.to_string(), "--out", out, "--force"])
+    });
+    let days = MAP.replace("[data]\n", "[data]\ntime = \"day\"\n");
+    let days = write(folder.path(), "days.toml", &days).to_str().unwrap().to_owned();
+    let checked =
+        of_a_row(|rows| own(&["monitor", spec, &visited_again(folder.path(), rows), "--map", &days]));
+    let judged = of_a_row(|rows| {
+        let file = data(folder.path(), rows);
+        own(&["identify", spec, &file, "--map", map, "--test", &file])
     });
     let found = [
         ("simulate --samples", samples, 20.0),
         ("simulate", on("simulate", &["--out", out, "--force"]), 190.0),
         ("compensate", on("compensate", &["--out", out, "--force"]), 190.0),
-        ("measure", on("measure", &[]), 210.0),
-        ("identify", on("identify", &[]), 270.0),
+        ("measure", on("measure", &[]), 190.0),
+        ("identify", on("identify", &[]), 190.0),
+        ("identify --robust", on("identify", &["--robust", "tukey"]), 190.0),
+        ("identify --test", judged, 330.0),
+        ("monitor", checked, 230.0),
     ];
-    for (name, bytes, most) in found {
+    for (name, bytes, _) in found {
         println!("{name}: {bytes:.0} bytes a row");
+    }
+    for (name, bytes, most) in found {
         assert!(bytes < most, "{name}: {bytes} bytes a row, not {most}");
     }
 }

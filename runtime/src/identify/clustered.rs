@@ -52,11 +52,11 @@ pub(super) const POSE: usize = 6;
 impl Solver<'_> {
     /// At the solution; rows without weight do not count.
     pub(super) fn known(&self) -> Result<Known, Failure> {
-        let used: Vec<usize> = (0..self.data.len()).filter(|i| self.weights[*i] > 0.0).collect();
-        let data = || used.iter().map(|i| &self.data[*i]);
+        let used = || (0..self.data.len()).filter(|i| self.weights[*i] > 0.0);
+        let data = || used().map(|i| &self.data[i]);
         let configurations = Configurations::new(data());
         let numbers = configurations.numbers(data());
-        let at_most = |most: usize| numbers.iter().map(|count| *count.min(&most)).sum::<usize>();
+        let at_most = |most: usize| numbers.iter().map(|count| (*count as usize).min(most)).sum::<usize>();
         let n: usize = data().map(super::Observation::count).sum();
         let p = self.x.len();
         let (means, bounded) = (at_most(usize::MAX), at_most(POSE));
@@ -74,7 +74,7 @@ impl Solver<'_> {
             let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
             return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
         }
-        let groups = configurations.rows().of(&used);
+        let groups = configurations.rows().of(&used().collect::<Vec<_>>());
         let groups = groups.slices();
         if several {
             let (covariance, sigma) = self.sandwich(&groups, n)?;

@@ -33,13 +33,48 @@ pub struct Configurations {
     /// How many there are.
     pub count: usize,
     /// By row: its configuration, from 0 in the order in which they come first.
-    pub number: Vec<usize>,
+    pub number: Vec<u32>,
+}
+
+/// Numbers what comes again, from 0 in the order in which it comes first: what may be a million takes four bytes each.
+pub(super) struct Numbering {
+    dense: Vec<u32>,
+    sparse: HashMap<u32, u32>,
+    count: u32,
+}
+
+impl Numbering {
+    /// No number given yet.
+    const NONE: u32 = u32::MAX;
+
+    /// Of these keys, and no others.
+    pub(super) fn of(keys: impl Iterator<Item = u32>) -> Self {
+        let (count, largest) = keys.fold((0, 0), |(count, largest), key| (count + 1, key.max(largest)));
+        let dense = if largest as usize > 1024 + 4 * count { 0 } else { largest as usize + 1 };
+        Self { dense: vec![Self::NONE; dense], sparse: HashMap::new(), count: 0 }
+    }
+
+    pub(super) fn number(&mut self, key: u32) -> u32 {
+        let known = match self.dense.get_mut(key as usize) {
+            Some(known) => known,
+            None => self.sparse.entry(key).or_insert(Self::NONE),
+        };
+        if *known == Self::NONE {
+            (*known, self.count) = (self.count, self.count + 1);
+        }
+        *known
+    }
+
+    /// How many are different.
+    pub(super) fn count(&self) -> usize {
+        self.count as usize
+    }
 }
 
 impl Configurations {
     /// Those of these rows.
     pub fn new<'o>(rows: impl IntoIterator<Item = &'o Observation>) -> Self {
-        Self::from_numbers(rows.into_iter().map(|row| row.configuration as usize).collect())
+        Self::from_numbers(rows.into_iter().map(|row| row.configuration).collect())
     }
 
     /// The rows of as many configurations, drawn with replacement: one repetition of the bootstrap where rows depend on each other
@@ -51,25 +86,40 @@ impl Configurations {
             times[random.random_range(0..self.count)] += 1;
         }
         let rows = self.number.iter().enumerate();
-        rows.flat_map(|(row, configuration)| core::iter::repeat_n(row, times[*configuration])).collect()
+        rows.flat_map(|(row, configuration)| core::iter::repeat_n(row, times[*configuration as usize]))
+            .collect()
     }
 
     /// By configuration, how many numbers were measured of it: every one once at every station, however often it was visited.
     /// `rows` are those that they were made of.
-    pub(super) fn numbers<'o>(&self, rows: impl Iterator<Item = &'o Observation>) -> Vec<usize> {
-        let mut visits = vec![0; self.count];
-        self.number.iter().for_each(|number| visits[*number] += 1);
+    pub(super) fn numbers<'o>(&self, rows: impl Iterator<Item = &'o Observation>) -> Vec<u32> {
+        let visits = self.visits();
         let (mut numbers, mut again) = (vec![0; self.count], BTreeMap::new());
         for (row, number) in rows.zip(&self.number) {
-            if visits[*number] == 1 {
-                numbers[*number] = row.count();
+            let number = *number as usize;
+            if visits[number] == 1 {
+                numbers[number] = row.count() as u32;
             } else {
-                let places: &mut BTreeSet<_> = again.entry(*number).or_default();
+                let places: &mut BTreeSet<_> = again.entry(number).or_default();
                 places.extend(row.places().into_iter().map(|place| (row.station, place)));
             }
         }
-        again.into_iter().for_each(|(number, places)| numbers[number] = places.len());
+        again.into_iter().for_each(|(number, places)| numbers[number] = places.len() as u32);
         numbers
+    }
+
+    /// How many numbers of rows are independent of each other, and at how many configurations.
+    pub(super) fn independent(rows: &[Observation]) -> (usize, usize) {
+        let configurations = Self::new(rows);
+        let numbers = configurations.numbers(rows.iter());
+        (numbers.iter().map(|count| *count as usize).sum(), configurations.count)
+    }
+
+    /// By configuration, how many rows there are of it.
+    pub(super) fn visits(&self) -> Vec<u32> {
+        let mut visits = vec![0; self.count];
+        self.number.iter().for_each(|number| visits[*number as usize] += 1);
+        visits
     }
 
     /// Rows by their configuration.
@@ -77,26 +127,15 @@ impl Configurations {
         let mut order: Vec<usize> = (0..self.number.len()).collect();
         order.sort_by_key(|row| self.number[*row]);
         let mut ends = vec![0; self.count];
-        order.iter().enumerate().for_each(|(place, row)| ends[self.number[*row]] = place + 1);
+        order.iter().enumerate().for_each(|(place, row)| ends[self.number[*row] as usize] = place + 1);
         Groups { order, ends }
     }
 
-    /// Rows with the same number belong together: what may be a million is numbered in place.
-    pub(super) fn from_numbers(mut number: Vec<usize>) -> Self {
-        let largest = number.iter().copied().max().unwrap_or_default();
-        if largest > 1024 + 4 * number.len() {
-            return Self::from_keys(number);
-        }
-        const NONE: u32 = u32::MAX;
-        let (mut known, mut count) = (vec![NONE; largest + 1], 0);
-        for number in &mut number {
-            let known = &mut known[*number];
-            if *known == NONE {
-                (*known, count) = (count, count + 1);
-            }
-            *number = *known as usize;
-        }
-        Self { count: count as usize, number }
+    /// Rows with the same number belong together.
+    fn from_numbers(mut number: Vec<u32>) -> Self {
+        let mut numbering = Numbering::of(number.iter().copied());
+        number.iter_mut().for_each(|number| *number = numbering.number(*number));
+        Self { count: numbering.count(), number }
     }
 
     /// Rows with the same key belong together.
@@ -105,7 +144,7 @@ impl Configurations {
         let number = keys
             .into_iter()
             .map(|key| {
-                let next = numbers.len();
+                let next = numbers.len() as u32;
                 *numbers.entry(key).or_insert(next)
             })
             .collect();
@@ -145,7 +184,7 @@ mod tests {
 
     #[test]
     fn numbers_are_keys() {
-        for numbers in [vec![], vec![3, 0, 3, 2, 9, 0], vec![5, 1 << 40, 5, 7]] {
+        for numbers in [vec![], vec![3, 0, 3, 2, 9, 0], vec![5, u32::MAX, 5, 7]] {
             let found = Configurations::from_numbers(numbers.clone());
             assert_eq!(found, Configurations::from_keys(numbers));
         }

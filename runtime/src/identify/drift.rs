@@ -7,6 +7,8 @@
 //! with `exp(−t/T)`, `T` of 3, 10 and 30 % of the time, against that of the same rows in random orders. So its rate of
 //! false alarms is the level at which p is held, whatever the errors look like.
 
+use core::borrow::Borrow;
+
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 
@@ -55,90 +57,117 @@ const FEWEST: usize = 20;
 const SETTLING: [f64; 3] = [0.03, 0.1, 0.3];
 
 /// Judges rows at `x`; none if there are too few to tell.
-pub fn drift(model: &Model, rows: &[&Observation], x: &[f64]) -> Result<Option<Drift>, Failure> {
-    let block = |first: usize, part: &[&Observation]| {
-        let mut room = model.room();
-        let mut means = Vec::with_capacity(part.len());
-        for (place, row) in (first..).zip(part) {
-            let (mut sum, mut count) = ([0.0; 3], 0.0);
-            model.each_deviation(&mut room, row, x, |error| {
-                sum = core::array::from_fn(|axis| sum[axis] + error[axis]);
-                count += 1.0;
-            })?;
-            if count > 0.0 {
-                means.push((row.time().unwrap_or(place as f64), place, sum.map(|sum| sum / count)));
-            }
-        }
-        Ok(means)
-    };
-    let mut errors: Vec<Timed> = Vec::with_capacity(rows.len());
-    by_blocks(rows, block, |means| {
-        errors.extend(means.into_iter().map(|(time, place, mean)| (time, rows[place], mean)));
-    })?;
+///
+/// Of a million rows no error is kept: it is worked out each time that it is asked for, and added to that of its piece.
+pub fn drift<R: Borrow<Observation> + Sync>(
+    model: &Model,
+    rows: &[R],
+    x: &[f64],
+) -> Result<Option<Drift>, Failure> {
+    let row = |i: u32| rows[i as usize].borrow();
+    let time = |i: u32| row(i).time().unwrap_or(f64::from(i));
+    let mut order: Vec<u32> = (0..rows.len() as u32).filter(|i| model.tells_place(row(*i))).collect();
     // A stable sort takes room for half of them, and they are in order most of the time.
-    if !errors.is_sorted_by(|a, b| a.0.total_cmp(&b.0).is_le()) {
-        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if !order.is_sorted_by(|a, b| time(*a).total_cmp(&time(*b)).is_le()) {
+        order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
     }
-    Ok(judged(&errors))
+    let errors = |take: &mut dyn FnMut([f64; 3])| {
+        let block = |_: usize, order: &[u32]| {
+            let mut room = model.room();
+            let mean = |i: &u32| {
+                let (mut sum, mut count) = ([0.0; 3], 0.0);
+                model.each_deviation(&mut room, row(*i), x, |error| {
+                    sum = core::array::from_fn(|axis| sum[axis] + error[axis]);
+                    count += 1.0;
+                })?;
+                Ok(sum.map(|sum| sum / count))
+            };
+            order.iter().map(mean).collect::<Result<Vec<_>, _>>()
+        };
+        by_blocks(&order, block, |means| means.into_iter().for_each(&mut *take))
+    };
+    let (row, time) = (|place: usize| row(order[place]), |place: usize| time(order[place]));
+    judged(&Timed { count: order.len(), row: &row, time: &time, errors: &errors })
 }
 
-/// Time, row and error, in the order of time.
-type Timed<'o> = (f64, &'o Observation, [f64; 3]);
+/// Rows in the order of time.
+struct Timed<'o> {
+    count: usize,
+    row: &'o dyn Fn(usize) -> &'o Observation,
+    time: &'o dyn Fn(usize) -> f64,
+    /// Gives the errors of all away, one after the other.
+    errors: &'o Errors<'o>,
+}
 
-fn judged(errors: &[Timed]) -> Option<Drift> {
-    let tenth = errors.len() / 10;
-    let distances = |part: &[Timed]| part.iter().map(|e| norm(e.2)).sum::<f64>() / part.len().max(1) as f64;
-    let ends = [distances(&errors[..tenth]), distances(&errors[errors.len() - tenth..])];
-    let Configurations { count, number } = Configurations::new(errors.iter().map(|e| e.1));
-    let mut visits = vec![0_u32; count];
-    number.iter().for_each(|at| visits[*at] += 1);
+type Errors<'o> = dyn Fn(&mut dyn FnMut([f64; 3])) -> Result<(), Failure> + 'o;
+
+fn judged(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, Failure> {
+    let configurations = Configurations::new((0..count).map(row));
+    let visits = configurations.visits();
+    let at = |i: usize| configurations.number[i] as usize;
     let again: u32 = visits.iter().filter(|visits| **visits > 1).sum();
-    let visited_again = 2 * again as usize > errors.len();
-    let of_row = |i: usize| {
-        let [x, y, z] = errors[i].2;
-        [x, y, z, norm([x, y, z])]
-    };
+    let visited_again = 2 * again as usize > count;
+    let with_norm = |[x, y, z]: [f64; 3]| [x, y, z, norm([x, y, z])];
     // By configuration the mean of its visits, where they are taken off.
-    let mut means = vec![[0.0; 4]; if visited_again { count } else { 0 }];
+    let mut means = vec![[-0.0; 4]; if visited_again { configurations.count } else { 0 }];
     if visited_again {
-        for (i, at) in number.iter().enumerate() {
-            let value = of_row(i);
-            (0..4).for_each(|a| means[*at][a] += value[a] / f64::from(visits[*at]));
+        let mut rows = 0..count;
+        errors(&mut |error| {
+            let (at, value) = (rows.next().map_or(0, at), with_norm(error));
+            (0..4).for_each(|a| means[at][a] += value[a]);
+        })?;
+        means
+            .iter_mut()
+            .zip(&visits)
+            .for_each(|(mean, visits)| *mean = mean.map(|sum| sum / f64::from(*visits)));
+    }
+    let is_kept = |i: usize| !visited_again || visits[at(i)] > 1;
+    let kept = if visited_again { again as usize } else { count };
+    if kept < FEWEST {
+        return Ok(None);
+    }
+    let length = kept.div_ceil(PIECES);
+    let n = kept.div_ceil(length);
+    let first = (0..count).find(|i| is_kept(*i)).map_or(0.0, time);
+    let last = (0..count).rfind(|i| is_kept(*i)).map_or(0.0, time);
+    let since = |i: usize| if last > first { (time(i) - first) / (last - first) } else { 0.0 };
+    let joints = row(0).q.len();
+    let joints = if !visited_again && n > 6 * joints { joints } else { 0 };
+    // Piece by piece: the error and its norm, the time, every joint and its square.
+    let mut pieces = DMatrix::repeat(n, 5 + 2 * joints, -0.0);
+    let (mut ends, tenth) = ([-0.0; 2], count / 10);
+    let (mut i, mut place) = (0, 0);
+    errors(&mut |error| {
+        let value = with_norm(error);
+        ends[0] += if i < tenth { value[3] } else { -0.0 };
+        ends[1] += if i >= count - tenth { value[3] } else { -0.0 };
+        if is_kept(i) {
+            let mut piece = pieces.row_mut(place / length);
+            let mean = means.get(at(i)).copied().unwrap_or_default();
+            (0..4).for_each(|a| piece[a] += value[a] - mean[a]);
+            piece[4] += since(i);
+            for (joint, q) in row(i).q[..joints].iter().enumerate() {
+                piece[5 + 2 * joint] += q;
+                piece[6 + 2 * joint] += q.powi(2);
+            }
+            place += 1;
         }
+        i += 1;
+    })?;
+    let ends = ends.map(|sum| sum / tenth.max(1) as f64);
+    for (k, mut piece) in pieces.row_iter_mut().enumerate() {
+        piece /= length.min(kept - k * length) as f64;
     }
-    let value = |i: usize, a: usize| of_row(i)[a] - means.get(number[i]).map_or(0.0, |mean| mean[a]);
-    let kept: Vec<usize> = (0..errors.len()).filter(|i| !visited_again || visits[number[*i]] > 1).collect();
-    if kept.len() < FEWEST {
-        return None;
-    }
-    let pieces: Vec<&[usize]> = kept.chunks(kept.len().div_ceil(PIECES)).collect();
-    let n = pieces.len();
-    let mean = |piece: &[usize], of: &dyn Fn(usize) -> f64| {
-        piece.iter().map(|i| of(*i)).sum::<f64>() / piece.len() as f64
-    };
-    let joints = errors[0].1.q.len();
+    let column = |k: usize| pieces.column(k).into_owned();
     let mut nuisance = vec![DVector::repeat(n, 1.0)];
-    if !visited_again && n > 6 * joints {
-        for (joint, power) in (0..joints).flat_map(|joint| [(joint, 1), (joint, 2)]) {
-            let value = |i: usize| errors[i].1.q[joint].powi(power);
-            nuisance.push(DVector::from_iterator(n, pieces.iter().map(|piece| mean(piece, &value))));
-        }
-    }
+    nuisance.extend((0..2 * joints).map(|k| column(5 + k)));
     let nuisance = orthonormal(&nuisance);
     let cleaned = |column: DVector<f64>| nuisance.iter().fold(column, |c, z| &c - z * z.dot(&c));
-    let values: Vec<DVector<f64>> = (0..4)
-        .map(|a| cleaned(DVector::from_iterator(n, pieces.iter().map(|piece| mean(piece, &|i| value(i, a))))))
-        .collect();
-    let (first, last) = (errors[kept[0]].0, errors[kept[kept.len() - 1]].0);
-    let time = |i: usize| if last > first { (errors[i].0 - first) / (last - first) } else { 0.0 };
+    let values: Vec<DVector<f64>> = (0..4).map(|a| cleaned(column(a))).collect();
     let shapes = [None].into_iter().chain(SETTLING.map(Some));
     let shape = |settling: Option<f64>, t: f64| settling.map_or(t, |constant| (-t / constant).exp());
-    let bases: Vec<(Option<f64>, DVector<f64>)> = shapes
-        .map(|settling| {
-            let column = pieces.iter().map(|piece| shape(settling, mean(piece, &time)));
-            (settling, cleaned(DVector::from_iterator(n, column)))
-        })
-        .collect();
+    let bases: Vec<(Option<f64>, DVector<f64>)> =
+        shapes.map(|settling| (settling, cleaned(column(4).map(|t| shape(settling, t))))).collect();
     let table = DMatrix::from_columns(&values);
     let squares: Vec<f64> = values.iter().map(DVector::norm_squared).collect();
     // The best of all, and its place.
@@ -172,7 +201,7 @@ fn judged(errors: &[Timed]) -> Option<Drift> {
     let [p, p_of_lag_1] = reached.map(|count| count / (ORDERS + 1) as f64);
     let (settling, basis) = &bases[j];
     let slope = basis.dot(&values[a]) / basis.norm_squared().max(f64::MIN_POSITIVE);
-    Some(Drift {
+    Ok(Some(Drift {
         lag_1,
         p_of_lag_1,
         follows: if a < 3 { Follows::Axis(a) } else { Follows::Distance },
@@ -180,7 +209,7 @@ fn judged(errors: &[Timed]) -> Option<Drift> {
         change: slope * (shape(*settling, 1.0) - shape(*settling, 0.0)),
         p,
         ends,
-    })
+    }))
 }
 
 /// Gram and Schmidt; columns that say nothing new are left out.
@@ -203,7 +232,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    use super::{Drift, Follows, judged};
+    use super::{Drift, Follows, Timed, judged};
     use crate::identify::{Measurement, Observation};
 
     /// Rows of a machine of two joints, with an error that the function says of time (0 to 1) and joints.
@@ -228,11 +257,16 @@ mod tests {
         };
         let rows: Vec<Observation> = (0..count).map(row).collect();
         let normal = rand_distr::Normal::new(0.0, 1.0).unwrap();
-        let errors = rows.iter().enumerate().map(|(i, row)| {
-            let [x, y, z] = error(i as f64 / count as f64, &row.q);
-            (i as f64, row, [x, y, z].map(|e| e + random.sample(normal)))
-        });
-        judged(&errors.collect::<Vec<_>>())
+        let errors = rows
+            .iter()
+            .enumerate()
+            .map(|(i, row)| error(i as f64 / count as f64, &row.q).map(|e| e + random.sample(normal)));
+        let errors: Vec<[f64; 3]> = errors.collect();
+        let errors = |take: &mut dyn FnMut([f64; 3])| {
+            errors.iter().for_each(|error| take(*error));
+            Ok(())
+        };
+        judged(&Timed { count, row: &|i| &rows[i], time: &|i| i as f64, errors: &errors }).unwrap()
     }
 
     /// 1 % of orders without drift are called one: of 300, 3 ± 1.7.

@@ -1,6 +1,6 @@
 //! Figures of many errors, and whether one model is better than another.
 
-use super::Configurations;
+use super::configurations::Numbering;
 use super::statistics::student_beyond;
 
 /// Mean, root mean square, largest, and the value that 95 % do not exceed.
@@ -25,13 +25,30 @@ pub struct Figures {
 impl Figures {
     /// Those of norms, each at a configuration of its own; all 0 if there are none.
     pub fn from_norms(values: Vec<f64>) -> Self {
-        Distances(values.into_iter().enumerate().collect()).figures()
+        let mean = Mean::of(values.iter().copied(), &[]);
+        Self::of(values, mean)
+    }
+
+    fn of(mut values: Vec<f64>, Mean { mean, standard_error, configurations }: Mean) -> Self {
+        let count = values.len();
+        if count == 0 {
+            return Self::default();
+        }
+        let n = count as f64;
+        let rms = (values.iter().map(|v| v * v).sum::<f64>() / n).sqrt();
+        let max = values.iter().copied().max_by(f64::total_cmp).unwrap_or_default();
+        let rank = (0.95 * n).ceil() as usize;
+        let (_, p95, _) = values.select_nth_unstable_by(rank.max(1) - 1, f64::total_cmp);
+        Self { count, configurations, mean, standard_error, rms, max, p95: *p95 }
     }
 }
 
-/// Distances between model and measurement, each with its configuration.
+/// Distances between model and measurement, each with its configuration: twelve bytes, for there may be millions.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Distances(pub Vec<(usize, f64)>);
+pub struct Distances {
+    values: Vec<f64>,
+    configurations: Vec<u32>,
+}
 
 /// How much smaller the distances of one model are than those of another, at the same points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,27 +64,41 @@ pub struct Comparison {
 }
 
 impl Distances {
+    /// One more.
+    pub fn push(&mut self, configuration: u32, value: f64) {
+        self.values.push(value);
+        self.configurations.push(configuration);
+    }
+
+    /// All of them, in order.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The same without their configurations.
+    pub fn into_values(self) -> Vec<f64> {
+        self.values
+    }
+
     /// Figures of them; all 0 if there are none.
     pub fn figures(&self) -> Figures {
-        let mut values: Vec<f64> = self.0.iter().map(|(_, value)| *value).collect();
-        let count = values.len();
-        if count == 0 {
-            return Figures::default();
-        }
-        let n = count as f64;
-        let (mean, standard_error, configurations) = self.mean();
-        let rms = (values.iter().map(|v| v * v).sum::<f64>() / n).sqrt();
-        let max = values.iter().copied().max_by(f64::total_cmp).unwrap_or_default();
-        let rank = (0.95 * n).ceil() as usize;
-        let (_, p95, _) = values.select_nth_unstable_by(rank.max(1) - 1, f64::total_cmp);
-        Figures { count, configurations, mean, standard_error, rms, max, p95: *p95 }
+        Figures::of(self.values.clone(), self.mean())
+    }
+
+    /// The same, where nobody needs them any more.
+    pub fn into_figures(self) -> Figures {
+        let mean = self.mean();
+        Figures::of(self.values, mean)
+    }
+
+    fn mean(&self) -> Mean {
+        Mean::of(self.values.iter().copied(), &self.configurations)
     }
 
     /// How much smaller these are than others of the same points, pair by pair.
     pub fn compared_with(&self, others: &Self) -> Comparison {
-        let pairs = self.0.iter().zip(&others.0);
-        let differences = Self(pairs.map(|((at, own), (_, other))| (*at, other - own)).collect());
-        let (gain, standard_error, configurations) = differences.mean();
+        let differences = self.values.iter().zip(&others.values).map(|(own, other)| other - own);
+        let Mean { mean: gain, standard_error, configurations } = Mean::of(differences, &self.configurations);
         let t = if gain == 0.0 { 0.0 } else { gain.abs() / standard_error };
         let p = match configurations {
             0 | 1 => 1.0,
@@ -75,39 +106,74 @@ impl Distances {
         };
         Comparison { gain, standard_error, configurations, p }
     }
+}
 
-    /// The mean, its standard error, and how many configurations stand behind it.
-    ///
+impl FromIterator<(u32, f64)> for Distances {
+    fn from_iter<I: IntoIterator<Item = (u32, f64)>>(values: I) -> Self {
+        let (configurations, values) = values.into_iter().unzip();
+        Self { values, configurations }
+    }
+}
+
+impl Extend<(u32, f64)> for Distances {
+    fn extend<I: IntoIterator<Item = (u32, f64)>>(&mut self, values: I) {
+        values.into_iter().for_each(|(configuration, value)| self.push(configuration, value));
+    }
+}
+
+/// A mean, its standard error, and how many configurations stand behind it.
+struct Mean {
+    mean: f64,
+    standard_error: f64,
+    configurations: usize,
+}
+
+impl Mean {
     /// With the sums `d_c = Σ_i (v_ci − v̄)` over the values of each of `C` configurations:
-    /// `s² = C/(C − 1) · Σ d_c² / n²`, which for one value each is that of a mean.
-    fn mean(&self) -> (f64, f64, usize) {
-        let Configurations { count, number } =
-            Configurations::from_numbers(self.0.iter().map(|(at, _)| *at).collect());
-        let n = self.0.len().max(1) as f64;
-        let mean = self.0.iter().map(|(_, value)| value).sum::<f64>() / n;
-        let mut sums = vec![0.0; count];
-        self.0.iter().zip(number).for_each(|((_, value), at)| sums[at] += value - mean);
-        let standard_error = match count {
+    /// `s² = C/(C − 1) · Σ d_c² / n²`, which for one value each is that of a mean. Where no configurations are given, each value
+    /// has its own.
+    fn of(values: impl Iterator<Item = f64> + Clone, configurations: &[u32]) -> Self {
+        let count = values.clone().count();
+        let n = count.max(1) as f64;
+        let mean = values.clone().sum::<f64>() / n;
+        let mut sums = Vec::new();
+        let squares = match configurations {
+            [] => values.map(|value| (value - mean).powi(2)).sum::<f64>(),
+            _ => {
+                let mut numbering = Numbering::of(configurations.iter().copied());
+                for (value, configuration) in values.zip(configurations) {
+                    let at = numbering.number(*configuration) as usize;
+                    sums.resize(sums.len().max(at + 1), 0.0);
+                    sums[at] += value - mean;
+                }
+                sums.iter().map(|d| d * d).sum::<f64>()
+            }
+        };
+        let configurations = if configurations.is_empty() { count } else { sums.len() };
+        let standard_error = match configurations {
             0 => 0.0,
             1 => f64::INFINITY,
             _ => {
-                let c = count as f64;
-                (c / (c - 1.0) * sums.iter().map(|d| d * d).sum::<f64>()).sqrt() / n
+                let c = configurations as f64;
+                (c / (c - 1.0) * squares).sqrt() / n
             }
         };
-        (mean, standard_error, count)
+        Self { mean, standard_error, configurations }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Distances;
+    use super::{Distances, Figures};
 
     #[test]
     fn a_mean_is_as_sure_as_its_configurations() {
-        let once: Vec<(usize, f64)> = [3.0, 5.0, 4.0, 8.0].into_iter().enumerate().collect();
-        let ten_times: Vec<(usize, f64)> = (0..10).flat_map(|_| once.clone()).collect();
-        let (once, ten_times) = (Distances(once), Distances(ten_times));
+        let once = || (0..).zip([3.0, 5.0, 4.0, 8.0]);
+        let ten_times: Distances = (0..10).flat_map(|_| once()).collect();
+        let own = Figures::from_norms(once().map(|(_, value)| value).collect());
+        let once: Distances = once().collect();
+        assert_eq!(once.figures(), own);
+        assert_eq!(once.clone().into_figures(), own);
         // Standard deviation √(14/3), of four.
         assert!((once.figures().standard_error - (14.0f64 / 3.0 / 4.0).sqrt()).abs() < 1e-12);
         assert!((ten_times.figures().standard_error - once.figures().standard_error).abs() < 1e-12);
@@ -116,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_comparison_is_that_of_student() {
-        let at = |values: [f64; 5]| Distances(values.into_iter().enumerate().collect());
+        let at = |values: [f64; 5]| (0..).zip(values).collect::<Distances>();
         let found = at([1.0, 2.0, 3.0, 4.0, 5.0]).compared_with(&at([1.5, 2.1, 3.6, 4.4, 5.2]));
         // Differences 0.5 0.1 0.6 0.4 0.2: t = 3.882 with 4 degrees of freedom, p = 0.0178.
         assert!((found.gain - 0.36).abs() < 1e-12 && (found.p - 0.0178).abs() < 2e-4, "{found:?}");

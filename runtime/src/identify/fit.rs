@@ -85,6 +85,11 @@ impl Fit {
         self.weighed(data).filter(|(weight, _)| *weight >= REJECTED).map(|(_, observation)| observation)
     }
 
+    /// Whether the observation of that number is one of these.
+    pub fn is_kept(&self, i: usize) -> bool {
+        self.weights[i] >= REJECTED
+    }
+
     /// Every observation with the weight that the loss gave it.
     pub(super) fn weighed<'o>(
         &self,
@@ -109,11 +114,9 @@ pub fn fit(model: &Model, data: &[Observation], options: &Options) -> Result<Fit
     let numbers = data.iter().map(Observation::count).sum();
     // A configuration that is visited again tells no more of the machine. What is told badly counts, too: as many numbers
     // are explained by anything.
-    let configurations = Configurations::new(data);
-    let independent: usize = configurations.numbers(data.iter()).iter().sum();
+    let (independent, configurations) = Configurations::independent(data);
     let rank = identifiable.rank + identifiable.weak.len();
     if independent <= rank {
-        let configurations = configurations.count;
         return Err(Failure::TooFew { numbers: independent, configurations, rank });
     }
     let kept = model.with(identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());

@@ -15,7 +15,7 @@ pub struct Folds {
     /// How many there are.
     pub count: usize,
     /// By observation.
-    pub fold: Vec<usize>,
+    pub fold: Vec<u32>,
 }
 
 impl Folds {
@@ -24,12 +24,14 @@ impl Folds {
     pub fn new(data: &[Observation], count: usize) -> Self {
         let Configurations { count: configurations, number } = Configurations::new(data);
         let count = count.clamp(2, configurations.max(2));
-        let mut order: Vec<usize> = (0..configurations).collect();
-        let key = |i: &usize| (halton(i + 1, 1) * 1e3).fract();
-        order.sort_by(|a, b| key(a).total_cmp(&key(b)));
+        let mut order: Vec<u32> = (0..configurations as u32).collect();
+        let key = |i: u32| (halton(i as usize + 1, 1) * 1e3).fract();
+        order.sort_unstable_by(|a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
         let mut fold = vec![0; configurations];
-        order.iter().enumerate().for_each(|(place, i)| fold[*i] = place % count);
-        Self { count, fold: number.iter().map(|i| fold[*i]).collect() }
+        order.iter().enumerate().for_each(|(place, i)| fold[*i as usize] = (place % count) as u32);
+        let mut number = number;
+        number.iter_mut().for_each(|number| *number = fold[*number as usize]);
+        Self { count, fold: number }
     }
 }
 
@@ -45,7 +47,7 @@ fn triangles(
         let mut triangle = Triangle::new(model.unknowns.len());
         let mut room = model.room();
         for (i, observation) in
-            data.iter().enumerate().filter(|(i, _)| folds.fold[*i] == fold && weights[*i] > 0.0)
+            data.iter().enumerate().filter(|(i, _)| folds.fold[*i] as usize == fold && weights[*i] > 0.0)
         {
             push(model, &mut room, observation, x, weights[i], &mut triangle)?;
         }
@@ -78,11 +80,7 @@ pub fn cross_validate(
         x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()
     };
     let solutions: Vec<Vec<f64>> = (0..folds.count).map(solve).collect();
-    let rows: Vec<&Observation> = data.iter().collect();
-    let solution = |i: usize| (fit.weights[i] >= REJECTED).then(|| &solutions[folds.fold[i]][..]);
-    let mut distances = Distances::default();
-    kept.take_distances(&rows, solution, |part| distances.0.extend(part))?;
-    Ok(distances)
+    kept.distances_of(data, |i| (fit.weights[i] >= REJECTED).then(|| &solutions[folds.fold[i] as usize][..]))
 }
 
 /// All folds but one.

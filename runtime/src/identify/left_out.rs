@@ -254,7 +254,7 @@ fn chosen_rows(data: &[Observation], fit: &Fit, folds: &Folds, most: usize) -> V
     for i in (0..data.len())
         .filter(|i| fit.weights[*i] >= REJECTED && (data[*i].configuration as usize).is_multiple_of(step))
     {
-        rows[folds.fold[i]].push(i);
+        rows[folds.fold[i] as usize].push(i);
     }
     rows
 }

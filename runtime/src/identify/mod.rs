@@ -120,7 +120,7 @@ pub use model::Model;
 pub use observation::{Approach, Measurement, Observation, Uncertainty};
 pub use options::Options;
 pub use reading::{Fixture, Gauge, Place, Reading, tangents};
-pub use registration::{Registration, register};
+pub use registration::{Registration, register, register_pairs};
 pub use residuals::Room;
 pub use robust::{Loss, robust_scale};
 pub use select::{Factored, Offer, Selection, select};

@@ -44,11 +44,11 @@ pub struct Observation {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Approach {
     /// From which direction or along which path, as a number; 0 where nobody says.
-    pub direction: usize,
+    pub direction: u32,
     /// When, if that is known; rows are in the order of time otherwise.
     pub time: Option<f64>,
     /// Where the machine was before, for readings of how far it moved since: what was measured there does not matter.
-    pub from: Option<Observation>,
+    pub from: Option<Box<Observation>>,
 }
 
 impl Observation {
@@ -68,7 +68,7 @@ impl Observation {
     }
 
     /// From which direction it was approached, as a number; 0 where nobody says.
-    pub fn direction(&self) -> usize {
+    pub fn direction(&self) -> u32 {
         self.approach.as_ref().map_or(0, |approach| approach.direction)
     }
 
@@ -79,7 +79,7 @@ impl Observation {
 
     /// Where the machine was before, if that matters.
     pub fn from(&self) -> Option<&Self> {
-        self.approach.as_ref().and_then(|approach| approach.from.as_ref())
+        self.approach.as_ref().and_then(|approach| approach.from.as_deref())
     }
 
     /// The same with another way there.
@@ -127,12 +127,13 @@ pub struct Uncertainty {
 
 #[cfg(test)]
 mod tests {
-    use super::{Measurement, Observation};
+    use super::{Approach, Measurement, Observation};
 
     /// What a million rows take is this million times.
     #[test]
     fn a_row_is_small() {
         assert_eq!(size_of::<Measurement>(), 32);
         assert_eq!(size_of::<Observation>(), 136);
+        assert_eq!(size_of::<Approach>(), 32);
     }
 }

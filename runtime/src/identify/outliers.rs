@@ -71,7 +71,7 @@ impl Solver<'_> {
     /// How many numbers stand behind each that is independent: visits of a configuration count once.
     fn places_by_number(&self) -> f64 {
         let numbers: usize = self.data.iter().map(Observation::count).sum();
-        let independent: usize = Configurations::new(self.data).numbers(self.data.iter()).iter().sum();
+        let (independent, _) = Configurations::independent(self.data);
         numbers as f64 / independent.max(1) as f64
     }
 

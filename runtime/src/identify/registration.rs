@@ -21,18 +21,23 @@ pub struct Registration {
 /// None for fewer than three pairs, and for places too far away to be squared. Where the points are in line ([`Registration::breadth`] 0) the turn about that
 /// line is arbitrary.
 pub fn register(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Registration> {
-    let n = from.len().min(to.len());
+    register_pairs(from.iter().copied().zip(to.iter().copied()))
+}
+
+/// The same of pairs of points, which are gone through three times.
+pub fn register_pairs(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])> + Clone) -> Option<Registration> {
+    let (mut n, mut a, mut b) = (0, Vector3::zeros(), Vector3::zeros());
+    for (p, q) in pairs.clone() {
+        (n, a, b) = (n + 1, a + Vector3::from(p), b + Vector3::from(q));
+    }
     if n < 3 {
         return None;
     }
-    let mean = |points: &[[f64; 3]]| {
-        points[..n].iter().fold(Vector3::zeros(), |sum, p| sum + Vector3::from(*p)) / n as f64
-    };
-    let (a, b) = (mean(from), mean(to));
+    let (a, b) = (a / f64::from(n), b / f64::from(n));
     let (mut h, mut spread) = (Matrix3::zeros(), Matrix3::zeros());
-    for (p, q) in from.iter().zip(to) {
-        let p = Vector3::from(*p) - a;
-        h += p * (Vector3::from(*q) - b).transpose();
+    for (p, q) in pairs.clone() {
+        let p = Vector3::from(p) - a;
+        h += p * (Vector3::from(q) - b).transpose();
         spread += p * p.transpose();
     }
     let spread = symmetric_eigen(spread)?.eigenvalues;
@@ -46,11 +51,11 @@ pub fn register(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Registration> {
     let r = v * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * u.transpose();
     let t = b - r * a;
     let pose = Pose([r.column(0).into(), r.column(1).into(), r.column(2).into(), t.into()]);
-    let square = |(p, q): (&[f64; 3], &[f64; 3])| {
-        let p = pose.apply(*p);
+    let square = |(p, q): ([f64; 3], [f64; 3])| {
+        let p = pose.apply(p);
         (0..3).map(|i| (p[i] - q[i]).powi(2)).sum::<f64>()
     };
-    let rms = (from.iter().zip(to).map(square).sum::<f64>() / n as f64).sqrt();
+    let rms = (pairs.map(square).sum::<f64>() / f64::from(n)).sqrt();
     Some(Registration { pose, rms, breadth })
 }
 

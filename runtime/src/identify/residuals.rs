@@ -1,5 +1,7 @@
 //! Model minus measurement, and how it moves with every unknown.
 
+use core::borrow::Borrow;
+
 use super::columns::{Displaced, Frame, turned};
 use super::gradient::Gradient;
 use super::linearize::by_blocks;
@@ -278,6 +280,18 @@ impl Model<'_> {
         Ok(numbers)
     }
 
+    /// The same numbers without how they move.
+    pub fn differences(
+        &self,
+        room: &mut Room,
+        observation: &Observation,
+        x: &[f64],
+    ) -> Result<Vec<f64>, Failure> {
+        let mut numbers = Vec::new();
+        self.residuals(room, observation, x, |residual| numbers.push(-residual))?;
+        Ok(numbers)
+    }
+
     /// Position errors, model minus measurement, one vector for every point that was measured, in the axes of the
     /// instrument. The length unit. Of a reading of a length, that along the direction in which it changes; angles have none.
     pub fn deviations(
@@ -323,6 +337,18 @@ impl Model<'_> {
         Ok(())
     }
 
+    /// Whether a row has any [deviations](Self::deviations).
+    pub(super) fn tells_place(&self, observation: &Observation) -> bool {
+        match &observation.measured {
+            Measurement::Points(points) => points.iter().any(Option::is_some),
+            Measurement::Pose(_) => true,
+            Measurement::Readings(values) => {
+                let mut values = values.iter().zip(&self.readings);
+                values.any(|(value, reading)| value.is_some() && !reading.gauge.is_angle())
+            }
+        }
+    }
+
     /// The norms of the [deviations](Self::deviations).
     pub fn distances(
         &self,
@@ -334,45 +360,39 @@ impl Model<'_> {
     }
 
     /// Figures of the norms of the position errors of all observations at `x`. The length unit.
-    pub fn figures<'o>(
-        &self,
-        observations: impl IntoIterator<Item = &'o Observation>,
-        x: &[f64],
-    ) -> Result<Figures, Failure> {
-        Ok(self.all_distances(observations, x)?.figures())
+    pub fn figures<R: Borrow<Observation> + Sync>(&self, rows: &[R], x: &[f64]) -> Result<Figures, Failure> {
+        Ok(self.all_distances(rows, x)?.into_figures())
     }
 
     /// The norms of the position errors of all observations at `x`. The length unit.
-    pub fn all_distances<'o>(
+    pub fn all_distances<R: Borrow<Observation> + Sync>(
         &self,
-        observations: impl IntoIterator<Item = &'o Observation>,
+        rows: &[R],
         x: &[f64],
     ) -> Result<Distances, Failure> {
-        let rows: Vec<&Observation> = observations.into_iter().collect();
-        let mut distances = Distances::default();
-        self.take_distances(&rows, |_| Some(x), |part| distances.0.extend(part))?;
-        Ok(distances)
+        self.distances_of(rows, |_| Some(x))
     }
 
-    /// The norms of the position errors of those rows that `x` has unknowns for, by number of the row; each with its
-    /// configuration, block by block.
-    pub(super) fn take_distances<'x>(
+    /// The norms of the position errors of those rows that `x` has unknowns for, by number of the row.
+    pub fn distances_of<'x, R: Borrow<Observation> + Sync>(
         &self,
-        rows: &[&Observation],
+        rows: &[R],
         x: impl Fn(usize) -> Option<&'x [f64]> + Sync,
-        take: impl FnMut(Vec<(usize, f64)>),
-    ) -> Result<(), Failure> {
-        let block = |first: usize, rows: &[&Observation]| {
+    ) -> Result<Distances, Failure> {
+        let block = |first: usize, rows: &[R]| {
             let mut room = self.room();
             let mut norms = Vec::with_capacity(rows.len());
             for (i, row) in rows.iter().enumerate() {
                 let Some(x) = x(first + i) else { continue };
-                let norm = |deviation| norms.push((row.configuration as usize, sampling::norm(deviation)));
+                let row = row.borrow();
+                let norm = |deviation| norms.push((row.configuration, sampling::norm(deviation)));
                 self.each_deviation(&mut room, row, x, norm)?;
             }
             Ok(norms)
         };
-        by_blocks(rows, block, take)
+        let mut distances = Distances::default();
+        by_blocks(rows, block, |part| distances.extend(part))?;
+        Ok(distances)
     }
 
     /// The pose of the tool, and how its point moves per unit of every unknown.

@@ -80,14 +80,24 @@ impl Map {
 impl Data {
     /// The same rows with the inputs that follow from them; `manipulator` is that of the spec.
     pub(crate) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
+        Self::complete(Cow::Borrowed(self), map, manipulator, spec)
+    }
+
+    /// The same, without a copy of rows that are given away.
+    pub(crate) fn complete<'d>(
+        data: Cow<'d, Self>,
+        map: &Map,
+        manipulator: &dyn Manipulator,
+        spec: &Spec,
+    ) -> Cow<'d, Self> {
         if !map.follows_from_rows() {
-            return Cow::Borrowed(self);
+            return data;
         }
-        let mut data = self.clone();
-        let order = in_order(&self.observations);
-        let sorted: Vec<&Observation> = order.iter().map(|i| &self.observations[*i]).collect();
+        let mut data = data.into_owned();
+        let order = in_order(&data.observations);
         for (input, channel) in map.inputs.iter().enumerate() {
             let Channel::FromRows(follows) = channel else { continue };
+            let sorted: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
             let values = follows.values(manipulator, spec, &sorted);
             order.iter().zip(values).for_each(|(i, value)| data.observations[*i].u[input] = value);
         }

@@ -213,12 +213,11 @@ impl Map {
         let mut before: Option<Observation> = None;
         for row in &mut rows {
             row.approach_mut().from = None;
-            row.approach_mut().from = before.replace(row.clone());
-            if let (None, Measurement::Readings(readings)) =
-                (&row.approach_mut().from.clone(), &mut row.measured)
-            {
+            let from = before.replace(row.clone());
+            if let (None, Measurement::Readings(readings)) = (&from, &mut row.measured) {
                 *readings = all.at_first(std::mem::take(readings));
             }
+            row.approach_mut().from = from.map(Box::new);
         }
         rows
     }

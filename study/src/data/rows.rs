@@ -1,5 +1,6 @@
 //! Rows of a data file: what can be used, and what cannot and why.
 
+use std::borrow::Cow;
 use std::hash::{BuildHasher, Hash, Hasher, RandomState};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -137,7 +138,7 @@ impl Data {
             match row {
                 Ok((observation, time)) => {
                     let station = station.map_or(0, |place| data.station(&record.text(place)));
-                    let from = before.take().map(|from| Observation { station, ..from });
+                    let from = before.take().map(|from| Box::new(Observation { station, ..from }));
                     let approach = Approach { time, from, ..Approach::default() };
                     data.observations.push(Observation { station, ..observation }.approached(approach));
                     if once {
@@ -162,7 +163,7 @@ impl Data {
                 data.observations
                     .iter_mut()
                     .zip(numbers)
-                    .for_each(|(row, number)| row.configuration = number as u32);
+                    .for_each(|(row, number)| row.configuration = number);
             }
             None => number_configurations(&mut data.observations, &map.resolution),
         }
@@ -188,7 +189,10 @@ impl Data {
     }
 
     /// The same rows with their stations numbered as in `other`, or the first name that is not there.
-    pub fn at_stations(&self, other: &Self) -> Result<Self, String> {
+    pub fn at_stations(&self, other: &Self) -> Result<Cow<'_, Self>, String> {
+        if self.stations == other.stations {
+            return Ok(Cow::Borrowed(self));
+        }
         let mut data = Self { stations: other.stations.clone(), ..self.clone() };
         for row in &mut data.observations {
             let name = self.stations.get(row.station as usize).map_or("", |name| name);
@@ -196,7 +200,7 @@ impl Data {
             let found = found.or((other.stations.is_empty() && name.is_empty()).then_some(0));
             row.station = found.ok_or(name)? as u32;
         }
-        Ok(data)
+        Ok(Cow::Owned(data))
     }
 
     /// Notes a row that was left out after all.

@@ -103,19 +103,25 @@ pub(super) fn with_columns<'d>(
     let mut data = data.into_owned();
     let count = data.observations.len();
     let order = in_order(&data.observations);
-    let rows: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
-    let columns: Vec<Vec<f64>> = derived
-        .iter()
-        .map(|one| match one.kind {
-            DerivedKind::FromRows(follows) => follows.values(manipulator, spec, &rows),
-            DerivedKind::Settling(_) | DerivedKind::Drift if !fitted => vec![0.0; count],
+    for row in &mut data.observations {
+        let nothing = derived.iter().map(|_| 0.0);
+        row.u = row.u.iter().copied().chain(nothing).collect::<Vec<f64>>().into();
+    }
+    // One after the other: a million rows times all of them are there once.
+    for (k, one) in derived.iter().enumerate() {
+        let column: Vec<f64> = match one.kind {
+            DerivedKind::FromRows(follows) => {
+                let rows: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
+                follows.values(manipulator, spec, &rows)
+            }
+            DerivedKind::Settling(_) | DerivedKind::Drift if !fitted => continue,
             DerivedKind::Settling(after) => (0..count).map(|n| (-(n as f64) / after).exp()).collect(),
             DerivedKind::Drift => (0..count).map(|n| (n + 1) as f64 / count.max(1) as f64 - 1.0).collect(),
-        })
-        .collect();
-    for (n, i) in order.into_iter().enumerate() {
-        let u = &mut data.observations[i].u;
-        *u = u.iter().copied().chain(columns.iter().map(|column| column[n])).collect::<Vec<f64>>().into();
+        };
+        for (i, value) in order.iter().zip(column) {
+            let own = data.observations[*i].u.iter_mut().rev().nth(derived.len() - 1 - k);
+            own.into_iter().for_each(|own| *own = value);
+        }
     }
     Cow::Owned(data)
 }

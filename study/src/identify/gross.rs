@@ -1,6 +1,6 @@
 //! Gross errors: rows far from a fit that they cannot pull at.
 
-use abbe::identify::{Failure, Fit, Loss, Measurement, Model, Observation, Options, fit, robust_scale};
+use abbe::identify::{Fit, Loss, Measurement, Model, Observation, Options, fit, robust_scale};
 
 use crate::data::Data;
 
@@ -12,7 +12,7 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
     let rows = &data.observations;
     if let Some(plain) = plain {
         let distances = model.all_distances(rows, &plain.x).ok()?;
-        let mut all: Vec<f64> = distances.0.into_iter().map(|(_, distance)| distance).collect();
+        let mut all = distances.into_values();
         let rms = (all.iter().map(|d| d * d).sum::<f64>() / all.len().max(1) as f64).sqrt();
         // Norms of Gaussian errors: the root mean square is 1.13 / 0.6745⁻¹ times that scale, about 0.76.
         if rms < 1.6 * robust_scale(&mut all) {
@@ -26,12 +26,12 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
     let lengths = model.readings.iter().filter(|reading| !reading.gauge.is_angle());
     let length = lengths.map(|reading| reading.uncertainty).reduce(f64::max);
     let bound = 10.0 * robust.sigma * length.unwrap_or(model.uncertainty.length);
-    let wrong: Vec<u64> = distances(model, rows, &robust.x)
-        .ok()?
-        .into_iter()
-        .filter(|(_, distances)| distances.iter().any(|distance| *distance > bound))
-        .map(|(line, _)| line)
-        .collect();
+    let mut room = model.room();
+    let mut wrong = Vec::new();
+    for row in rows {
+        let distances = model.distances(&mut room, row, &robust.x).ok()?;
+        wrong.extend(distances.iter().any(|distance| *distance > bound).then_some(row.line));
+    }
     let poses = rows.iter().any(|row| matches!(row.measured, Measurement::Pose(_)));
     if wrong.is_empty() || poses && wrong.len() == rows.len() {
         return None;
@@ -43,12 +43,6 @@ pub(super) fn warning(model: &Model, data: &Data, plain: Option<&Fit>) -> Option
         rows.len(),
         shown_lines(&wrong)
     ))
-}
-
-/// By observation: its line, and how far every point that was measured is from where the model has it.
-fn distances(model: &Model, rows: &[Observation], x: &[f64]) -> Result<Vec<(u64, Vec<f64>)>, Failure> {
-    let mut room = model.room();
-    rows.iter().map(|row| Ok((row.line, model.distances(&mut room, row, x)?))).collect()
 }
 
 /// The first lines of a list, and how many more there are.

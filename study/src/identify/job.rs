@@ -1,10 +1,11 @@
 //! What is asked, and the way to what comes out.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use abbe::identify::{
-    Configurations, Failure, Fit, Independent, Model, Observation, Place, Selection, Unknown,
-    deviation_beyond, drift, student_factor,
+    Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Place, Selection,
+    Unknown, deviation_beyond, drift, student_factor,
 };
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::LengthUnit;
@@ -61,12 +62,29 @@ pub struct Identify {
 impl Identify {
     /// Fits, judges and chooses on the data alone; then judges by the test data, if there are any.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        self.on(Cow::Borrowed(&self.data), self.test.as_ref().map(Cow::Borrowed), notes)
+    }
+
+    /// The same for data that nobody needs afterwards: they are used up, and never there twice.
+    pub fn run_once(&mut self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let (data, test) = (std::mem::take(&mut self.data), self.test.take());
+        self.on(Cow::Owned(data), test.map(Cow::Owned), notes)
+    }
+
+    fn on(
+        &self,
+        data: Cow<'_, Data>,
+        test: Option<Cow<'_, Data>>,
+        notes: &mut dyn Notes,
+    ) -> Result<Report, Diagnostics> {
         let Self { machine, map, settings, .. } = self;
-        let derived = derived(&machine.spec, map, &self.terms, self.data.observations.len());
+        let derived = derived(&machine.spec, map, &self.terms, data.observations.len());
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());
-        let completed = |data, fitted| with_columns(&nominal, &spec, &derived, data, fitted);
-        let data = completed(self.data.completed(map, &nominal, &spec), true);
+        let completed = |data, fitted| {
+            with_columns(&nominal, &spec, &derived, Data::complete(data, map, &nominal, &spec), fitted)
+        };
+        let data = completed(data, true);
 
         let stages = candidates(&spec, &derived, &self.terms, &self.harmonics);
         let chosen = match stages.is_empty() {
@@ -82,9 +100,11 @@ impl Identify {
         setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         estimate(&mut setup, map, &data, settings.prior)
             .map_err(|failure| mistake::whole(&data.file, &failure))?;
-        let solved = solve(&setup, &data, &own, &terms, settings, notes)?;
-        let test = self.test.as_ref().map(|test| completed(test.completed(map, &nominal, &spec), false));
-        let identified = Identified { setup: &setup, solved: &solved, chosen: &chosen, derived: &derived };
+        let mut solved = solve(&setup, &data, &own, &terms, settings, notes)?;
+        let crossed = Crossed::new(std::mem::take(&mut solved.crossed), &solved, &chosen, &data);
+        let test = test.map(|test| completed(test, false));
+        let identified =
+            Identified { setup: &setup, solved: &solved, crossed, chosen: &chosen, derived: &derived };
         finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
 }
@@ -93,8 +113,27 @@ impl Identify {
 struct Identified<'a> {
     setup: &'a Setup<'a>,
     solved: &'a Solved<'a>,
+    crossed: Crossed,
     chosen: &'a Chosen,
     derived: &'a [Derived],
+}
+
+/// How good it is on rows left out in turn, and how much better than constants alone, if richer terms were tried.
+#[derive(Clone, Copy)]
+struct Crossed {
+    figures: Figures,
+    gain: Option<Comparison>,
+}
+
+impl Crossed {
+    fn new(crossed: Distances, solved: &Solved, chosen: &Chosen, data: &Data) -> Self {
+        let rejected = || solved.fit.rejected(&data.observations).map(|row| row.line);
+        // Other gross errors make other rows.
+        let constant =
+            chosen.constant.as_ref().filter(|constant| rejected().eq(constant.rejected.iter().copied()));
+        let gain = constant.map(|constant| crossed.compared_with(&constant.crossed));
+        Self { figures: crossed.into_figures(), gain }
+    }
 }
 
 /// By how much of what is left the machine may be another one when it is said in numbers of the chain.
@@ -107,7 +146,8 @@ fn report(
     test: Option<&Data>,
 ) -> Result<Report, Diagnostics> {
     let Identify { machine, map, settings, .. } = job;
-    let Identified { setup, solved, chosen, derived } = *identified;
+    let Identified { setup, solved, crossed: Crossed { figures: crossed, gain: of_terms }, chosen, derived } =
+        *identified;
     let spec = &machine.spec;
     let Solved { model, fit, .. } = solved;
     let identifiable = &fit.identifiable;
@@ -117,21 +157,20 @@ fn report(
     let scale = scale_note(&setup.ideal, rows, &setup.moved(rows)).map_err(fail)?;
     let alike = alikes(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, &error))?;
-    let compared_fit = compared(solved, &setup.delivered, data, &fit.kept(rows).collect::<Vec<_>>())?;
+    let compared_fit = compared(solved, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup, map)?;
     let o = identifiable.observability;
     let length = map.uncertainty.length;
-    let at_stations = |test: &Data| test.at_stations(data).map_err(|name| elsewhere(test, &name));
+    let at_stations = |test| Data::at_stations(test, data).map_err(|name| elsewhere(test, &name));
     let test = test.map(at_stations).transpose()?;
-    let judged =
-        |test: &Data| compared(solved, &setup.delivered, test, &test.observations.iter().collect::<Vec<_>>());
-    let test_sizes = test.as_ref().map(judged).transpose()?;
-    let crossed = solved.crossed.figures();
+    let test = test.as_deref();
+    let judged = |test: &Data| compared(solved, &setup.delivered, test, |_| true);
+    let test_sizes = test.map(judged).transpose()?;
     let accepted = match &test_sizes {
         Some(test) => job.accept.judge("the test rows", &test.after),
         None => job.accept.judge("rows left out in turn", &crossed.into()),
     };
-    let files: Vec<Summary> = std::iter::once(data).chain(&test).map(Data::summary).collect();
+    let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
     let in_numbers = InNumbers::new(spec, model, fit);
     let left = compared_fit.after.rms;
@@ -149,8 +188,8 @@ fn report(
         outside.map_err(|failure| mistake::whole(&test.file, &failure))
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
-    let outside = test.as_ref().map(outside).transpose()?.flatten();
-    let points = if settings.points { points(solved, data, test.as_ref())? } else { Vec::new() };
+    let outside = test.map(outside).transpose()?.flatten();
+    let points = if settings.points { points(solved, data, test)? } else { Vec::new() };
     Ok(Report {
         name: spec.name.clone(),
         length: spec.length.symbol(),
@@ -194,12 +233,7 @@ fn report(
             configurations: crossed.configurations,
             constant: chosen.constant.as_ref().map(|constant| constant.crossed.figures().into()),
             after: crossed.into(),
-            gain: chosen
-                .constant
-                .as_ref()
-                // Other gross errors make other rows.
-                .filter(|constant| constant.rejected == rejected)
-                .map(|constant| solved.crossed.compared_with(&constant.crossed).into()),
+            gain: of_terms.map(Into::into),
         },
         terms: chosen
             .groups
@@ -293,8 +327,8 @@ fn magnitudes(spec: &Spec, solved: &Solved) -> Vec<Magnitude> {
 
 /// What is left of every point, for pictures.
 fn points(solved: &Solved, data: &Data, test: Option<&Data>) -> Result<Vec<PointResidual>, Diagnostics> {
-    let Solved { simple, simple_fit, model, fit, .. } = solved;
-    let (mut before, mut after) = (Valued::new(simple, &simple_fit.x), Valued::new(model, &fit.x));
+    let Solved { simple, simple_x, model, fit, .. } = solved;
+    let (mut before, mut after) = (Valued::new(simple, simple_x), Valued::new(model, &fit.x));
     let rejected: HashSet<u64> = fit.rejected(&data.observations).map(|row| row.line).collect();
     let mut points = Vec::new();
     for (data, is_test) in [(data, false)].into_iter().chain(test.map(|test| (test, true))) {
@@ -357,22 +391,27 @@ fn compared(
     solved: &Solved,
     delivered: &Model,
     data: &Data,
-    rows: &[&Observation],
+    used: impl Fn(usize) -> bool + Sync,
 ) -> Result<Compared, Diagnostics> {
+    let rows = &data.observations;
     let distances = |model: &Model, x: &[f64]| {
-        let distances = model.all_distances(rows.iter().copied(), x);
+        let distances = model.distances_of(rows, |i| used(i).then_some(x));
         distances.map_err(|failure| mistake::whole(&data.file, &failure))
     };
-    let simple = distances(&solved.simple, &solved.simple_fit.x)?;
+    // One after the other: of a million rows no more are there at a time than must be.
+    let before = distances(delivered, &[])?.into_figures();
+    let simple = distances(&solved.simple, &solved.simple_x)?;
     let after = distances(&solved.model, &solved.fit.x)?;
-    let left = after.figures();
+    let gain = after.compared_with(&simple);
+    let base_and_tool = simple.into_figures();
+    let left = after.into_figures();
     Ok(Compared {
-        rows: rows.len(),
+        rows: (0..rows.len()).filter(|i| used(*i)).count(),
         configurations: left.configurations,
-        before: distances(delivered, &[])?.figures().into(),
-        base_and_tool: simple.figures().into(),
+        before: before.into(),
+        base_and_tool: base_and_tool.into(),
         after: left.into(),
-        gain: after.compared_with(&simple).into(),
+        gain: gain.into(),
     })
 }
 

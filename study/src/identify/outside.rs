@@ -26,15 +26,19 @@ impl Outside {
         test: &[Observation],
     ) -> Result<Option<Self>, Failure> {
         let is_outside = |row: &&Observation| fitted.iter().any(|range| range.is_outside(&row.q, &row.u));
-        let outside: Vec<Observation> = test.iter().filter(is_outside).cloned().collect();
-        if outside.is_empty() {
+        let outside = || test.iter().filter(is_outside);
+        let count = outside().count();
+        if count == 0 {
             return Ok(None);
         }
-        let known = |rows: &[Observation]| {
-            let points = solved.model.tool_points(rows)?;
-            let all = points.deviations(&solved.fit.identifiable, &solved.fit.covariance);
-            Ok(all.iter().sum::<f64>() / all.len().max(1) as f64)
+        let (identifiable, covariance) = (&solved.fit.identifiable, &solved.fit.covariance);
+        let mut sum = |sum: f64, row: &Observation| {
+            let points = solved.model.tool_points(std::slice::from_ref(row))?;
+            Ok(sum + points.deviations(identifiable, covariance)[0])
         };
-        Ok(Some(Self { rows: outside.len(), known_outside: known(&outside)?, known_within: known(rows)? }))
+        let beyond = outside().try_fold(-0.0, &mut sum)?;
+        let within = rows.iter().try_fold(-0.0, &mut sum)?;
+        let [known_outside, known_within] = [beyond / count as f64, within / rows.len().max(1) as f64];
+        Ok(Some(Self { rows: count, known_outside, known_within }))
     }
 }

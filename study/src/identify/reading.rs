@@ -46,7 +46,7 @@ impl Change {
             Self::Inverse => row.measured = inverse(row.measured),
         }
         if let Some(approach) = &mut row.approach {
-            approach.from = approach.from.take().map(|from| self.apply(from, setup, map));
+            approach.from = approach.from.take().map(|from| Box::new(self.apply(*from, setup, map)));
         }
         row
     }

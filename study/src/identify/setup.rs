@@ -3,7 +3,7 @@
 use abbe::analysis::sampling;
 use abbe::identify::{
     Failure, Fixture, Gauge, Measurement, Model, Observation, Options, Place, Role, Station, Unknown, fit,
-    register,
+    register, register_pairs,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -317,6 +317,18 @@ pub(super) fn displaced(model: &Model, x: &[f64], of: impl Fn(Component) -> Unkn
     real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[errors])
 }
 
+/// Every point that was measured with its target, none for the position of a pose.
+fn seen(model: &Model, observation: &Observation, mut take: impl FnMut(Option<usize>, [f64; 3])) {
+    if let Measurement::Pose(measured) = &observation.measured {
+        take(None, measured.position());
+    }
+    for (target, point) in points(model, observation).into_iter().enumerate().take(model.targets.len()) {
+        if let Some(point) = point {
+            take(Some(target), point);
+        }
+    }
+}
+
 /// Where `F_0` is as the instrument sees it from a station, from all points that were measured there: the rigid motion from
 /// where they should be. None if they are in line.
 pub(super) fn registered(
@@ -326,21 +338,24 @@ pub(super) fn registered(
 ) -> Result<Option<Pose>, Failure> {
     let mut room = model.room();
     let model = Model { stations: vec![Station::at(Pose::IDENTITY); station + 1], ..model.clone() };
-    let (mut from, mut to) = (Vec::new(), Vec::new());
-    for observation in data.iter().filter(|row| row.station as usize == station) {
-        let pose = model.pose(&mut room, observation, &vec![0.0; model.unknowns.len()])?;
-        if let Measurement::Pose(measured) = &observation.measured {
-            from.push(pose.position());
-            to.push(measured.position());
-        }
-        for (target, point) in model.targets.iter().zip(points(&model, observation)) {
-            if let Some(point) = point {
-                from.push(pose.apply(*target));
-                to.push(point);
-            }
-        }
+    let rows = data.iter().filter(|row| row.station as usize == station);
+    // The places alone are kept: what was measured is in the rows.
+    let (mut from, x) = (Vec::new(), vec![0.0; model.unknowns.len()]);
+    for observation in rows.clone() {
+        let pose = model.pose(&mut room, observation, &x)?;
+        let place = |target: Option<usize>| {
+            target.map_or_else(|| pose.position(), |target| pose.apply(model.targets[target]))
+        };
+        seen(&model, observation, |target, _| from.push(place(target)));
     }
-    Ok(register(&from, &to).filter(|found| found.breadth > 1e-6).map(|found| found.pose))
+    let to = rows.flat_map(|observation| {
+        let mut to = Vec::new();
+        seen(&model, observation, |_, point| to.push(point));
+        to
+    });
+    Ok(register_pairs(from.iter().copied().zip(to))
+        .filter(|found| found.breadth > 1e-6)
+        .map(|found| found.pose))
 }
 
 /// The map says where some stations are, and nothing of this one.

@@ -36,7 +36,7 @@ pub struct Settings {
 pub(super) struct Solved<'a> {
     /// Base and tool alone.
     pub(super) simple: Model<'a>,
-    pub(super) simple_fit: Fit,
+    pub(super) simple_x: Vec<f64>,
     /// Everything.
     pub(super) model: Model<'a>,
     pub(super) fit: Fit,
@@ -64,7 +64,7 @@ pub(super) fn solve<'a>(
     let options = Options { loss: settings.loss, ..Options::default() };
     let simple = setup.real.with(setup.base_and_tool());
     let expected = simple.expected(&[]).map_err(explained)?;
-    let simple_fit = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(explained)?;
+    let simple_x = fit(&simple, rows, &Options { expected, ..options.clone() }).map_err(explained)?.x;
 
     let mut magnitudes = (setup.declared..).map(Unknown::Magnitude);
     let of_own: Vec<Unknown> = magnitudes.by_ref().take(own.len()).collect();
@@ -82,7 +82,7 @@ pub(super) fn solve<'a>(
         for (prior, term) in priors[first..].iter_mut().zip(terms).filter(|_| share > 0.0) {
             *prior = Some(share * term.scale(setup));
         }
-        let at = embedded(&simple, &simple_fit.x, model);
+        let at = embedded(&simple, &simple_x, model);
         let expected = model.expected(&priors)?;
         fit(model, rows, &Options { at, priors, expected, ..options.clone() })
     };
@@ -101,7 +101,7 @@ pub(super) fn solve<'a>(
     let mut solved = Solved {
         crossed: crossed(&model, &fit)?,
         simple: simple.clone(),
-        simple_fit: simple_fit.clone(),
+        simple_x: simple_x.clone(),
         model,
         fit,
         own: own.to_vec(),

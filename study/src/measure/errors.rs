@@ -19,6 +19,26 @@ pub struct RowError {
     pub point: [f64; 3],
 }
 
+/// A row of a configuration that is visited again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Visit {
+    pub(super) configuration: u32,
+    /// From which direction, as a number.
+    pub(super) direction: u32,
+    /// When; 0 where nobody says.
+    pub(super) time: f64,
+    /// As in [`RowError`].
+    pub(super) error: [f64; 6],
+    pub(super) point: [f64; 3],
+}
+
+impl Visit {
+    pub(super) fn new(&RowError { ref observation, error, point }: &RowError) -> Self {
+        let (direction, time) = (observation.direction(), observation.time().unwrap_or_default());
+        Self { configuration: observation.configuration, direction, time, error, point }
+    }
+}
+
 impl RowError {
     /// The norm of the position error.
     pub fn distance(&self) -> f64 {

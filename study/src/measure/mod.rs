@@ -22,8 +22,8 @@ use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::identify::{Order, Setup, Sizes, check_readings};
 use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake, number};
 
-use errors::Errors;
 pub use errors::RowError;
+use errors::{Errors, Visit};
 use readings::{Readings, readings};
 
 pub use explained::Explained;
@@ -91,7 +91,7 @@ pub struct Report {
     /// What these numbers are called: by their instrument, and by the axis if it reads three.
     #[serde(skip)]
     pub numbers: Vec<String>,
-    /// The points of visits of the same configuration about their barycentre.
+    /// The points of visits of the same configuration about their barycentre, for pictures.
     #[serde(skip)]
     pub about_barycentres: Vec<[f64; 3]>,
 }
@@ -217,8 +217,7 @@ impl Measure {
         let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = seen.explained;
         let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
         notes.go_on()?;
-        let observations: Vec<&Observation> = rows.iter().collect();
-        let order = drift(&setup.real, &observations, &[]);
+        let order = drift(&setup.real, rows, &[]);
         let order = order.map_err(|failure| mistake::whole(&seen.data.file, &failure))?;
         let file = seen.data.file.clone();
         let report = Report {
@@ -239,7 +238,7 @@ impl Measure {
             unusable: seen.data.unusable.len(),
             file: seen.data.summary(),
             base_fitted,
-            about_barycentres: iso9283::about_barycentres(&seen.visits),
+            about_barycentres: if keep { iso9283::about_barycentres(&seen.visits) } else { Vec::new() },
             row_errors: seen.rows,
             row_readings: seen.row_readings,
             numbers: map.instruments().map(Instruments::names).unwrap_or_default(),
@@ -256,7 +255,7 @@ struct Seen {
     /// The norms of the errors.
     norms: Figures,
     /// Rows of configurations that were visited again.
-    visits: Vec<RowError>,
+    visits: Vec<Visit>,
     /// All rows, if they are kept.
     rows: Vec<RowError>,
     row_readings: Vec<RowReadings>,
@@ -288,16 +287,16 @@ impl Seen {
             let distance = row.distance();
             sizes[..numbers].iter_mut().zip(row.error).for_each(|(size, value)| size.add(value));
             sizes[numbers].add(distance);
-            norms.0.push((row.observation.configuration as usize, distance));
+            norms.push(row.observation.configuration, distance);
             if again[row.observation.configuration as usize] {
-                visits.push(row.clone());
+                visits.push(Visit::new(&row));
             }
             if keep {
                 rows.push(row);
             }
         }
         notes.progress(data.observations.len(), data.observations.len());
-        let norms = norms.figures();
+        let norms = norms.into_figures();
         let of = |i: usize, name, unit| sizes[i].size(name, unit);
         let mut errors: Vec<Size> = (0..3).map(|i| of(i, ["x", "y", "z"][i], unit)).collect();
         errors.push(of(numbers, "norm", unit));
@@ -319,7 +318,16 @@ impl Seen {
         let Readings { instruments, explained, rows: row_readings, norms } =
             readings(setup, all, &data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         let (errors, visits, rows) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { errors, instruments, explained, norms: norms.figures(), visits, rows, row_readings, data })
+        Ok(Self {
+            errors,
+            instruments,
+            explained,
+            norms: norms.into_figures(),
+            visits,
+            rows,
+            row_readings,
+            data,
+        })
     }
 }
 

@@ -65,13 +65,12 @@ pub(super) fn readings(setup: &Setup, all: &Instruments, data: &Data) -> Result<
     let (ideal, left) = (differences(&setup.ideal, rows)?, differences(&setup.real, rows)?);
     let instruments = all.list.iter().filter_map(|instrument| {
         let errors = |of: &[Vec<Option<f64>>]| ReadingErrors::new(&of_instrument(instrument, rows, of));
-        let read = of_instrument(instrument, rows, &left).0;
-        let configurations = Distances(read.clone()).figures().configurations;
-        (!read.is_empty()).then(|| InstrumentErrors {
+        let read = of_instrument(instrument, rows, &left).into_figures();
+        (read.count > 0).then(|| InstrumentErrors {
             name: instrument.name.clone(),
             unit: instrument.unit.clone(),
-            count: read.len(),
-            configurations,
+            count: read.count,
+            configurations: read.configurations,
             angle: instrument.kind == Kind::Angle,
             uncertainty: instrument.uncertainty.map(|sigma| sigma / instrument.factor),
             ideal: errors(&ideal),
@@ -121,9 +120,9 @@ fn of_instrument(instrument: &Instrument, rows: &[Observation], of: &[Vec<Option
             [number] => (*number)?,
             several => several.iter().map(|number| Some((*number)?.powi(2))).sum::<Option<f64>>()?.sqrt(),
         };
-        Some((row.configuration as usize, size / instrument.factor))
+        Some((row.configuration, size / instrument.factor))
     };
-    Distances(rows.iter().zip(of).filter_map(one).collect())
+    rows.iter().zip(of).filter_map(one).collect()
 }
 
 impl InstrumentErrors {
@@ -140,7 +139,7 @@ impl ReadingErrors {
             mean: figures.mean + 0.0,
             standard_error: Some(figures.standard_error).filter(|error| error.is_finite()),
             rms: figures.rms,
-            max: errors.0.iter().fold(0.0, |most: f64, (_, error)| most.max(error.abs())),
+            max: errors.values().iter().fold(0.0, |most: f64, error| most.max(error.abs())),
         }
     }
 }

@@ -1,6 +1,10 @@
 //! The checks, in the order of their dates.
 
+use std::borrow::Cow;
+use std::mem::take;
+
 use abbe::Manipulator;
+use abbe::identify::Observation;
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 
@@ -42,9 +46,9 @@ impl Checks {
             sources.iter().map(|source| in_name(&source.file()?.file_name()?.to_string_lossy())).collect();
         let named = names.iter().all(Option::is_some);
         for (source, name) in sources.into_iter().zip(names) {
-            let Dated { data, dates } = Dated::read(source, map)?;
-            match dates {
-                Some(dates) => checks.extend(split(data, &dates)),
+            let Dated { data, calendars } = Dated::read(source, map)?;
+            match calendars {
+                Some(calendars) => checks.extend(split(data, &calendars)),
                 None => {
                     let (calendar, time) = match name {
                         Some(date) if named => (Calendar::Dates, date),
@@ -80,12 +84,15 @@ impl Checks {
     }
 
     /// The same checks with the inputs that follow from their rows; `manipulator` is that of the spec.
-    pub(super) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Self {
+    pub(super) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
+        if !map.follows_from_rows() {
+            return Cow::Borrowed(self);
+        }
         let one = |check: &Check| Check {
             data: check.data.completed(map, manipulator, spec).into_owned(),
-            ..check.clone()
+            time: check.time,
         };
-        Self { calendar: self.calendar, list: self.list.iter().map(one).collect() }
+        Cow::Owned(Self { calendar: self.calendar, list: self.list.iter().map(one).collect() })
     }
 
     /// Leaves out what was before a date; `option` is what mistakes are shown under.
@@ -117,20 +124,22 @@ fn name(calendar: Calendar) -> &'static str {
 }
 
 /// The rows of every day.
-fn split(mut data: Data, dates: &[String]) -> Vec<(Calendar, Check)> {
-    let mut checks: Vec<(Calendar, Check)> = Vec::new();
-    for (row, date) in std::mem::take(&mut data.observations).into_iter().zip(dates) {
-        let time = row.time().unwrap_or_default();
-        let calendar = parse_date(date).map_or(Calendar::Days, |(calendar, _)| calendar);
-        match checks.last_mut() {
-            Some((_, check)) if check.time.floor() == time.floor() => check.data.observations.push(row),
-            _ => {
-                // The first check has those that cannot be used.
-                let unusable = std::mem::take(&mut data.unusable);
-                let data = Data { observations: vec![row], unusable, ..data.clone() };
-                checks.push((calendar, Check { time, data }));
-            }
-        }
+fn split(mut data: Data, calendars: &[Calendar]) -> Vec<(Calendar, Check)> {
+    let (mut rows, mut unusable) = (take(&mut data.observations), take(&mut data.unusable));
+    let day = |row: &Observation| row.time().unwrap_or_default().floor();
+    let begins = |i: &usize| *i == 0 || day(&rows[*i]) != day(&rows[i - 1]);
+    let starts: Vec<usize> = (0..rows.len()).filter(begins).collect();
+    // From the last one on, what is taken off being given back: all rows are never there twice.
+    let mut checks: Vec<(Calendar, Check)> = Vec::with_capacity(starts.len());
+    for start in starts.into_iter().rev() {
+        let observations = rows.split_off(start);
+        rows.shrink_to_fit();
+        // The first check has those that cannot be used.
+        let unusable = if start == 0 { take(&mut unusable) } else { Vec::new() };
+        let time = observations.first().and_then(Observation::time).unwrap_or_default();
+        let data = Data { observations, unusable, ..data.clone() };
+        checks.push((calendars[start], Check { time, data }));
     }
+    checks.reverse();
     checks
 }

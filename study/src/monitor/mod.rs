@@ -1,6 +1,7 @@
 //! Whether a machine that is checked again and again is still what it was.
 //!
-//! `checks` are the files in the order of their dates; `numbers` what is measured at every check, and how it moves; `single_errors`
+//! `checks` are the files in the order of their dates; `places` the configurations that they visit; `numbers` what is measured at
+//! every check, and how it moves; `single_errors`
 //! what may have changed; `charts` watch each of these, with one rate of false alarms for all; `finding` says what has changed, since
 //! when and how fast; `sentences` say it in words.
 
@@ -8,6 +9,7 @@ mod charts;
 mod checks;
 mod finding;
 mod numbers;
+mod places;
 mod sentences;
 mod single_errors;
 

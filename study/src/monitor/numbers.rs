@@ -1,17 +1,15 @@
 //! What is measured at every check: the same numbers at the same configurations, in the frame `F_0`.
 
 use abbe::identify::{Measurement, Model, Observation, Station, Unknown};
-use abbe::{Manipulator, Pose, VariableKind};
+use abbe::{Manipulator, Pose};
 use abbe_codegen::diagnostic::Diagnostics;
 
 use super::checks::{Check, Checks};
+use super::places::{MOST, Places, TooMany};
 use super::single_errors::product;
 use crate::data::{Base, Map};
 use crate::identify::{Setup, check_readings};
 use crate::{Notes, mistake};
-
-/// Joints within this of each other, in rad or as a share of the arm's length, are one configuration.
-const SAME: f64 = 1e-3;
 
 /// Measured minus model at every check, and how the model moves.
 pub(super) struct Numbers {
@@ -31,8 +29,14 @@ pub(super) struct Numbers {
     station: Vec<Vec<f64>>,
 }
 
-/// The visits of one check to every configuration.
-type Visits = Vec<Vec<Observation>>;
+/// The rows of one check.
+struct Visits<'c> {
+    check: &'c Check,
+    /// `F_0` as every station sees it.
+    to_base: Vec<Pose>,
+    /// By row the configuration that it is a visit of; none if a target was hidden.
+    places: Vec<Option<u32>>,
+}
 
 impl Numbers {
     pub(super) fn new<'a>(
@@ -41,8 +45,7 @@ impl Numbers {
         checks: &Checks,
         notes: &mut dyn Notes,
     ) -> Result<(Self, Model<'a>), Diagnostics> {
-        let mut places: Vec<Observation> = Vec::new();
-        let mut visits: Vec<Visits> = Vec::new();
+        let (mut places, mut visits) = (None, Vec::new());
         let mut model = None;
         for (i, check) in checks.list.iter().enumerate() {
             let setup = Setup::new(manipulator, map, &check.data, 0)?;
@@ -50,7 +53,8 @@ impl Numbers {
                 check_readings(&setup, map, &check.data)?;
             }
             one_station(check, map)?;
-            visits.push(sorted(check, &setup, &mut places));
+            let places = places.get_or_insert_with(|| Places::new(&setup));
+            visits.push(Visits::new(check, &setup, places)?);
             let real = Model { stations: vec![Station::at(Pose::IDENTITY)], ..setup.real };
             let unknowns = real.constants(setup.pose);
             model.get_or_insert_with(|| real.with(unknowns));
@@ -64,25 +68,42 @@ impl Numbers {
                 "give the files of the checks",
             ));
         };
-        let common: Vec<usize> =
-            (0..places.len()).filter(|place| visits.iter().all(|check| has(check, *place))).collect();
-        if common.is_empty() {
-            return Err(nothing_in_common(checks, &visits));
+        let places = places.map_or(0, |places: Places| places.len());
+        let mut of_checks = vec![0; places];
+        for check in &visits {
+            check
+                .counts(places)
+                .into_iter()
+                .zip(&mut of_checks)
+                .for_each(|(rows, all)| *all += u32::from(rows > 0));
+        }
+        // By configuration its number among those that are in all checks.
+        let mut numbers = 0..;
+        let in_all = |checks: &u32| *checks as usize == visits.len();
+        let common: Vec<Option<usize>> =
+            of_checks.iter().map(|checks| in_all(checks).then(|| numbers.next()).flatten()).collect();
+        let configurations = common.iter().flatten().count();
+        if configurations == 0 {
+            return Err(nothing_in_common(checks, &visits, places));
         }
         let fixed_station = map.base == Base::Exact;
         let mut numbers = Self {
             fixed_station,
-            configurations: common.len(),
+            configurations,
             checks: Vec::new(),
-            left_out: places.len() - common.len(),
+            left_out: places - configurations,
             columns: vec![Vec::new(); model.unknowns.len()],
             moves: Vec::new(),
             station: Vec::new(),
         };
-        for (i, (check, visits)) in checks.list.iter().zip(&visits).enumerate() {
+        for (i, visits) in visits.iter().enumerate() {
+            notes.progress(i, checks.list.len());
+            notes.go_on()?;
             let measured = numbers.measured(&model, visits, &common, i == 0);
-            numbers.checks.push(measured.map_err(|failure| mistake::whole(&check.data.file, &failure))?);
+            let fail = |failure| mistake::whole(&visits.check.data.file, &failure);
+            numbers.checks.push(measured.map_err(fail)?);
         }
+        notes.progress(checks.list.len(), checks.list.len());
         if !fixed_station {
             let unknowns = model.unknowns.iter().enumerate();
             let base = unknowns.filter(|(_, unknown)| matches!(unknown, Unknown::Base(..)));
@@ -98,28 +119,36 @@ impl Numbers {
         &mut self,
         model: &Model,
         visits: &Visits,
-        common: &[usize],
+        common: &[Option<usize>],
         first: bool,
     ) -> Result<Vec<f64>, abbe::identify::Failure> {
         let (mut room, x) = (model.room(), vec![0.0; model.unknowns.len()]);
-        let mut all = Vec::new();
-        for place in common {
-            let mut mean: Vec<f64> = Vec::new();
-            let share = 1.0 / visits[*place].len() as f64;
-            for (i, visit) in visits[*place].iter().enumerate() {
-                let rows = model.linearized(&mut room, visit, &x)?;
-                mean.resize(rows.len(), 0.0);
-                mean.iter_mut().zip(&rows).for_each(|(mean, (difference, _))| *mean += share * difference);
-                if first && i == 0 {
-                    for (k, column) in self.columns.iter_mut().enumerate() {
-                        column.extend(rows.iter().map(|(_, derivatives)| derivatives[k]));
-                    }
-                    self.moves.push(model.tool(&mut room, visit, &x)?.1);
+        let counts = visits.counts(common.len());
+        let mut means: Vec<f64> = Vec::new();
+        // The first check has found its configurations in this order.
+        let mut next = 0;
+        for (row, place) in visits.rows() {
+            let Some(number) = common[place] else { continue };
+            let row = visits.in_f0(row);
+            let is_new = first && number == next;
+            let numbers = if is_new {
+                let (numbers, moves) = model.linearized(&mut room, &row, &x)?.into_iter().unzip();
+                let moves: Vec<Vec<f64>> = moves;
+                for (k, column) in self.columns.iter_mut().enumerate() {
+                    column.extend(moves.iter().map(|derivatives| derivatives[k]));
                 }
-            }
-            all.extend(mean);
+                self.moves.push(model.tool(&mut room, &row, &x)?.1);
+                next += 1;
+                numbers
+            } else {
+                model.differences(&mut room, &row, &x)?
+            };
+            means.resize(self.configurations * numbers.len(), 0.0);
+            let share = 1.0 / f64::from(counts[place]);
+            let own = means[number * numbers.len()..].iter_mut();
+            own.zip(numbers).for_each(|(mean, difference)| *mean += share * difference);
         }
-        Ok(all)
+        Ok(means)
     }
 
     /// What a sum of unknowns, each with its factor, does to every number.
@@ -172,50 +201,61 @@ fn one_station(check: &Check, map: &Map) -> Result<(), Diagnostics> {
     ))
 }
 
-/// The rows of a check by configuration, in the frame `F_0`; new configurations come behind. Rows with hidden targets do not count.
-fn sorted(check: &Check, setup: &Setup, places: &mut Vec<Observation>) -> Visits {
-    let mut visits: Visits = vec![Vec::new(); places.len()];
-    for row in &check.data.observations {
-        let to_base = setup.real.stations[row.station as usize].pose.inverse();
-        let whole = |points: &[Option<[f64; 3]>]| points.iter().all(Option::is_some);
+impl<'c> Visits<'c> {
+    /// New configurations come behind. Rows with hidden targets do not count.
+    fn new(check: &'c Check, setup: &Setup, places: &mut Places) -> Result<Self, Diagnostics> {
+        let place = |row: &Observation| match &row.measured {
+            Measurement::Points(points) if !points.iter().all(Option::is_some) => Ok(None),
+            Measurement::Readings(readings) if readings.iter().any(Option::is_none) => Ok(None),
+            _ => places.of(&row.q).map(Some),
+        };
+        let found = check.data.observations.iter().map(place).collect::<Result<_, _>>();
+        let help = format!(
+            "a check visits the same few configurations every time (joints within 1 mrad), {MOST} are more than enough: give fewer \
+             rows, or `abbe identify` all of them"
+        );
+        let many = |TooMany| {
+            let message = format!("more than {MOST} different configurations until here");
+            mistake::with_help(&check.data.file, message, help)
+        };
+        let to_base = setup.real.stations.iter().map(|station| station.pose.inverse()).collect();
+        Ok(Self { check, to_base, places: found.map_err(many)? })
+    }
+
+    /// Rows that count, each with its configuration.
+    fn rows(&self) -> impl Iterator<Item = (&'c Observation, usize)> {
+        let rows = self.check.data.observations.iter().zip(&self.places);
+        rows.filter_map(|(row, place)| Some((row, (*place)? as usize)))
+    }
+
+    /// By configuration how many rows there are.
+    fn counts(&self, places: usize) -> Vec<u32> {
+        let mut counts = vec![0; places];
+        self.rows().for_each(|(_, place)| counts[place] += 1);
+        counts
+    }
+
+    /// A row in the frame `F_0`.
+    fn in_f0(&self, row: &Observation) -> Observation {
+        let to_base = &self.to_base[row.station as usize];
         let measured = match &row.measured {
-            Measurement::Points(points) if !whole(points) => continue,
             Measurement::Points(points) => Measurement::Points(
                 points.iter().map(|point| point.map(|point| to_base.apply(point))).collect(),
             ),
             Measurement::Pose(pose) => Measurement::Pose(Box::new(to_base.then(pose))),
             // Fixtures stand in F_0.
-            Measurement::Readings(readings) if readings.iter().any(Option::is_none) => continue,
             readings @ Measurement::Readings(_) => readings.clone(),
         };
-        let row = Observation { measured, station: 0, ..row.clone() };
-        let place = places.iter().position(|place| same(place, &row, setup)).unwrap_or_else(|| {
-            places.push(row.clone());
-            places.len() - 1
-        });
-        visits.resize(places.len(), Vec::new());
-        visits[place].push(row);
+        Observation { measured, station: 0, ..row.clone() }
     }
-    visits
-}
-
-/// Inputs do not count: what they do is in the model.
-fn same(a: &Observation, b: &Observation, setup: &Setup) -> bool {
-    let mut variables = setup.description.variables.iter().zip(a.q.iter().zip(b.q.iter()));
-    variables.all(|(variable, (a, b))| {
-        let unit = if variable.kind == VariableKind::Revolute { 1.0 } else { setup.arm };
-        (a - b).abs() <= SAME * unit
-    })
-}
-
-fn has(visits: &Visits, place: usize) -> bool {
-    visits.get(place).is_some_and(|rows| !rows.is_empty())
 }
 
 /// The check that shares fewest configurations with the first is to blame.
-fn nothing_in_common(checks: &Checks, visits: &[Visits]) -> Diagnostics {
+fn nothing_in_common(checks: &Checks, visits: &[Visits], places: usize) -> Diagnostics {
+    let first = visits[0].counts(places);
     let shared = |check: &Visits| {
-        (0..visits[0].len()).filter(|place| has(check, *place) && has(&visits[0], *place)).count()
+        let both = check.counts(places).into_iter().zip(&first);
+        both.filter(|(here, at_first)| *here > 0 && **at_first > 0).count()
     };
     let least = checks.list.iter().zip(visits).min_by_key(|(_, visits)| shared(visits));
     let (check, shared) = least.map_or((&checks.list[0], 0), |(check, visits)| (check, shared(visits)));

@@ -84,7 +84,7 @@ fn derivatives_of_readings_are_exact() {
     let sources = model.repeatable().into_iter().map(Unknown::Magnitude);
     let all = model.constants(false).into_iter().chain(sources);
     let model = model.with(all.chain(Component::ALL.map(Unknown::Tool)).collect());
-    let from = Some(observation(&[700.0, 100.0, 350.0, -0.4, 0.02, 0.05], 0));
+    let from = Some(Box::new(observation(&[700.0, 100.0, 350.0, -0.4, 0.02, 0.05], 0)));
     let measured = Measurement::Readings(vec![Some(0.0); 7]);
     let seen =
         Observation { measured, ..observation(&q, 1) }.approached(Approach { from, ..Approach::default() });

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::super::errors::{RowError, norm};
+use super::super::errors::{Visit, norm};
 use super::MeanAndMax;
 use super::visits::mean;
 
@@ -28,21 +28,20 @@ pub struct Directions {
 
 impl Directions {
     /// None where nothing was approached from two directions.
-    pub(super) fn new(rows: &[RowError], oriented: bool) -> Option<Self> {
-        let mut configurations: BTreeMap<u32, BTreeMap<usize, Vec<&RowError>>> = BTreeMap::new();
+    pub(super) fn new(rows: &[Visit], oriented: bool) -> Option<Self> {
+        let mut configurations: BTreeMap<u32, BTreeMap<u32, Vec<&Visit>>> = BTreeMap::new();
         for row in rows {
-            let observation = &row.observation;
-            let directions = configurations.entry(observation.configuration).or_default();
-            directions.entry(observation.direction()).or_default().push(row);
+            let directions = configurations.entry(row.configuration).or_default();
+            directions.entry(row.direction).or_default().push(row);
         }
         configurations.retain(|_, directions| directions.len() > 1);
         let (mut positions, mut turns) = (Vec::new(), Vec::new());
         for directions in configurations.values() {
-            let centres = |value: fn(&RowError) -> [f64; 3]| {
+            let centres = |value: fn(&Visit) -> [f64; 3]| {
                 directions.values().map(|visits| mean(visits, value)).collect::<Vec<_>>()
             };
-            positions.push(largest(&centres(RowError::position), norm));
-            let centres = centres(RowError::turn);
+            positions.push(largest(&centres(Visit::position), norm));
+            let centres = centres(Visit::turn);
             turns.push([0, 1, 2].map(|axis| largest(&centres, |difference| difference[axis].abs())));
         }
         let every = || configurations.values().flat_map(BTreeMap::values).map(Vec::len);

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::super::errors::{RowError, norm};
+use super::super::errors::{Visit, norm};
 use super::MeanAndMax;
 use super::visits::{Visits, deviation};
 
@@ -58,7 +58,7 @@ impl Distances {
     }
 }
 
-fn commanded(row: &RowError) -> [f64; 3] {
+fn commanded(row: &Visit) -> [f64; 3] {
     std::array::from_fn(|k| row.point[k] - row.error[k])
 }
 

@@ -13,7 +13,7 @@ mod visits;
 
 use serde::Serialize;
 
-use super::errors::RowError;
+use super::errors::Visit;
 pub use directions::Directions;
 pub use distances::Distances;
 pub use drift::Drift;
@@ -71,7 +71,7 @@ impl MeanAndMax {
 }
 
 /// The errors of every visit about the barycentre of its configuration.
-pub(super) fn about_barycentres(rows: &[RowError]) -> Vec<[f64; 3]> {
+pub(super) fn about_barycentres(rows: &[Visit]) -> Vec<[f64; 3]> {
     visits(rows).iter().flat_map(about).collect()
 }
 
@@ -81,7 +81,7 @@ fn about(visits: &Visits) -> Vec<[f64; 3]> {
 }
 
 /// All characteristics that the rows admit; `oriented` where orientations were measured.
-pub(super) fn repeated(rows: &[RowError], oriented: bool) -> Repeated {
+pub(super) fn repeated(rows: &[Visit], oriented: bool) -> Repeated {
     let groups = visits(rows);
     let every: Vec<pose::Characteristics> =
         groups.iter().map(|group| pose::Characteristics::new(group)).collect();

@@ -3,7 +3,7 @@
 //! `AP_p = |ē|` from the commanded point to the barycentre, `AP_a = ā − a_c`; with `l_j = |e_j − ē|`, `RP_l = l̄ + 3 S_l`, and
 //! `RP_a = ±3 S_a`.
 
-use super::super::errors::{RowError, norm};
+use super::super::errors::{Visit, norm};
 use super::visits::{deviation, mean};
 
 /// Of one configuration.
@@ -16,9 +16,9 @@ pub(super) struct Characteristics {
 }
 
 impl Characteristics {
-    pub(super) fn new(visits: &[&RowError]) -> Self {
-        let centre = mean(visits, RowError::position);
-        let distance = |row: &&RowError| {
+    pub(super) fn new(visits: &[&Visit]) -> Self {
+        let centre = mean(visits, Visit::position);
+        let distance = |row: &&Visit| {
             let error = row.position();
             norm(std::array::from_fn(|k| error[k] - centre[k]))
         };
@@ -26,7 +26,7 @@ impl Characteristics {
         let turns = |axis: usize| visits.iter().map(|row| row.turn()[axis]).collect::<Vec<_>>();
         Self {
             ap: norm(centre),
-            ap_turns: mean(visits, RowError::turn).map(f64::abs),
+            ap_turns: mean(visits, Visit::turn).map(f64::abs),
             rp: lengths.iter().sum::<f64>() / lengths.len() as f64 + 3.0 * deviation(&lengths),
             rp_turns: [0, 1, 2].map(|axis| 3.0 * deviation(&turns(axis))),
         }

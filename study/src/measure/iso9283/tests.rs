@@ -1,14 +1,11 @@
 //! Against examples computed by hand.
 
-use abbe::identify::{Measurement, Observation};
-
-use super::{MeanAndMax, RowError, repeated};
+use super::{MeanAndMax, Visit, repeated};
 
 /// A visit of a configuration that is commanded to `at`.
-fn visit(configuration: u32, at: [f64; 3], error: [f64; 6]) -> RowError {
-    let mut observation = Observation::new(1, Vec::new(), Vec::new(), Measurement::Points(Vec::new().into()));
-    observation.configuration = configuration;
-    RowError { observation, error, point: std::array::from_fn(|k| at[k] + error[k]) }
+fn visit(configuration: u32, at: [f64; 3], error: [f64; 6]) -> Visit {
+    let point = std::array::from_fn(|k| at[k] + error[k]);
+    Visit { configuration, direction: 0, time: 0.0, error, point }
 }
 
 fn near(found: f64, expected: f64) {
@@ -50,9 +47,9 @@ fn repeatability_counts_the_spread_of_distances() {
 /// Barycentres (0, 0, 0), (3, 4, 0) and (0, 1, 0) from three directions: 5 apart at most.
 #[test]
 fn variation_by_direction() {
-    let from = |direction: usize, x: f64, y: f64, a: f64| {
+    let from = |direction: u32, x: f64, y: f64, a: f64| {
         let mut row = visit(7, [0.0; 3], [x, y, 0.0, a, 0.0, 0.0]);
-        row.observation.approach_mut().direction = direction;
+        row.direction = direction;
         row
     };
     let rows = [
@@ -88,11 +85,11 @@ fn drift_in_the_order_of_time() {
     let at = |i: usize| {
         let (block, side) = (i / 10, if i.is_multiple_of(2) { 0.5 } else { -0.5 });
         let mut row = visit(0, [0.0; 3], [1.0 + 3.0 * block as f64 + side, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        row.observation.approach_mut().time = Some(i as f64);
+        row.time = i as f64;
         row
     };
     // The file has them in another order.
-    let rows: Vec<RowError> = (0..20).rev().map(at).collect();
+    let rows: Vec<Visit> = (0..20).rev().map(at).collect();
     let found = repeated(&rows, false).drift.unwrap();
     assert_eq!((found.configurations, found.most, found.dap_turns), (1, 2, None));
     near(found.dap.max, 3.0);

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::RowError;
+use super::Visit;
 
 /// The rows of one configuration, in the order of time.
-pub(super) type Visits<'r> = Vec<&'r RowError>;
+pub(super) type Visits<'r> = Vec<&'r Visit>;
 
-impl RowError {
+impl Visit {
     pub(super) fn position(&self) -> [f64; 3] {
         [self.error[0], self.error[1], self.error[2]]
     }
@@ -18,19 +18,19 @@ impl RowError {
 }
 
 /// Configurations that were visited more than once, in the order in which they come first.
-pub(super) fn visits(rows: &[RowError]) -> Vec<Visits<'_>> {
-    let mut order: Vec<&RowError> = rows.iter().collect();
+pub(super) fn visits(rows: &[Visit]) -> Vec<Visits<'_>> {
+    let mut order: Vec<&Visit> = rows.iter().collect();
     // A stable sort: rows without a time stay in their order.
-    let time = |row: &RowError| row.observation.time().unwrap_or_default();
+    let time = |row: &Visit| row.time;
     order.sort_by(|a, b| time(a).total_cmp(&time(b)));
     let mut groups: BTreeMap<u32, Visits<'_>> = BTreeMap::new();
     for row in order {
-        groups.entry(row.observation.configuration).or_default().push(row);
+        groups.entry(row.configuration).or_default().push(row);
     }
     groups.into_values().filter(|group| group.len() > 1).collect()
 }
 
-pub(super) fn mean(visits: &[&RowError], value: impl Fn(&RowError) -> [f64; 3]) -> [f64; 3] {
+pub(super) fn mean(visits: &[&Visit], value: impl Fn(&Visit) -> [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| visits.iter().map(|row| value(row)[k]).sum::<f64>() / visits.len() as f64)
 }
 
