@@ -83,7 +83,7 @@ fn whoever_is_interrupted_is_gone_at_once() {
     let rows = rows(folder.path(), &map, 600_000);
     let study = "[study]\ntitle = \"many\"\n[workspace.random]\nsamples = 100000000\n";
     let study = write(folder.path(), "study.toml", study);
-    let long = write(folder.path(), "long.toml", &long(5_000));
+    let long = write(folder.path(), "long.toml", &long(3_000));
     let spec = write(folder.path(), "arm.toml", shipped("ur5"));
     let [map, study, long, spec] = [&map, &study, &long, &spec].map(|path| path.to_str().unwrap());
     let out = folder.path().join("out");
