@@ -44,7 +44,8 @@ fn text(report: &Report, paths: Option<&[PathBuf]>) -> String {
     let mut parts = vec![
         format!("{name}: {format}\n"),
         format!(
-            "How far the tool is from where it really is, over {configurations} random configurations (seed {seed})\n{}",
+            "{}, over {configurations} random configurations (seed {seed})\n{}",
+            question(report),
             differences(report)
         ),
     ];
@@ -60,14 +61,25 @@ fn text(report: &Report, paths: Option<&[PathBuf]>) -> String {
     parts.join("\n")
 }
 
+/// Of a model, or of corrected commands.
+fn question(report: &Report) -> &'static str {
+    match report.compared {
+        ["nominal", _] => "How far the tool is from where it really is",
+        _ => "How far the tool really is from where it should be",
+    }
+}
+
 fn differences(report: &Report) -> String {
     let heading = [report.length, "mrad"];
     let [largest, rms] = ["largest", "rms"].map(|figure| heading.map(|unit| format!("{figure} ({unit})")));
     let mut table = Table::new(&["", &largest[0], &rms[0], &largest[1], &rms[1]]);
-    for (name, difference) in report.compared.iter().zip([&report.before, &report.remains]) {
+    let [before, remains] = report.compared;
+    let at_nodes = report.at_nodes.as_ref().map(|difference| ("at the nodes", difference));
+    let rows = [(before, &report.before)].into_iter().chain(at_nodes).chain([(remains, &report.remains)]);
+    for (name, difference) in rows {
         let Difference { position, angle } = difference;
         let figures = [position.largest, position.rms, 1e3 * angle.largest, 1e3 * angle.rms];
-        table.row([&[(*name).to_owned()][..], &figures.map(|value| digits(value, 3))].concat());
+        table.row([&[name.to_owned()][..], &figures.map(|value| digits(value, 3))].concat());
     }
     table.right(&[1, 2, 3, 4]).to_string()
 }

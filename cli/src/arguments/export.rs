@@ -9,9 +9,12 @@ use crate::failure::Failure;
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
-    "  abbe export found.toml --to dh -o dh.csv
+    "  abbe export found.toml --to dh -o found.dh.csv
   abbe export robot.toml --to urdf --from robot.urdf -o calibrated.urdf
   abbe export ur5 --to ur-calibration -o calibration.yaml
+  abbe export machine3 --to isg-csv --set temperature_rise=3K -o volcomp.csv
+  abbe export machine3 --to linuxcnc --nodes 61 -o comp
+  abbe export machine3 --to table --nodes 11 -o corrections.csv
 "))]
 pub(crate) struct Export {
     #[command(flatten)]
@@ -28,6 +31,9 @@ pub(crate) struct Export {
     /// The link of that file whose frame is the tool point. The last link, if there is only one
     #[arg(long, value_name = "LINK", requires = "from")]
     tip: Option<String>,
+    /// How many values of each axis or joint a table has. If not given, 101 of an axis, and about 10,000 of all joints together
+    #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(2..=1_000_000))]
+    nodes: Option<usize>,
     /// Write to this file instead of stdout; several files, to this folder
     #[arg(long, short, value_name = "PATH", value_hint = ValueHint::AnyPath)]
     pub(crate) out: Option<PathBuf>,
@@ -47,7 +53,13 @@ pub(crate) struct Export {
 impl Export {
     /// What is to be written, and from what.
     pub(crate) fn format(&self) -> Result<Format, Failure> {
-        let Self { to, from, base, tip, .. } = self;
+        let Self { to, from, base, tip, nodes, .. } = self;
+        let of_axis = nodes.unwrap_or(Format::NODES);
+        let has_nodes = ["isg-csv", "linuxcnc", "table"].contains(&to.as_str());
+        if nodes.is_some() && !has_nodes {
+            let failure = Failure::of("--nodes", format!("`--to {to}` has no nodes"));
+            return Err(failure.help("leave `--nodes` out"));
+        }
         match (to.as_str(), from) {
             ("urdf", Some(file)) => {
                 Ok(Format::Urdf { file: file.clone(), base: base.clone(), tip: tip.clone() })
@@ -61,6 +73,9 @@ impl Export {
                 Err(failure.help("leave `--from` out"))
             }
             ("ur-calibration", None) => Ok(Format::UrCalibration),
+            ("isg-csv", None) => Ok(Format::IsgCsv { nodes: of_axis }),
+            ("linuxcnc", None) => Ok(Format::LinuxCnc { nodes: of_axis }),
+            ("table", None) => Ok(Format::Table { nodes: *nodes }),
             _ => Ok(Format::Dh),
         }
     }

@@ -6,6 +6,7 @@ mod bad_input;
 mod check;
 mod compensate;
 mod documents;
+mod export;
 mod generate;
 mod help;
 mod identify;

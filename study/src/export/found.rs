@@ -161,6 +161,19 @@ impl Found {
         drawn_pose(&self.manipulator, q, &self.s, u, &self.magnitudes)
     }
 
+    /// The errors at a configuration.
+    pub(super) fn errors_at(&self, q: &[f64], u: &[f64]) -> Result<Errors, Error> {
+        Ok(self.errors(self.values(q, u)?.into_iter()))
+    }
+
+    /// Home with one variable elsewhere, and the inputs as they are.
+    pub(super) fn at_home(&self, variable: usize, value: f64) -> (Vec<f64>, Vec<f64>) {
+        let description = self.manipulator.description();
+        let mut q = sampling::home(description);
+        q[variable] = value;
+        (q, sampling::nominal_inputs(description))
+    }
+
     /// The value of every cause.
     fn values(&self, q: &[f64], u: &[f64]) -> Result<Vec<f64>, Error> {
         let mut values = vec![0.0; self.causes.len() - self.deviations.len()];
@@ -227,6 +240,51 @@ impl Found {
     pub(super) fn of_model(&self, model: impl Fn(&[f64]) -> Pose) -> Difference {
         let pairs = self.configurations.iter().zip(&self.real);
         Difference::new(pairs.map(|(configuration, real)| [model(&configuration.q), *real]))
+    }
+
+    /// What remains when commands are corrected: from where the tool should be to where it then really is.
+    pub(super) fn of_commands(&self, corrected: impl Fn(&[f64]) -> Vec<f64>) -> Result<Difference, Error> {
+        let mut pairs = Vec::with_capacity(self.ideal.len());
+        for (Configuration { q, u, .. }, ideal) in self.configurations.iter().zip(&self.ideal) {
+            pairs.push([*ideal, self.real_tool(&corrected(q), u)?]);
+        }
+        Ok(Difference::new(pairs))
+    }
+
+    /// What a table over one axis leaves out: errors that depend on more than the axis that they are of.
+    pub(super) fn beyond_own_axis(&self) -> Option<String> {
+        const PLACES: usize = 50;
+        let own = |cause: &Cause| match cause.at {
+            At::Frame(frame, _) | At::Number(ChainNumber::DenavitHartenberg { frame, .. }) => {
+                self.spec.frames[frame].variable
+            }
+            At::Number(ChainNumber::Joint(variable)) => Some(variable),
+            At::Number(ChainNumber::Parameter(_)) => None,
+        };
+        let sources: Vec<&str> = self.spec.enabled_sources().map(|source| source.name.as_str()).collect();
+        let mut names: Vec<String> = Vec::new();
+        for Configuration { q, u, .. } in self.configurations.iter().take(PLACES) {
+            let Ok(all) = self.values(q, u) else { continue };
+            for (variable, value) in q.iter().enumerate() {
+                let (at, inputs) = self.at_home(variable, *value);
+                let Ok(alone) = self.values(&at, &inputs) else { continue };
+                for (cause, (all, alone)) in self.causes.iter().zip(all.iter().zip(&alone)) {
+                    let name = format!("\"{}\"", sources[cause.source]);
+                    let counts = self.magnitudes[cause.source] != 0.0 && own(cause) == Some(variable);
+                    let differs = (all - alone).abs() > 1e-9 * all.abs().max(alone.abs());
+                    if counts && differs && !names.contains(&name) {
+                        names.push(name);
+                    }
+                }
+            }
+        }
+        (!names.is_empty()).then(|| {
+            format!(
+                "What depends on more than the position of its own axis is taken with the other axes at home and the inputs as they are \
+                 (`--set`): {}.",
+                names.join(", ")
+            )
+        })
     }
 
     /// What every format of constant numbers leaves out of this machine.

@@ -1,12 +1,16 @@
 //! What was found of a machine, in the files that controllers and other programs load.
 //!
-//! [`Found`](found::Found) is the machine as its repeatable sources have it, exactly, and what stays the same of its errors.
+//! `found` is the machine as its repeatable sources have it, exactly, and what stays the same of its errors.
 //! Each format writes its text from that, reads the text back as whoever loads it would, and [`Difference`] is what remains.
 
 mod dh;
 mod difference;
 mod found;
+mod isg_csv;
+mod linuxcnc;
 mod origins;
+mod slides;
+mod table;
 mod ur_calibration;
 mod urdf;
 
@@ -53,11 +57,29 @@ pub enum Format {
     },
     /// The calibration of an arm of Universal Robots, YAML.
     UrCalibration,
+    /// Tables of volumetric compensation of TwinCAT CNC and of the ISG kernel.
+    IsgCsv {
+        /// How many values of each axis.
+        nodes: usize,
+    },
+    /// Files of compensation of LinuxCNC, one for each axis.
+    LinuxCnc {
+        /// How many values of each axis.
+        nodes: usize,
+    },
+    /// Corrections of the joints on a grid.
+    Table {
+        /// How many values of each joint; as many as make about 10,000 in all, if nobody says.
+        nodes: Option<usize>,
+    },
 }
 
 impl Format {
     /// The names of all of them.
-    pub const NAMES: [&str; 3] = ["dh", "urdf", "ur-calibration"];
+    pub const NAMES: [&str; 6] = ["dh", "urdf", "ur-calibration", "isg-csv", "linuxcnc", "table"];
+
+    /// How many values a table over one axis has, if nobody says.
+    pub const NODES: usize = 101;
 }
 
 /// A file to be written.
@@ -88,6 +110,8 @@ pub struct Report {
     pub compared: [&'static str; 2],
     /// As the machine is without the export.
     pub before: Difference,
+    /// What remains at the nodes of a table; `remains` is between them.
+    pub at_nodes: Option<Difference>,
     /// What remains when the files are loaded and used.
     pub remains: Difference,
     /// Over how many configurations.
@@ -106,12 +130,16 @@ struct Written {
     left_out: Vec<String>,
     compared: [&'static str; 2],
     before: Difference,
+    at_nodes: Option<Difference>,
     remains: Difference,
     sign: String,
 }
 
 /// How the differences of a model are called: of what it says from where the tool really is.
 const MODEL: [&str; 2] = ["nominal", "exported"];
+
+/// How the differences of corrected commands are called: of where the tool really is from where it should be.
+const COMMANDS: [&str; 2] = ["as commanded", "corrected"];
 
 impl Export {
     /// Writes the files as text, reads them back and compares.
@@ -127,8 +155,11 @@ impl Export {
                 urdf::written(&found, urdf::From { file, base: base.as_deref(), tip: tip.as_deref() })?
             }
             Format::UrCalibration => ur_calibration::written(&found)?,
+            Format::IsgCsv { nodes } => isg_csv::written(&found, *nodes)?,
+            Format::LinuxCnc { nodes } => linuxcnc::written(&found, *nodes)?,
+            Format::Table { nodes } => table::written(&found, *nodes, notes)?,
         };
-        let Written { format, files, changes, left_out, compared, before, remains, sign } = written;
+        let Written { format, files, changes, left_out, compared, before, at_nodes, remains, sign } = written;
         let report = Report {
             name: machine.spec.name.clone(),
             format,
@@ -138,6 +169,7 @@ impl Export {
             left_out,
             compared,
             before,
+            at_nodes,
             remains,
             configurations: *samples,
             seed: *seed,
@@ -149,8 +181,8 @@ impl Export {
     /// The files that it reads beside the spec.
     pub(crate) fn beside(&self) -> Vec<PathBuf> {
         match &self.format {
-            Format::Dh | Format::UrCalibration => Vec::new(),
             Format::Urdf { file, .. } => vec![file.clone()],
+            _ => Vec::new(),
         }
     }
 }

@@ -94,6 +94,7 @@ pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
         left_out,
         compared: MODEL,
         before: found.nominal(),
+        at_nodes: None,
         remains: found.of_model(by_text),
         sign: sign(&joints, &new, metres),
     })

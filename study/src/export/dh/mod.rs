@@ -54,6 +54,7 @@ pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
         left_out,
         compared: MODEL,
         before: found.nominal(),
+        at_nodes: None,
         remains: found.of_model(|q| read.pose(q)),
         sign: sign(&nominal, &table, found),
     })

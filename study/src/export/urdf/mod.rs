@@ -91,6 +91,7 @@ pub(super) fn written(found: &Found, from: From<'_>) -> Result<Written, Diagnost
         left_out,
         compared: MODEL,
         before: found.nominal(),
+        at_nodes: None,
         remains,
         sign,
     })

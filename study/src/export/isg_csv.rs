@@ -1,0 +1,141 @@
+//! Tables of the volumetric compensation of TwinCAT CNC and of the ISG kernel, in their CSV format.
+//!
+//! `EYX` is the error of the carriage X along Y, `ECX` its turn about Z, both functions of X: actual minus nominal, as in ISO 230-1, in mm and
+//! rad. `P0X P0Y P0Z` is where the tool is with all axes at 0. The control moves the axes against the sum at the tool point.
+
+use std::fmt::Write;
+
+use abbe::{Pose, real_pose};
+use abbe_codegen::diagnostic::Diagnostics;
+
+use super::found::Found;
+use super::slides::{Reference, Slide, interpolated, slides};
+use super::{COMMANDS, ExportedFile, Written};
+use crate::mistake;
+use crate::number::digits;
+
+/// The tables, and what remains of the errors with them.
+pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostics> {
+    let slides = slides(found)?;
+    let evaluated = |error: abbe::Error| mistake::whole(&found.origin, &error);
+    let reference = Reference::new(found, &slides).map_err(evaluated)?;
+    let mm = found.spec.length.in_metres() * 1e3;
+    let mut text = format!(
+        "// {}: errors of its axes as ISO 230-1 has them, actual minus nominal, in mm and rad\nP0X P0Y P0Z\n{}\n",
+        found.spec.name,
+        row(&reference.tool.map(|v| v * mm))
+    );
+    let mut largest = (0.0, String::new());
+    for (k, slide) in slides.iter().enumerate() {
+        let letter = slide.letter();
+        let names = ["X", "Y", "Z", "A", "B", "C"].map(|direction| format!("E{direction}{letter}"));
+        let _ = writeln!(text, "#\n{letter} {}", names.join(" "));
+        for value in slide.nodes(nodes) {
+            let [x, y, z, a, b, c] = reference.errors(found, &slides, k, value).map_err(evaluated)?;
+            let [at, x, y, z] = [value, x, y, z].map(|v| v * mm);
+            let _ = writeln!(text, "{}", row(&[at, x, y, z, a, b, c]));
+            for (i, error) in [x, y, z].into_iter().enumerate() {
+                if error.abs() > largest.0 {
+                    largest = (error.abs(), sentence(letter, at, i, error));
+                }
+            }
+        }
+    }
+    let tables = Tables::read(&text, &slides).ok_or_else(|| {
+        let help = "this is a mistake of abbe: please report the spec";
+        mistake::with_help("abbe export", "what was written cannot be read", help)
+    })?;
+    let mut left_out: Vec<String> = found.beyond_own_axis().into_iter().collect();
+    left_out.push(
+        "The control corrects the position of the tool point, not its orientation, with the length of the tool that it is told."
+            .to_owned(),
+    );
+    left_out.push(
+        "Errors of frames that stand still, and of the tool, are not errors of an axis: they are left out."
+            .to_owned(),
+    );
+    left_out.push(
+        "The chain of the axes is configured in the control, from the bed to the tool: ".to_owned()
+            + &slides.iter().map(|slide| slide.letter().to_string()).collect::<Vec<_>>().join(", ")
+            + ".",
+    );
+    Ok(Written {
+        format: "tables of volumetric compensation (ISG CSV)".to_owned(),
+        files: vec![ExportedFile { name: format!("{}.volcomp.csv", found.spec.name), text }],
+        changes: Vec::new(),
+        left_out,
+        compared: COMMANDS,
+        before: found.nominal(),
+        at_nodes: None,
+        remains: found.of_commands(|q| tables.corrected(&slides, q, mm)).map_err(evaluated)?,
+        sign: if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 },
+    })
+}
+
+fn sentence(letter: char, at: f64, direction: usize, error: f64) -> String {
+    let axis = ['X', 'Y', 'Z'][direction];
+    format!(
+        "The tables hold errors, actual minus nominal, and the control subtracts them: at {letter} = {} mm the carriage really stands {} mm \
+         from where it should along {axis} (E{axis}{letter}), and {axis} is moved by {} mm. Measure one axis after the tables are active: if \
+         its error has doubled, the control is configured with `negate`.",
+        digits(at, 6),
+        digits(error, 4),
+        digits(-error, 4)
+    )
+}
+
+/// Numbers to a picometre and a nanoradian.
+fn row(values: &[f64]) -> String {
+    let number = |value: &f64| format!("{}", format!("{value:.9}").parse::<f64>().unwrap_or(*value) + 0.0);
+    values.iter().map(number).collect::<Vec<_>>().join(" ")
+}
+
+/// Tables as the control reads them.
+struct Tables {
+    tool: [f64; 3],
+    /// Of each slide: its nodes, and six errors at each.
+    axes: Vec<(Vec<f64>, Vec<[f64; 6]>)>,
+}
+
+impl Tables {
+    fn read(text: &str, slides: &[Slide]) -> Option<Self> {
+        let mut blocks =
+            text.split("\n#\n").map(|block| block.lines().filter(|line| !line.starts_with("//")));
+        let numbers =
+            |line: &str| line.split(' ').map(|cell| cell.parse::<f64>().ok()).collect::<Option<Vec<f64>>>();
+        let tool = numbers(blocks.next()?.nth(1)?)?.try_into().ok()?;
+        let mut axes = Vec::new();
+        for (block, slide) in blocks.zip(slides) {
+            let mut lines = block;
+            lines.next()?.starts_with(slide.letter()).then_some(())?;
+            let rows: Option<Vec<Vec<f64>>> = lines.map(numbers).collect();
+            let (mut nodes, mut errors) = (Vec::new(), Vec::new());
+            for row in rows? {
+                let [at, six @ ..] = &row[..] else { return None };
+                nodes.push(*at);
+                errors.push(six.try_into().ok()?);
+            }
+            axes.push((nodes, errors));
+        }
+        (axes.len() == slides.len()).then_some(Self { tool, axes })
+    }
+
+    /// What the control commands: less what the tool point is off by, `T(x) T(t) R(θ)` of every axis in order and then the tool.
+    fn corrected(&self, slides: &[Slide], q: &[f64], mm: f64) -> Vec<f64> {
+        let (mut real, mut ideal) = (Pose::IDENTITY, self.tool);
+        for (slide, (nodes, errors)) in slides.iter().zip(&self.axes) {
+            let at = q[slide.variable] * mm;
+            ideal[slide.axis] += at;
+            let [x, y, z, a, b, c] = interpolated(nodes, errors, at);
+            let mut shift = [x, y, z];
+            shift[slide.axis] += at;
+            let [x, y, z] = shift;
+            // Spin about Y, roll about Z, pitch about X.
+            real = real.then(&real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[x, y, z, b, c, a]]));
+        }
+        let real = real.apply(self.tool);
+        let mut q = q.to_vec();
+        slides.iter().for_each(|slide| q[slide.variable] -= (real[slide.axis] - ideal[slide.axis]) / mm);
+        q
+    }
+}

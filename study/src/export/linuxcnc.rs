@@ -1,0 +1,110 @@
+//! Files of compensation of LinuxCNC: of each joint lines of `nominal forward reverse`.
+//!
+//! With `COMP_FILE_TYPE = 0` forward and reverse are where the joint really is when it is commanded to nominal and comes from below, or from
+//! above; LinuxCNC adds `nominal − forward` to the command, straight between the lines. It reads up to the first line that is anything else:
+//! there is no comment in such a file.
+
+use std::fmt::Write;
+
+use abbe::{Error, Manipulator};
+use abbe_codegen::diagnostic::Diagnostics;
+
+use super::found::Found;
+use super::slides::{Slide, interpolated, slides};
+use super::{COMMANDS, ExportedFile, Written};
+use crate::mistake;
+use crate::number::digits;
+
+/// More lines LinuxCNC does not take.
+const MOST_NODES: usize = 256;
+
+/// One file for each slide, and what remains of the errors with them.
+pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostics> {
+    if nodes > MOST_NODES {
+        let message = format!("a file of LinuxCNC has {MOST_NODES} lines at most");
+        return Err(mistake::with_help("--nodes", message, format!("ask for fewer: `--nodes {MOST_NODES}`")));
+    }
+    let slides = slides(found)?;
+    let evaluated = |error: Error| mistake::whole(&found.origin, &error);
+    let mm = found.spec.length.in_metres() * 1e3;
+    let (mut files, mut largest) = (Vec::new(), (0.0, String::new()));
+    for slide in &slides {
+        let mut text = String::new();
+        for value in slide.nodes(nodes) {
+            let error = along(found, slide, value).map_err(evaluated)? * mm;
+            let (nominal, actual) = (value * mm, value * mm + error);
+            let _ = writeln!(text, "{nominal:.6} {actual:.6} {actual:.6}");
+            if error.abs() > largest.0 {
+                largest = (error.abs(), sentence(slide.letter(), nominal, actual));
+            }
+        }
+        files.push(ExportedFile { name: format!("{}.comp", slide.letter().to_ascii_lowercase()), text });
+    }
+    let read: Option<Vec<_>> = files.iter().map(|file| read(&file.text)).collect();
+    let read = read.ok_or_else(|| {
+        let help = "this is a mistake of abbe: please report the spec";
+        mistake::with_help("abbe export", "what was written cannot be read", help)
+    })?;
+    let corrected = |q: &[f64]| {
+        let mut q = q.to_vec();
+        for (slide, (nominal, forward)) in slides.iter().zip(&read) {
+            let [trim] = interpolated(nominal, forward, q[slide.variable] * mm);
+            q[slide.variable] += trim / mm;
+        }
+        q
+    };
+    let mut left_out: Vec<String> = found.beyond_own_axis().into_iter().collect();
+    left_out.push(
+        "A joint is corrected along itself, by its own position: straightness, squareness and what turns with a lever that changes remain. What the \
+         tool point is off by along each axis is taken with the other axes at home."
+            .to_owned(),
+    );
+    left_out.push(
+        "Forward and reverse are the same: backlash that is known by an input stands at that input's value, and `BACKLASH` is not used beside a \
+         file."
+            .to_owned(),
+    );
+    let names: Vec<String> = files.iter().map(|file| format!("`COMP_FILE = {}`", file.name)).collect();
+    left_out.push(format!(
+        "The INI file names them, in mm: {}, each with `COMP_FILE_TYPE = 0`, in the section of its joint.",
+        names.join(", ")
+    ));
+    Ok(Written {
+        format: "files of compensation of LinuxCNC".to_owned(),
+        files,
+        changes: Vec::new(),
+        left_out,
+        compared: COMMANDS,
+        before: found.nominal(),
+        at_nodes: None,
+        remains: found.of_commands(corrected).map_err(evaluated)?,
+        sign: if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 },
+    })
+}
+
+/// What the tool point is off by along the axis, with the other slides at home.
+fn along(found: &Found, slide: &Slide, value: f64) -> Result<f64, Error> {
+    let (q, u) = found.at_home(slide.variable, value);
+    let (real, ideal) = (found.real_tool(&q, &u)?, found.manipulator.pose(&q, &found.s)?);
+    Ok(real.position()[slide.axis] - ideal.position()[slide.axis])
+}
+
+fn sentence(letter: char, nominal: f64, actual: f64) -> String {
+    format!(
+        "The files hold where the axis really is: commanded to {letter} = {} mm it stands at {} mm, and LinuxCNC adds nominal minus actual, {} mm, \
+         to the command.",
+        digits(nominal, 6),
+        digits(actual, 8),
+        digits(nominal - actual, 4)
+    )
+}
+
+/// Nominal positions and the trims that LinuxCNC makes of a file.
+fn read(text: &str) -> Option<(Vec<f64>, Vec<[f64; 1]>)> {
+    let line = |line: &str| {
+        let numbers: Option<Vec<f64>> = line.split(' ').map(|cell| cell.parse().ok()).collect();
+        let [nominal, forward, _] = numbers?[..] else { return None };
+        Some((nominal, [nominal - forward]))
+    };
+    text.lines().map(line).collect()
+}
