@@ -60,3 +60,38 @@ impl Places {
         Ok(place)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::{MOST, Places, SAME};
+
+    fn places() -> Places {
+        Places { list: Vec::new(), units: vec![1.0, 500.0], bins: HashMap::new() }
+    }
+
+    /// As by a look at all that are known, one after the other.
+    #[test]
+    fn configurations_are_told_apart() {
+        let (mut found, mut known): (_, Vec<[f64; 2]>) = (places(), Vec::new());
+        for i in 0..4000 {
+            let q = [(f64::from(i) * 0.7).sin() * 0.02, (f64::from(i) * 1.3).cos() * 10.0 - 4.0];
+            let same = |k: &[f64; 2]| (k[0] - q[0]).abs() <= SAME && (k[1] - q[1]).abs() <= 500.0 * SAME;
+            let expected = known.iter().position(same).unwrap_or(known.len());
+            if expected == known.len() {
+                known.push(q);
+            }
+            assert_eq!(found.of(&q).unwrap(), expected as u32);
+        }
+        assert!((100..2000).contains(&found.len()), "{}", found.len());
+    }
+
+    #[test]
+    fn there_are_no_more_than_fit() {
+        let mut all = places();
+        assert!((0..MOST).all(|i| all.of(&[0.01 * i as f64, 0.0]).is_ok()));
+        assert!(all.of(&[-1.0, 0.0]).is_err());
+        assert_eq!(all.of(&[0.01, 0.0]).unwrap(), 1);
+    }
+}
