@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use abbe_study::Notes;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::output::note;
 
@@ -115,8 +115,34 @@ impl Notes for Console {
         }
         let mut line = Line::hold();
         line.counted = Some(Instant::now());
-        let make = || ProgressBar::new(total as u64).with_elapsed(begun.elapsed());
-        let template = "{bar:30} {pos} of {len} configurations, {eta} left, Ctrl-C ends it";
-        line.show(true, make, template).set_position(done as u64);
+        let rest = format!("{:#}", HumanDuration(left(begun.elapsed(), done, total)));
+        let make = || {
+            let bar = ProgressBar::new(total as u64).with_elapsed(begun.elapsed());
+            bar.with_position(done as u64).with_message(rest.clone())
+        };
+        let template = "{bar:30} {pos} of {len} done, {msg} left, Ctrl-C ends it";
+        let bar = line.show(true, make, template);
+        bar.set_message(rest.clone());
+        bar.set_position(done as u64);
+    }
+}
+
+/// How long the rest takes if it goes on as it did so far, in whole seconds: at least one.
+fn left(elapsed: Duration, done: usize, total: usize) -> Duration {
+    let rest = total.saturating_sub(done) as f64 / done.max(1) as f64;
+    Duration::from_secs((elapsed.as_secs_f64() * rest).ceil().max(1.0) as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rest_takes_as_long_as_what_is_done() {
+        let after = |seconds: f64, done, total| left(Duration::from_secs_f64(seconds), done, total).as_secs();
+        assert_eq!(after(1.2, 12, 72), 6);
+        assert_eq!(after(100.0, 50, 100), 100);
+        assert_eq!(after(1.0, 999, 1000), 1);
+        assert_eq!(after(2.0, 0, 10), 20);
     }
 }

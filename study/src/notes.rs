@@ -18,7 +18,7 @@ pub trait Notes {
         let _ = warning;
     }
 
-    /// So many of all configurations are done; said often, and from 0 on again where a job has several parts.
+    /// So many of all configurations, rows or terms are done; said often, and from 0 on again where a job has several parts.
     fn progress(&mut self, done: usize, total: usize) {
         let _ = (done, total);
     }

@@ -15,6 +15,8 @@ mod inputs;
 mod interrupts;
 mod jacobian;
 mod kills;
+#[cfg(unix)]
+mod laws;
 mod measure;
 mod memory;
 mod merge;
@@ -22,6 +24,8 @@ mod monitor;
 mod outputs;
 mod pages;
 mod paths;
+#[cfg(unix)]
+mod progress;
 mod readme;
 mod report;
 mod running;

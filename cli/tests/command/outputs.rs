@@ -37,7 +37,8 @@ fn no_command_writes_over_what_it_reads() {
     for (line, inputs) in WRITING {
         for input in inputs {
             let (direct, around) = (workshop.path(input), workshop.path(&format!("sub/../{input}")));
-            let linked = workshop.path(if in_folder(line).is_some() { "folder/report.html" } else { "link" });
+            let linked = in_folder(line).map_or("link".to_owned(), |file| format!("folder/{file}"));
+            let linked = workshop.path(&linked);
             for (how, out) in [&direct, &around, &linked, &linked].into_iter().enumerate() {
                 if how >= 2 {
                     link(&workshop.at(input), Path::new(&linked), how == 2);

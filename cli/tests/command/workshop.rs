@@ -66,17 +66,39 @@ const STUDY: &str = "[study]\ntitle = \"A path\"\n[workspace.path]\nfile = \"pat
 const PLAN: &str =
     "[plan]\ntitle = \"A path\"\n[[set]]\nname = \"path\"\nworkspace.path = { file = \"path.csv\" }\n";
 
+const URDF: &str = r#"<robot name="arm">
+<link name="base"/>
+<link name="hand"><inertial><mass value="2"/></inertial></link>
+<joint name="q" type="revolute"><parent link="base"/><child link="hand"/><origin xyz="0 0 0.1" rpy="0 0 0.5"/>
+<axis xyz="0 0 1"/><limit lower="-1" upper="1"/></joint>
+</robot>
+"#;
+
 /// As a path and as a plan: the map's column has the name that says its unit.
 pub(crate) const PATH: &str =
     "d1,q2 (deg)\n0,-90\n100,-60\n200,-30\n300,0\n500,30\n600,60\n700,90\n800,120\n";
 
 /// The files of it, by what they are.
-pub(crate) const FILES: [&str; 8] =
-    ["s.toml", "rail.csv", "m.toml", "study.toml", "path.csv", "plan.toml", "d.csv", "t.csv"];
+pub(crate) const FILES: [&str; 12] = [
+    "s.toml",
+    "rail.csv",
+    "m.toml",
+    "study.toml",
+    "path.csv",
+    "plan.toml",
+    "d.csv",
+    "t.csv",
+    "a.part",
+    "r.urdf",
+    "r.toml",
+    "dh.csv",
+];
 
 /// Every command that writes, with what it reads of it, without the path that it writes to: a file, or a folder.
-pub(crate) const WRITING: [(&str, &[&str]); 11] = [
+pub(crate) const WRITING: [(&str, &[&str]); 18] = [
+    ("man --out", &[]),
     ("generate s.toml --out", &["s.toml", "rail.csv"]),
+    ("generate s.toml --lang c --out", &["s.toml", "rail.csv"]),
     (
         "plan s.toml --map m.toml --optimal 20 --candidates 40 --study study.toml --out",
         &["s.toml", "rail.csv", "m.toml", "study.toml", "path.csv"],
@@ -99,11 +121,26 @@ pub(crate) const WRITING: [(&str, &[&str]); 11] = [
     ),
     ("measure s.toml d.csv --map m.toml --out", &["s.toml", "rail.csv", "m.toml", "d.csv"]),
     ("analyze s.toml --study study.toml --out", &["s.toml", "rail.csv", "study.toml", "path.csv"]),
+    (
+        "analyze s.toml --study study.toml --shard 1/2 --out",
+        &["s.toml", "rail.csv", "study.toml", "path.csv"],
+    ),
+    ("merge a.part --out", &["a.part"]),
+    ("import r.urdf --out", &["r.urdf"]),
+    ("export r.toml --to urdf --from r.urdf --out", &["r.toml", "r.urdf"]),
+    ("import dh.csv --dh standard --units mm,deg --out", &["dh.csv"]),
 ];
 
 /// Whether a command writes a folder, and then a file in it.
 pub(crate) fn in_folder(command: &str) -> Option<&'static str> {
-    ["measure", "analyze"].iter().any(|name| command.starts_with(name)).then_some("report.html")
+    let folders = [
+        ("man", "abbe.1"),
+        ("generate s.toml --lang c", "arm.h"),
+        ("measure", "report.html"),
+        ("analyze s.toml --study study.toml --out", "report.html"),
+        ("merge", "report.html"),
+    ];
+    folders.into_iter().find(|(begin, _)| command.starts_with(begin)).map(|(_, file)| file)
 }
 
 pub(crate) struct Workshop(pub(crate) TempDir);
@@ -118,6 +155,8 @@ impl Workshop {
             ("study.toml", STUDY),
             ("plan.toml", PLAN),
             ("path.csv", PATH),
+            ("r.urdf", URDF),
+            ("dh.csv", "theta,d,a,alpha\n0,90,0,90\n0,0,-425,0\n0,0,-392,0\n"),
         ] {
             fs::write(workshop.at(name), text).unwrap();
         }
@@ -126,6 +165,10 @@ impl Workshop {
             let line = format!("simulate s.toml {at} --map m.toml --seed {seed}");
             fs::write(workshop.at(name), prints(&workshop.words(&line))).unwrap();
         }
+        fs::write(workshop.at("r.toml"), prints(&workshop.words("import r.urdf"))).unwrap();
+        prints(&workshop.words("analyze s.toml --study study.toml --shard 1/1 --out a.part"));
+        // A part is like a file that was copied here: abbe has written nothing beside it.
+        fs::remove_file(workshop.at(".abbe-written")).unwrap();
         workshop
     }
 
@@ -139,7 +182,9 @@ impl Workshop {
 
     /// The words of a command, with the paths of its files.
     pub(crate) fn words(&self, line: &str) -> Vec<String> {
-        let path = |word: &str| if word.contains('.') { self.path(word) } else { word.to_owned() };
+        // Numbers have points, too.
+        let is_file = |word: &str| word.contains('.') && word.contains(char::is_alphabetic);
+        let path = |word: &str| if is_file(word) { self.path(word) } else { word.to_owned() };
         line.split_whitespace().map(path).collect()
     }
 }

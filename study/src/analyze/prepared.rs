@@ -130,11 +130,15 @@ impl Prepared<'_> {
             }
         }
         let drawn = match job.monte_carlo {
-            Some(draws) => Some(Drawn {
-                seed: job.seed.unwrap_or(0),
-                worst: draw(draws, budget.combined.radius.configuration)?,
-                home: draw(draws, None)?,
-            }),
+            Some(draws) => {
+                notes.progress(0, 2 * draws);
+                let worst = draw(draws, budget.combined.radius.configuration)?;
+                notes.progress(draws, 2 * draws);
+                notes.go_on()?;
+                let home = draw(draws, None)?;
+                notes.progress(2 * draws, 2 * draws);
+                Some(Drawn { seed: job.seed.unwrap_or(0), worst, home })
+            }
             None => None,
         };
         notes.go_on()?;

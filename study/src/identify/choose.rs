@@ -91,7 +91,9 @@ pub(super) fn choose(
     let rejected = solved.fit.rejected(&data.observations).map(|row| row.line).collect();
     let constant = Constant { crossed: solved.crossed.clone(), rejected };
     let mut chosen = Chosen { constant: Some(constant), ..Chosen::default() };
+    let groups: usize = stages.iter().map(Vec::len).sum();
     for (i, stage) in stages.iter().enumerate() {
+        notes.progress(chosen.tried, groups);
         if over(settings.time) {
             let rest: usize = stages[i..].iter().map(Vec::len).sum();
             chosen.notes.push(format!(
@@ -114,6 +116,7 @@ pub(super) fn choose(
         let group = |selection: Selection| (stage[selection.group].clone(), selection);
         chosen.groups.extend(selected.into_iter().map(group));
     }
+    notes.progress(groups, groups);
     Ok(chosen)
 }
 

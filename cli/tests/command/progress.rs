@@ -1,0 +1,144 @@
+//! A run that takes long says so to whoever watches it on a terminal: how much is done, of how much, how long the rest takes,
+//! and how it is ended; and writes nothing of that into a pipe.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use nix::pty::{Winsize, openpty};
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+
+use crate::running::command;
+use crate::workshop::Workshop;
+
+/// How long a run may take until it tells something.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// How many rows a run has that takes long.
+const ROWS: usize = 100_000;
+
+/// Runs that take minutes: they are ended as soon as they have told.
+const LONG: [&str; 5] = [
+    "check long.toml",
+    "analyze s.toml --study slow.toml",
+    "plan s.toml --map m.toml --optimal 2000 --candidates 50000",
+    "compensate s.toml long.csv --map m.toml",
+    "identify s.toml long.csv --map m.toml --terms auto",
+];
+
+/// Runs with parts that take minutes and have no count: how long they are at work is what they tell.
+const UNCOUNTED: [&str; 2] =
+    ["measure s.toml long.csv --map m.toml", "simulate s.toml --map m.toml --samples 2000000"];
+
+/// The workshop with measurements and a chain that are long.
+fn workshop() -> Workshop {
+    let workshop = Workshop::new();
+    let row = |i: usize| {
+        let (d1, degrees) = ((i % 801) as f64, (i % 299) as f64 - 149.0);
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        format!("{d1},{degrees},{},{},{}\n", 850.0 * cos, 850.0 * sin, d1 + 200.0)
+    };
+    let rows: String = (0..ROWS).map(row).collect();
+    fs::write(workshop.at("long.csv"), format!("d1,q2 (deg),x,y,z\n{rows}")).unwrap();
+    fs::write(workshop.at("long.toml"), abbe_tests::chains::revolute_chain(400)).unwrap();
+    let slow = "[study]\ntitle = \"Slow\"\n[workspace.joints]\nsamples = 100000000\n";
+    fs::write(workshop.at("slow.toml"), slow).unwrap();
+    workshop
+}
+
+/// What comes out of one end, as it comes.
+fn heard(mut from: File) -> Receiver<Vec<u8>> {
+    let (sender, receiver) = channel();
+    thread::spawn(move || {
+        let mut piece = [0; 4096];
+        // A terminal that nobody writes to any more ends with an error.
+        while let Ok(length @ 1..) = from.read(&mut piece) {
+            if sender.send(piece[..length].to_vec()).is_err() {
+                return;
+            }
+        }
+    });
+    receiver
+}
+
+/// How much is done, of how much, if a line of progress says so, and how long the rest takes and how to end it.
+fn told(text: &str) -> Option<(usize, usize)> {
+    let (before, after) = text.split_once(" done, ")?;
+    let (before, total) = before.rsplit_once(" of ")?;
+    let done = before.rsplit(|c: char| !c.is_ascii_digit()).next()?;
+    let (left, _) = after.split_once(" left, Ctrl-C ends it")?;
+    let number = left.trim_end_matches(['s', 'm', 'h', 'd', 'w', 'y']);
+    (number != left && number.parse().is_ok_and(|number: u64| number > 0)).then_some(())?;
+    Some((done.parse().ok()?, total.parse().ok()?))
+}
+
+/// Ctrl-C; the exit status.
+fn interrupted(mut child: Child) -> Option<i32> {
+    kill(Pid::from_raw(child.id().try_into().unwrap()), Signal::SIGINT).unwrap();
+    let status = child.wait().unwrap();
+    status.code().or(status.signal())
+}
+
+fn start(workshop: &Workshop, line: &str, stderr: Stdio) -> Child {
+    let mut command = command(&workshop.words(line));
+    command.stdout(Stdio::null()).stderr(stderr).spawn().expect("the binary starts")
+}
+
+#[test]
+fn what_takes_long_says_how_long_to_a_terminal_alone() {
+    let workshop = workshop();
+    for line in LONG.into_iter().chain(UNCOUNTED) {
+        let size = Winsize { ws_row: 24, ws_col: 100, ws_xpixel: 0, ws_ypixel: 0 };
+        let terminal = openpty(&size, None).unwrap();
+        let begun = Instant::now();
+        let watched = start(&workshop, line, terminal.slave.into());
+        let mut piped = start(&workshop, line, Stdio::piped());
+        let pipe = piped.stderr.take().unwrap();
+        let pieces = heard(File::from(terminal.master));
+        let mut text = String::new();
+        let found = loop {
+            let left = PATIENCE.saturating_sub(begun.elapsed());
+            let piece = pieces.recv_timeout(left).unwrap_or_else(|_| panic!("{line} tells nothing: {text}"));
+            text += &String::from_utf8_lossy(&piece);
+            let at_work = text.contains("at work for ") && text.contains("s, Ctrl-C ends it");
+            if let Some(found) = told(&text) {
+                break found;
+            } else if at_work && UNCOUNTED.contains(&line) {
+                break (0, 2);
+            }
+        };
+        assert!(found.0 < found.1 && found.1 > 1, "{line}: {found:?}");
+        assert_eq!(interrupted(watched), Some(130), "{line}");
+        // As long again: it would have told by now.
+        thread::sleep(begun.elapsed());
+        assert!([Some(0), Some(130)].contains(&interrupted(piped)), "{line}");
+        let mut text = String::new();
+        { pipe }.read_to_string(&mut text).unwrap();
+        assert!(
+            !text.contains(" done, ")
+                && !text.contains("at work")
+                && !text.contains("Ctrl-C")
+                && !text.contains('\r'),
+            "{line}: {text}"
+        );
+    }
+}
+
+#[test]
+fn what_a_line_of_progress_tells() {
+    assert_eq!(told("\r####------ 12 of 345 done, 6s left, Ctrl-C ends it"), Some((12, 345)));
+    for text in [
+        "",
+        "12 of 345 done",
+        "12 of 345 done,  left, Ctrl-C ends it",
+        "12 of 345 done, 0s left, Ctrl-C ends it",
+        "of done, 6s left, Ctrl-C ends it",
+    ] {
+        assert_eq!(told(text), None, "{text}");
+    }
+}
