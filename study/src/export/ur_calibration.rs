@@ -40,7 +40,7 @@ pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
     let turning =
         table.rows.iter().filter(|row| row.variable.is_some() && !row.prismatic && !row.reversed).count();
     if turning != JOINTS.len() || table.rows.len() != JOINTS.len() {
-        return Err(refused(format!("{} joints turn here, and six in such an arm", turning)));
+        return Err(refused(format!("{turning} joints turn here, and six in such an arm")));
     }
     let mut joints = Vec::new();
     let mut before = Pose::IDENTITY;

@@ -63,7 +63,7 @@ pub(super) fn edit(text: &str, moved: &[Moved<'_>]) -> Edited {
                     match origin.attributes().find(|attribute| attribute.name() == name) {
                         Some(attribute) => edits.push((attribute.range_value(), three(values), joint.name)),
                         None => {
-                            let last = origin.attributes().last().map(|attribute| attribute.range().end);
+                            let last = origin.attributes().next_back().map(|attribute| attribute.range().end);
                             let tag = origin.range().start + "<origin".len();
                             let at = last.unwrap_or(tag);
                             edits.push((at..at, format!(" {name}=\"{}\"", three(values)), joint.name));
