@@ -10,6 +10,7 @@ mod check;
 mod compensate;
 mod completions;
 mod console;
+mod doctor;
 mod export;
 mod failure;
 mod generate;
@@ -56,6 +57,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
         Some(Command::Merge(arguments)) => merge::run(arguments),
         Some(Command::Import(arguments)) => import::run(arguments),
+        Some(Command::Doctor(arguments)) => doctor::run(arguments),
         Some(Command::Generate(arguments)) => generate::run(arguments),
         Some(Command::Plan(arguments)) => plan::run(arguments),
         Some(Command::Simulate(arguments)) => simulate::run(arguments),

@@ -44,6 +44,7 @@
 pub mod analyze;
 pub mod check;
 pub mod compensate;
+pub mod doctor;
 pub mod export;
 pub mod generate;
 pub mod identify;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::check::Check;
 use crate::compensate::Compensate;
 use crate::data::{Data, Map};
+use crate::doctor::Doctor;
 use crate::export::Export;
 use crate::generate::Generate;
 use crate::identify::Identify;
@@ -103,6 +104,13 @@ impl Reads for Compensate {
     fn files(&self) -> Vec<PathBuf> {
         let Self { machine, map, data, poses: _, tolerance: _ } = self;
         [machine.files(), map.files(), data.files()].concat()
+    }
+}
+
+impl Reads for Doctor {
+    fn files(&self) -> Vec<PathBuf> {
+        let Self { machine, data, within: _ } = self;
+        [machine.files(), vec![data.clone()]].concat()
     }
 }
 

@@ -6,6 +6,7 @@ mod analyze;
 mod check;
 mod compensate;
 mod completions;
+mod doctor;
 mod export;
 mod generate;
 mod identify;
@@ -25,6 +26,7 @@ pub(crate) use analyze::Analyze;
 pub(crate) use check::Check;
 pub(crate) use compensate::Compensate;
 pub(crate) use completions::Completions;
+pub(crate) use doctor::Doctor;
 pub(crate) use export::Export;
 pub(crate) use generate::Generate;
 pub(crate) use identify::{Identify, Robust, Terms};
@@ -79,6 +81,8 @@ pub(crate) enum Command {
     Merge(Merge),
     /// Generate code: pose, error Jacobian and sources in closed form
     Generate(Generate),
+    /// Which convention is it? Units, signs, order, zeros, Euler angles and more of some rows of joints and poses
+    Doctor(Doctor),
     /// Where to measure: sets of configurations, or the best of many
     Plan(Plan),
     /// Measurements of a machine whose errors are known: the repeatable sources of its spec

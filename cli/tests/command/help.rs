@@ -36,6 +36,21 @@ const ROBOT: &str = r#"<robot name="robot">
 <joint name="turn" type="continuous"><parent link="base_link"/><child link="tool0"/><origin xyz="0.3 0 0"/></joint>
 </robot>"#;
 
+/// Of a UR5, whose second joint has another zero, and whose third counts the other way round.
+const PENDANT: &str = "\
+A1,A2,A3,A4,A5,A6,X,Y,Z,A,B,C
+-62.9,100.6,31.2,24.9,30.2,-104.3,-564.47,648.70,50.42,-101.614,79.202,75.556
+119.0,82.9,-80.8,-5.7,33.4,-83.9,404.89,-310.20,-328.12,122.232,16.872,115.495
+5.6,147.9,-41.1,-104.6,62.0,21.9,-256.13,-188.22,-742.60,84.766,-19.190,-54.561
+52.5,180.9,-51.4,101.1,-25.2,72.2,296.26,38.34,-576.41,121.007,42.349,62.644
+90.9,-6.6,87.4,-67.9,111.7,-15.3,58.38,563.69,413.25,-156.043,14.893,22.874
+-35.8,110.4,-20.2,97.0,43.7,102.9,-577.81,181.25,-297.32,-146.330,55.960,128.206
+41.1,9.1,-86.6,111.5,97.1,16.6,-180.13,-283.43,413.11,-155.263,13.647,-60.774
+-51.6,-14.8,-84.9,117.6,-98.8,72.1,-184.79,85.23,757.22,6.009,10.026,110.434
+-49.5,154.5,-89.5,-109.4,27.5,-109.2,-30.36,-287.32,-570.35,132.485,61.312,-31.059
+1.3,209.6,45.7,-101.5,23.9,-112.5,21.39,-212.29,-719.73,-75.589,41.045,169.437
+";
+
 /// In their order: later ones read what earlier ones write.
 #[test]
 fn examples_run() {
@@ -44,6 +59,7 @@ fn examples_run() {
     fs::write(at.join("arm.toml"), readme::spec()).unwrap();
     fs::write(at.join("cell.toml"), STUDY).unwrap();
     fs::write(at.join("robot.urdf"), ROBOT).unwrap();
+    fs::write(at.join("pendant.csv"), PENDANT).unwrap();
     fs::write(at.join("dh.csv"), "theta,d,a,alpha\nq1,400,25,90\nq2,0,455,0\n").unwrap();
     let run = |line: &str| {
         let words = shell_words::split(line).unwrap();
@@ -106,7 +122,7 @@ fn options_stand_wherever_they_make_sense() {
     let measured = ["plan", "simulate", "measure", "identify", "compensate", "monitor"];
     assert_eq!(with("--threads"), [&["analyze", "merge"][..], &measured].concat());
     let set = ["plan", "simulate", "measure", "identify", "compensate", "export", "monitor"];
-    assert_eq!(with("--set"), [&["check", "jacobian", "analyze"][..], &set].concat());
+    assert_eq!(with("--set"), [&["check", "jacobian", "analyze", "doctor"][..], &set].concat());
     assert_eq!(with("--seed"), ["analyze", "plan", "simulate", "export"]);
     for name in ["measure", "identify", "compensate", "monitor", "simulate"] {
         let usage = help(name).lines().find(|line| line.starts_with("Usage:")).unwrap().to_owned();

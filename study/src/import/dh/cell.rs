@@ -70,7 +70,7 @@ impl Cells<'_> {
             let dimension = if is_length { Dimension::LENGTH } else { Dimension::NONE };
             return parse_value(document, cell, self.length, dimension, "this cell");
         };
-        if !(number.abs() < LARGEST) {
+        if number.is_nan() || number.abs() >= LARGEST {
             let mistake = Diagnostic::new(cell, "this is no finite number");
             document.mistake(mistake.help("write a decimal number: `0.5`"));
             return None;

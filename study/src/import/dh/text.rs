@@ -59,7 +59,7 @@ impl Text {
             if ended || (is_border && !rows.is_empty()) {
                 ended = true;
                 around.push(line);
-            } else if !is_border && !(text.is_empty() || text.starts_with('#')) {
+            } else if !(is_border || text.is_empty() || text.starts_with('#')) {
                 rows.push(cells(&whole, line, separator));
             }
         }

@@ -1,0 +1,85 @@
+//! The poses of a spec, in three parts.
+
+use abbe::analysis::sampling;
+use abbe::{Error, Manipulator, Pose, VariableKind};
+use abbe_codegen::spec::{DhConvention, Frame, Spec};
+use abbe_interpreter::Interpreter;
+
+/// A spec that is evaluated as it is written, and with its Denavit-Hartenberg numbers read in the other convention.
+pub(super) struct Kinematics {
+    as_written: Interpreter,
+    other: Option<Interpreter>,
+    parameters: Vec<f64>,
+    pub(super) kinds: Vec<VariableKind>,
+    /// How many frames stand before the first that moves.
+    fixed: usize,
+    pub(super) has_tool: bool,
+    pub(super) metres: f64,
+    /// The middle of the joints' limits.
+    pub(super) home: Vec<f64>,
+}
+
+/// What stands before everything that moves, what moves, and the tool.
+pub(super) type Parts = [Pose; 3];
+
+impl Kinematics {
+    pub(super) fn new(spec: &Spec) -> Result<Self, Error> {
+        let as_written = Interpreter::new(spec.clone());
+        let other = spec.frames.iter().any(|frame| frame.convention.is_some()).then(|| {
+            let frames = spec.frames.iter().map(in_other_convention).collect();
+            Interpreter::new(Spec { frames, ..spec.clone() })
+        });
+        let moving = spec.variables_of_transforms();
+        let fixed = moving.iter().take_while(|variables| variables.is_empty()).count().min(spec.frames.len());
+        let parameters = sampling::nominal_parameters(as_written.description());
+        let home: Vec<f64> = spec.variables.iter().map(|variable| variable.home).collect();
+        let mut kinematics = Self {
+            parameters,
+            kinds: spec.variables.iter().map(|variable| variable.kind).collect(),
+            fixed,
+            has_tool: true,
+            metres: spec.length.in_metres(),
+            as_written,
+            other,
+            home,
+        };
+        let [_, _, tool] = kinematics.parts(&kinematics.home, false)?;
+        kinematics.has_tool = tool != Pose::IDENTITY;
+        Ok(kinematics)
+    }
+
+    /// Whether there is a frame by Denavit-Hartenberg numbers.
+    pub(super) fn has_convention(&self) -> bool {
+        self.other.is_some()
+    }
+
+    /// Whether fixed frames stand at the base.
+    pub(super) fn has_base(&self) -> bool {
+        self.fixed > 0
+    }
+
+    /// Base, chain and tool at `q`; of the other convention if that is asked for and there is one.
+    pub(super) fn parts(&self, q: &[f64], other: bool) -> Result<Parts, Error> {
+        let interpreter = self.other.as_ref().filter(|_| other).unwrap_or(&self.as_written);
+        let mut transforms = vec![Pose::IDENTITY; interpreter.description().frames.len() + 1];
+        interpreter.transforms(q, &self.parameters, &mut transforms)?;
+        let product = |all: &[Pose]| all.iter().fold(Pose::IDENTITY, |product, next| product.then(next));
+        let (tool, frames) = transforms.split_last().unwrap_or((&Pose::IDENTITY, &[]));
+        let (base, chain) = frames.split_at(self.fixed.min(frames.len()));
+        Ok([product(base), product(chain), *tool])
+    }
+}
+
+/// The same four numbers as the other product.
+fn in_other_convention(frame: &Frame) -> Frame {
+    let mut frame = frame.clone();
+    let (Some(convention), [a, b, c, d]) = (frame.convention, &frame.factors[..]) else { return frame };
+    // theta, d, a, alpha; and alpha, a, theta, d.
+    let (factors, other) = match convention {
+        DhConvention::Standard => ([d, c, a, b], DhConvention::Modified),
+        DhConvention::Modified => ([c, d, b, a], DhConvention::Standard),
+    };
+    frame.factors = factors.map(Clone::clone).to_vec();
+    frame.convention = Some(other);
+    frame
+}

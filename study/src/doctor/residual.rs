@@ -1,0 +1,43 @@
+//! How far two lists of poses are from each other.
+
+use abbe::Pose;
+
+/// What is left, as root mean squares.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Residual {
+    pub(super) position: f64,
+    /// None if orientations were not seen.
+    pub(super) angle: Option<f64>,
+    /// Both as a length: angles times a lever.
+    pub(super) both: f64,
+}
+
+/// The sum over all rows of `|Δp|²`, and of `½ |ΔR|²`, which is the square of a small angle.
+pub(super) fn squares(predicted: &[Pose], seen: &[Pose], oriented: bool) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for (predicted, seen) in predicted.iter().zip(seen) {
+        let (a, b) = (&predicted.0, &seen.0);
+        sums[0] += square(a[3], b[3]);
+        if oriented {
+            sums[1] += 0.5 * (square(a[0], b[0]) + square(a[1], b[1]) + square(a[2], b[2]));
+        }
+    }
+    sums
+}
+
+fn square(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [x, y, z] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    x * x + y * y + z * z
+}
+
+impl Residual {
+    /// Of so many rows, angles with this lever.
+    pub(super) fn new([positions, angles]: [f64; 2], rows: usize, oriented: bool, lever: f64) -> Self {
+        let mean = |sum: f64| (sum / rows as f64).max(0.0).sqrt();
+        Self {
+            position: mean(positions),
+            angle: oriented.then(|| mean(angles)),
+            both: mean(positions + lever * lever * angles),
+        }
+    }
+}

@@ -1,0 +1,451 @@
+//! The doctor is given rows that were read wrongly in one way or in two, with noise, and must name how.
+//!
+//! Cases are seeded. `ABBE_DOCTOR_CASES` is how many of each kind are tried for each robot; the full proof has 100.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+use std::path::Path;
+
+use abbe::analysis::sampling;
+use abbe::{Manipulator, VariableKind};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_study::Machine;
+use abbe_study::doctor::{Change, Doctor, Layout, Reading, Report};
+use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+const ROBOTS: [&str; 6] = ["ur5", "puma560", "stanford", "panda", "iiwa", "wam"];
+const ROWS: usize = 10;
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn draw(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.draw() % count as u64) as usize
+    }
+
+    fn between(&mut self, lower: f64, upper: f64) -> f64 {
+        lower + (upper - lower) * (self.draw() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// By Box and Muller.
+    fn normal(&mut self) -> f64 {
+        (-2.0 * self.between(1e-300, 1.0).ln()).sqrt() * (2.0 * PI * self.between(0.0, 1.0)).cos()
+    }
+}
+
+/// A shipped robot on a foot of its own, with a tool.
+fn text(name: &str) -> String {
+    let text = Machine::find(name).unwrap().text().unwrap();
+    let at = text.find("[[frame]]").unwrap();
+    let foot =
+        "[[frame]]\nname = \"foot\"\ntransform = \"Tx(120 mm) Ty(-60 mm) Tz(400 mm) Rz(0.5) Rx(0.2)\"\n\n";
+    let text = format!("{}{foot}{}", &text[..at], &text[at..]);
+    match text.contains("[tool]") {
+        true => text,
+        false => {
+            let at = text.find("\n[[source]]").map_or(text.len(), |at| at + 1);
+            let tool = "[tool]\ntransform = \"Tx(30 mm) Ty(20 mm) Tz(110 mm) Ry(0.4)\"\n\n";
+            format!("{}{tool}{}", &text[..at], &text[at..])
+        }
+    }
+}
+
+/// What can be wrong with rows, or with a spec.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Mistake {
+    Degrees,
+    Lengths,
+    Convention,
+    Sign,
+    Zero,
+    Order,
+    Coupled,
+    Quaternion,
+    Matrix,
+    Euler,
+    Tool,
+    Base,
+    Ends,
+    Pose,
+    Difference,
+}
+
+use Mistake::*;
+
+const ALL: [Mistake; 15] = [
+    Degrees, Lengths, Convention, Sign, Zero, Order, Coupled, Quaternion, Matrix, Euler, Tool, Base, Ends,
+    Pose, Difference,
+];
+
+/// Whether it is about how poses are written: one at a time is enough.
+fn is_layout(mistake: Mistake) -> bool {
+    matches!(mistake, Quaternion | Matrix | Euler | Difference)
+}
+
+struct Case {
+    spec: String,
+    data: String,
+    right: Reading,
+}
+
+/// Rows of a robot, with mistakes. The right reading undoes them.
+fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Case {
+    let mut text = text(robot);
+    let spec = Spec::parse("robot.toml", &text).unwrap();
+    let unit = spec.length.symbol();
+    let in_mm = 1e3 * spec.length.in_metres();
+    let arm = Interpreter::new(spec.clone());
+    let s = sampling::nominal_parameters(arm.description());
+    let variables = &spec.variables;
+    let count = variables.len();
+    let has = |mistake| mistakes.contains(&mistake);
+    let kinds: Vec<VariableKind> = variables.iter().map(|variable| variable.kind).collect();
+
+    let layout = if has(Quaternion) {
+        Layout::Quaternion { scalar_first: random.below(2) == 0 }
+    } else if has(Euler) {
+        let axes = loop {
+            let axes = [random.below(3), random.below(3), random.below(3)];
+            if axes[0] != axes[1] && axes[1] != axes[2] {
+                break axes;
+            }
+        };
+        Layout::Euler { axes, fixed: random.below(2) == 0, degrees: random.below(2) == 0 }
+    } else if has(Difference) {
+        Layout::Difference { target_minus_actual: random.below(2) == 0 }
+    } else {
+        Layout::Matrix { by_rows: !has(Matrix) }
+    };
+    let mut changes = Vec::new();
+    let mut order: Vec<usize> = (0..count).collect();
+    if has(Order) {
+        let (i, j) = loop {
+            let (i, j) = (random.below(count), random.below(count));
+            if i != j {
+                break (i, j);
+            }
+        };
+        order.swap(i, j);
+        changes.push(Change::Order(order.clone()));
+    }
+    let reversed = has(Sign).then(|| random.below(count));
+    changes.extend(reversed.map(|joint| Change::Reversed(vec![joint])));
+    let coupled = has(Coupled).then(|| {
+        loop {
+            let joint = 1 + random.below(count - 1);
+            if kinds[joint] == kinds[joint - 1] {
+                break (joint, if random.below(2) == 0 { 1.0 } else { -1.0 });
+            }
+        }
+    });
+    changes.extend(coupled.map(|(joint, by)| Change::Coupled { joint, to: joint - 1, by }));
+    let zero = has(Zero).then(|| {
+        let joint = random.below(count);
+        let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
+        let offset = match (kinds[joint], random.below(2)) {
+            (VariableKind::Prismatic, _) => random.between(20.0, 200.0) / in_mm,
+            (_, 0) => 0.5 * PI * (1 + random.below(2)) as f64,
+            _ => random.between(0.05, 3.0),
+        };
+        (joint, sign * offset)
+    });
+    changes.extend(zero.map(|(joint, offset)| Change::Zero { joint, offset }));
+    if has(Convention) {
+        let swapped = text.lines().map(|line| match line {
+            line if line.starts_with("dh =") => line.replacen("dh =", "mdh =", 1),
+            line if line.starts_with("mdh =") => line.replacen("mdh =", "dh =", 1),
+            line => line.to_owned(),
+        });
+        text = swapped.collect::<Vec<_>>().join("\n");
+        changes.push(Change::Convention);
+    }
+    let ends = [
+        (Tool, Change::ToolInverted),
+        (Base, Change::BaseInverted),
+        (Ends, Change::EndsExchanged),
+        (Pose, Change::PoseInverted),
+    ];
+    changes.extend(ends.into_iter().filter(|(mistake, _)| has(*mistake)).map(|(_, change)| change));
+
+    // By themselves, rows are in the units of the spec.
+    let degrees = has(Degrees);
+    let lengths = if has(Lengths) { if unit == "mm" { "m" } else { "mm" } } else { unit };
+    let per_length = if lengths == unit {
+        1.0
+    } else if lengths == "m" {
+        1e-3
+    } else {
+        1e3
+    };
+    let mut data: String = (0..count).map(|i| format!("j{i},")).collect::<String>() + "x,y,z";
+    let more = match layout {
+        Layout::Quaternion { .. } => 4,
+        Layout::Matrix { .. } => 9,
+        _ => 3,
+    };
+    (0..more).for_each(|k| write!(data, ",r{k}").unwrap());
+    data.push('\n');
+    for _ in 0..ROWS {
+        let q: Vec<f64> = variables
+            .iter()
+            .map(|variable| {
+                let [lower, upper] = variable.limits;
+                random.between(
+                    lower.max(-PI),
+                    if variable.kind == VariableKind::Revolute { upper.min(PI) } else { upper },
+                )
+            })
+            .collect();
+        let mut transforms = vec![abbe::Pose::IDENTITY; spec.frames.len() + 1];
+        arm.transforms(&q, &s, &mut transforms).unwrap();
+        let transforms: Vec<Isometry3<f64>> = transforms.iter().map(|pose| pose.isometry()).collect();
+        let (mut base, mut tool) = (transforms[0], transforms[spec.frames.len()]);
+        let chain = transforms[1..spec.frames.len()]
+            .iter()
+            .fold(Isometry3::identity(), |product, next| product * next);
+        if has(Ends) {
+            (base, tool) = (tool, base);
+        }
+        if has(Base) {
+            base = base.inverse();
+        }
+        if has(Tool) {
+            tool = tool.inverse();
+        }
+        let mut pose = base * chain * tool;
+        if has(Pose) {
+            pose = pose.inverse();
+        }
+        // 0.1 mm, and a tenth of a milliradian.
+        let mut noise = |size: f64| Vector3::from_fn(|_, _| size * random.normal());
+        pose.translation.vector += noise(0.1 / in_mm);
+        pose.rotation = UnitQuaternion::from_scaled_axis(noise(1e-4)) * pose.rotation;
+        let off: Vector3<f64> = noise(2.0 / in_mm);
+
+        let mut columns = q.clone();
+        if let Some((joint, offset)) = zero {
+            columns[joint] -= offset;
+        }
+        if let Some((joint, by)) = coupled {
+            columns[joint] -= by * columns[joint - 1];
+        }
+        if let Some(joint) = reversed {
+            columns[joint] = -columns[joint];
+        }
+        let ordered: Vec<f64> = (0..count).map(|i| columns[order[i]]).collect();
+        let of_order: Vec<VariableKind> = (0..count).map(|i| kinds[order[i]]).collect();
+        for (value, kind) in ordered.iter().zip(of_order) {
+            let per = if degrees && kind == VariableKind::Revolute { 180.0 / PI } else { 1.0 };
+            write!(data, "{},", value * per).unwrap();
+        }
+        let mut position = pose.translation.vector;
+        let mut numbers = Vec::new();
+        let r: Matrix3<f64> = *pose.rotation.to_rotation_matrix().matrix();
+        match layout {
+            Layout::Quaternion { scalar_first } => {
+                let [x, y, z, w] = pose.rotation.coords.into();
+                numbers.extend(if scalar_first { [w, x, y, z] } else { [x, y, z, w] });
+            }
+            Layout::Euler { axes, fixed, degrees } => {
+                let angles = euler(&r, axes, fixed);
+                numbers.extend(angles.map(|angle| if degrees { angle.to_degrees() } else { angle }));
+            }
+            Layout::Difference { target_minus_actual } => {
+                let sign = if target_minus_actual { 1.0 } else { -1.0 };
+                numbers.extend((sign * off * per_length).iter());
+                position += off;
+            }
+            Layout::Matrix { by_rows } => {
+                numbers.extend((0..9).map(|k| if by_rows { r[(k / 3, k % 3)] } else { r[(k % 3, k / 3)] }));
+            }
+            _ => unreachable!(),
+        }
+        let all = position.iter().map(|x| x * per_length).chain(numbers);
+        data += &all.map(|x| x.to_string()).collect::<Vec<_>>().join(",");
+        data.push('\n');
+    }
+    let right = Reading {
+        joints_in_degrees: kinds.contains(&VariableKind::Revolute).then_some(degrees),
+        slides_in: kinds.contains(&VariableKind::Prismatic).then_some(unit),
+        lengths_in: lengths,
+        layout,
+        changes,
+    };
+    Case { spec: text, data, right }
+}
+
+/// Angles by Newton's method on the product of three turns: not by formulas of any order.
+fn euler(r: &Matrix3<f64>, axes: [usize; 3], fixed: bool) -> [f64; 3] {
+    let axis = |i: usize| [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][i];
+    let product = |angles: &Vector3<f64>| {
+        let turn = |i: usize| Rotation3::from_axis_angle(&axis(axes[i]), angles[i]);
+        let product = if fixed { turn(2) * turn(1) * turn(0) } else { turn(0) * turn(1) * turn(2) };
+        product.into_inner()
+    };
+    let mut random = Random(7);
+    for _ in 0..200 {
+        let mut angles = Vector3::from_fn(|_, _| random.between(-PI, PI));
+        for _ in 0..60 {
+            // Half the skew part: the small turn that is left.
+            let left = |angles: &Vector3<f64>| r * product(angles).transpose();
+            let off = |angles: &Vector3<f64>| {
+                let m = left(angles);
+                0.5 * Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)])
+            };
+            let now = off(&angles);
+            if (left(&angles) - Matrix3::identity()).amax() < 1e-12 {
+                return angles.map(|angle| (angle + PI).rem_euclid(2.0 * PI) - PI).into();
+            }
+            let h = 1e-6;
+            let columns = [0, 1, 2].map(|i| {
+                let step = Vector3::from_fn(|j, _| if i == j { h } else { 0.0 });
+                (off(&(angles + step)) - off(&(angles - step))) / (2.0 * h)
+            });
+            let Some(inverse) = Matrix3::from_columns(&columns).try_inverse() else { break };
+            angles -= inverse * now;
+        }
+    }
+    panic!("no angles {axes:?} of {r}");
+}
+
+fn run(spec: &str, data: &str, folder: &Path) -> Report {
+    let (file, rows) = (folder.join("robot.toml"), folder.join("rows.csv"));
+    std::fs::write(&file, spec).unwrap();
+    std::fs::write(&rows, data).unwrap();
+    Doctor { machine: Machine::find(&file).unwrap(), data: rows, within: None }.run(&mut ()).unwrap()
+}
+
+/// Whether two readings say the same, zeros to 0.02 rad, or 2 mm.
+fn is_same(a: &Reading, b: &Reading, in_mm: f64) -> bool {
+    let near = |change: &Change| {
+        b.changes.iter().any(|other| match (change, other) {
+            (Change::Zero { joint, offset }, Change::Zero { joint: of, offset: other }) => {
+                let off = (offset - other).abs();
+                let turn = (off % (2.0 * PI)).min((2.0 * PI - off % (2.0 * PI)).abs());
+                joint == of && (turn < 0.02 || off < 2.0 / in_mm)
+            }
+            _ => change == other,
+        })
+    };
+    (a.joints_in_degrees, a.slides_in, a.lengths_in) == (b.joints_in_degrees, b.slides_in, b.lengths_in)
+        && a.layout == b.layout
+        && a.changes.len() == b.changes.len()
+        && a.changes.iter().all(near)
+}
+
+#[derive(Debug, Default)]
+struct Score {
+    cases: usize,
+    /// The right reading is the first.
+    first: usize,
+    /// It is among those that cannot be told apart.
+    among: usize,
+    /// How many these are, summed.
+    found: usize,
+}
+
+impl Score {
+    fn add(&mut self, case: &Case, report: &Report, what: &str) {
+        let in_mm = if report.length == "mm" { 1.0 } else { 1e3 };
+        let place = report.found.iter().position(|finding| is_same(&case.right, &finding.reading, in_mm));
+        self.cases += 1;
+        self.first += usize::from(place == Some(0));
+        self.among += usize::from(place.is_some());
+        self.found += report.found.len();
+        if place.is_none() {
+            println!("{what}: {:?}\n  {}", case.right, report.sentence);
+        }
+    }
+}
+
+fn cases() -> usize {
+    std::env::var("ABBE_DOCTOR_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(1)
+}
+
+fn suits(robot: &str, mistake: Mistake) -> bool {
+    // The others have no Denavit-Hartenberg numbers.
+    mistake != Convention || !["iiwa", "puma560"].contains(&robot)
+}
+
+#[test]
+fn single_mistakes_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut score = Score::default();
+    for robot in ROBOTS {
+        let mut random = Random(1);
+        for k in 0..cases() {
+            let shift = ROBOTS.iter().position(|name| *name == robot).unwrap() * 3;
+            let mistake =
+                (0..).map(|i| ALL[(k + shift + i) % ALL.len()]).find(|one| suits(robot, *one)).unwrap();
+            let case = case(robot, &[mistake], &mut random);
+            let report = run(&case.spec, &case.data, folder.path());
+            score.add(&case, &report, &format!("{robot}, {mistake:?}"));
+        }
+    }
+    println!("single: {score:?}");
+    assert!(score.among * 100 >= score.cases * 98, "{score:?}");
+}
+
+#[test]
+fn pairs_of_mistakes_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut score = Score::default();
+    for robot in ROBOTS {
+        let mut random = Random(2 + robot.len() as u64);
+        for _ in 0..cases() {
+            let pair = loop {
+                let pair = [ALL[random.below(ALL.len())], ALL[random.below(ALL.len())]];
+                let [a, b] = pair;
+                let alike = a == b || (is_layout(a) && is_layout(b));
+                // A position alone is not seen from the tool.
+                let blind = pair.contains(&Difference) && pair.contains(&Pose);
+                if !alike && !blind && suits(robot, a) && suits(robot, b) {
+                    break pair;
+                }
+            };
+            let case = case(robot, &pair, &mut random);
+            let report = run(&case.spec, &case.data, folder.path());
+            score.add(&case, &report, &format!("{robot}, {pair:?}"));
+        }
+    }
+    println!("pairs: {score:?}");
+    assert!(score.among * 100 >= score.cases * 95, "{score:?}");
+}
+
+#[test]
+fn another_robot_is_said_to_be_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut random = Random(3);
+    let pairs = [
+        ("ur5", "puma560"),
+        ("panda", "iiwa"),
+        ("puma560", "ur5"),
+        ("iiwa", "wam"),
+        ("wam", "panda"),
+        ("ur5", "general6r"),
+    ];
+    // Without optimization all of it takes minutes.
+    let (pairs, layouts) = if cases() == 1 {
+        (&pairs[..2], &[Quaternion][..])
+    } else {
+        (&pairs[..], &[Quaternion, Difference][..])
+    };
+    for (robot, other) in pairs {
+        for &layout in layouts {
+            let case = case(robot, &[layout], &mut random);
+            let report = run(&text(other), &case.data, folder.path());
+            println!("{robot} as {other}: {}", report.sentence);
+            assert!(!report.fits, "{robot} as {other}: {}", report.sentence);
+            assert!(report.sentence.starts_with("None fits"));
+        }
+    }
+}
