@@ -23,6 +23,9 @@ fn source(name: usize, error: &str) -> String {
     format!("[[source]]\nname = \"{name}\"\nclass = \"repeatable\"\nframe = \"f\"\ne_s = \"{error}\"\n")
 }
 
+/// A spec with so many of something.
+type Text<'a> = &'a dyn Fn(usize) -> String;
+
 /// The reference has these figures.
 #[test]
 fn counts_have_limits() {
@@ -33,7 +36,7 @@ fn counts_have_limits() {
     let inputs = |count| format!("[inputs]\n{}{FRAME}", many(count, |i| format!("u{i} = 1\n")));
     let table = |i: usize| format!("[tables.t{i}]\nx = [0, 1]\ny = [0, 1]\ninterpolation = \"linear\"\n");
     let tables = |count| FRAME.to_owned() + &many(count, table);
-    let kinds: [(&str, usize, &dyn Fn(usize) -> String); 5] = [
+    let kinds: [(&str, usize, Text); 5] = [
         ("frames", 3000, &frames),
         ("sources", 10_000, &sources),
         ("parameters", 10_000, &parameters),
