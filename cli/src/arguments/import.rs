@@ -11,7 +11,7 @@ use super::shared::Writing;
 #[command(after_help = after_help!(
     "  abbe import robot.urdf --base base_link --tip tool0 -o robot.toml
   abbe import robot.urdf --tip tool0 --fold --round-angles
-  abbe import dh.csv --dh standard --units mm,deg -o robot.toml
+  abbe import dh.csv --dh standard --units mm,deg -o dh.toml
 "))]
 pub(crate) struct Import {
     /// URDF file (a xacro is expanded first: `xacro robot.urdf.xacro > robot.urdf`); with `--dh` a table of Denavit-Hartenberg
