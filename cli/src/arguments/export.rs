@@ -10,7 +10,7 @@ use crate::failure::Failure;
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
     "  abbe export found.toml --to dh -o found.dh.csv
-  abbe export robot.toml --to urdf --from robot.urdf -o calibrated.urdf
+  abbe export calibrated.toml --to urdf --from robot.urdf -o calibrated.urdf
   abbe export ur5 --to ur-calibration -o calibration.yaml
   abbe export machine3 --to isg-csv --set temperature_rise=3K -o volcomp.csv
   abbe export machine3 --to linuxcnc --nodes 61 -o comp

@@ -51,6 +51,9 @@ A1,A2,A3,A4,A5,A6,X,Y,Z,A,B,C
 1.3,209.6,45.7,-101.5,23.9,-112.5,21.39,-212.29,-719.73,-75.589,41.045,169.437
 ";
 
+const CALIBRATED: &str = "[manipulator]\nname = \"robot\"\nlength = \"m\"\n[[frame]]\nname = \"turn\"\n\
+                          variable = { name = \"turn\", kind = \"revolute\", limits = [-3, 3] }\norigin = { xyz = [0.3, 0, 0] }\n";
+
 /// In their order: later ones read what earlier ones write.
 #[test]
 fn examples_run() {
@@ -60,6 +63,7 @@ fn examples_run() {
     fs::write(at.join("cell.toml"), STUDY).unwrap();
     fs::write(at.join("robot.urdf"), ROBOT).unwrap();
     fs::write(at.join("pendant.csv"), PENDANT).unwrap();
+    fs::write(at.join("calibrated.toml"), CALIBRATED).unwrap();
     fs::write(at.join("dh.csv"), "theta,d,a,alpha\nq1,400,25,90\nq2,0,455,0\n").unwrap();
     let run = |line: &str| {
         let words = shell_words::split(line).unwrap();
