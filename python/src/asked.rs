@@ -352,13 +352,15 @@ impl Machine {
         }))
     }
 
-    /// The closed form as source code: `language` is "rust", "c" or "js". The same spec gives the same text; the header and
+    /// The closed form as source code: `language` is "rust", "c", "js", "python" or "matlab". The same spec gives the same text; the header and
     /// the source of C stand in it one after the other.
     #[pyo3(signature = (language="rust"))]
     fn generate(&self, py: Python<'_>, language: &str) -> PyResult<String> {
         let known = Language::ALL.into_iter().find(|known| known.name() == language);
         let language = known.ok_or_else(|| {
-            PyValueError::new_err(format!("language={language:?}: \"rust\", \"c\" or \"js\""))
+            PyValueError::new_err(format!(
+                "language={language:?}: \"rust\", \"c\", \"js\", \"python\" or \"matlab\""
+            ))
         })?;
         let job = Generate { machine: self.machine.clone(), language };
         let files = run(py, None, None, |notes| job.run(notes))?.0;

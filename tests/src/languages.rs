@@ -82,3 +82,37 @@ pub fn arguments(robot: &dyn Manipulator, function: Function, given: &[f64]) -> 
     }
     taken
 }
+
+/// Holds what functions gave in another language against what they give here, to 1e-13 of the largest number of a result.
+/// `found` has every function's results for the first configuration, then for the next. Returns the largest difference.
+pub fn assert_alike(
+    robot: &dyn Manipulator,
+    evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
+    given: &[Vec<f64>],
+    found: &[f64],
+) -> f64 {
+    let mut found = found;
+    let mut worst: f64 = 0.0;
+    for given in given {
+        for function in Function::ALL {
+            let expected = evaluate(function, &arguments(robot, function, given));
+            let (results, rest) = found.split_at(expected.len());
+            found = rest;
+            let mut first = 0;
+            let arrays = function.signature().results.iter().map(|array| array.len(robot.description()));
+            for len in arrays.chain([1]) {
+                let range = first..(first + len).min(expected.len());
+                let (results, expected) = (&results[range.clone()], &expected[range]);
+                let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+                for (a, b) in results.iter().zip(expected) {
+                    let difference = (a - b).abs();
+                    assert!(difference <= 1e-13 * largest, "{}: {a} and {b}", function.name());
+                    worst = worst.max(if difference > 0.0 { difference / largest } else { 0.0 });
+                }
+                first += len;
+            }
+        }
+    }
+    assert!(found.is_empty(), "{} numbers more", found.len());
+    worst
+}

@@ -68,7 +68,10 @@ fn modified([theta, d, a, alpha]: [f64; 4]) -> Matrix4<f64> {
     matrix
 }
 
-fn convention(is_modified: bool) -> (DhConvention, fn([f64; 4]) -> Matrix4<f64>) {
+/// A row as a matrix.
+type Row = fn([f64; 4]) -> Matrix4<f64>;
+
+fn convention(is_modified: bool) -> (DhConvention, Row) {
     match is_modified {
         false => (DhConvention::Standard, standard),
         true => (DhConvention::Modified, modified),
@@ -221,7 +224,7 @@ Puma 560 [Unimation]:: 6 axis, RRRRRR, stdDH, fastRNE
 tool:    t = (0, -0.1, 0), RPY/xyz = (-1.57, 0, -1.57) deg
 ";
     for round_angles in [false, true] {
-        let right = if round_angles { std::f64::consts::FRAC_PI_2 } else { 1.5708 };
+        let right = if round_angles { std::f64::consts::FRAC_PI_2 } else { 15_708.0 / 10_000.0 };
         let puma = imported(table, DhConvention::Standard, IN_M, round_angles);
         assert_eq!(puma.report.manipulator, "puma_560");
         assert!(puma.heard.iter().any(|note| note.contains("5 angles")), "{:?}", puma.heard);

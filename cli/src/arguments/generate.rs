@@ -12,6 +12,8 @@ use super::shared::Writing;
     "  abbe generate arm.toml --out arm.rs
   abbe generate arm.toml --lang c --out controller
   abbe generate arm.toml --lang js --out arm.js
+  abbe generate arm.toml --lang python --out arm.py
+  abbe generate arm.toml --lang matlab --out arm.m
 "))]
 pub(crate) struct Generate {
     /// Spec file, or shipped name

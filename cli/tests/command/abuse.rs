@@ -158,6 +158,17 @@ fn files_of_another_kind_are_called_by_their_names() {
 }
 
 /// The sample: inputs stay as they are, numbers are finite.
+/// Its reciprocal is no number, and the decomposition of what is weighted with it had no end.
+#[test]
+fn uncertainties_that_nothing_can_be_weighted_with() {
+    let folder = tempdir().unwrap();
+    let map = write(folder.path(), "m.toml", &MAP.replace("0.05 mm", "5e-324 mm"));
+    refused(
+        &["plan", "scara", "--map", map.to_str().unwrap(), "--optimal", "20"],
+        "too small to compute with",
+    );
+}
+
 #[test]
 fn damaged_files() {
     let folder = tempdir().unwrap();

@@ -65,7 +65,12 @@ pub(super) fn body(
     }
     let value = |output: &Operand| Value {
         text: writer.output(*output),
-        ready: if let Operand::Register(register) = output { ready[*register] } else { 0 },
+        ready: match output {
+            Operand::Register(register) => ready[*register],
+            // Numbers get their names first.
+            Operand::Constant(_) => writer.numbers.len(),
+            Operand::Symbol(_) => 0,
+        },
         is_zero: *output == Operand::Constant(0.0),
     };
     let values = program.outputs.iter().map(value).collect();

@@ -27,6 +27,10 @@ pub(super) struct Expression {
 pub(super) trait Syntax {
     /// Names that it has itself, or that its functions use, with spaces between them.
     fn reserved(&self) -> Cow<'static, str>;
+    /// How a name is written, where not every name of a spec can be one.
+    fn spelled(&self) -> fn(&str) -> String {
+        str::to_owned
+    }
     /// A number as an operand.
     fn number(&self, value: f64) -> Expression;
     /// 0 and 1 as results.

@@ -46,6 +46,13 @@ impl Writer {
         }
     }
 
+    /// Lines with empty ones between them, which stay empty.
+    pub(super) fn paragraphs(&mut self, lines: &str) {
+        for line in lines.trim().lines() {
+            if line.is_empty() { self.blank() } else { self.lines(line) }
+        }
+    }
+
     pub(super) fn blank(&mut self) {
         self.text.push('\n');
     }
@@ -54,6 +61,17 @@ impl Writer {
     pub(super) fn open(&mut self, head: &str) {
         self.lines(&format!("{head} {{"));
         self.depth += 1;
+    }
+
+    /// The head of a block that has no brackets.
+    pub(super) fn begin(&mut self, head: &str) {
+        self.lines(head);
+        self.depth += 1;
+    }
+
+    /// The end of a block that has no brackets, and nothing to say so.
+    pub(super) fn end(&mut self) {
+        self.depth -= 1;
     }
 
     /// The beginning of a block on a line of its own.
@@ -87,7 +105,8 @@ impl Writer {
 
     /// A line of documentation as it is; an empty one parts paragraphs.
     pub(super) fn documentation_line(&mut self, line: &str) {
-        self.lines(format!("{} {}", self.comment, harmless(line)).trim_end());
+        let space = if self.comment.is_empty() { "" } else { " " };
+        self.lines(format!("{}{space}{}", self.comment, harmless(line)).trim_end());
     }
 
     /// A line beside the code, cut where it is too long.

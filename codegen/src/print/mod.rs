@@ -2,8 +2,8 @@
 //!
 //! `statements` says what a routine does, one small `statement` after the other; `body` does so for a program, with
 //! an `expression` of a language's operators where a step needs no name, and `names` for everything. `layout` sets lines,
-//! `flat` has arrays as flat ones, `header` and `text` are what stands in comments. A language
-//! is a folder: how it writes operators, numbers, statements, a function and what is around it.
+//! `flat` has arrays as flat ones, `header` and `text` are what stands in comments, `records` what a manipulator has. A
+//! language is a folder: how it writes operators, numbers, statements, a function and what is around it.
 
 mod body;
 mod c;
@@ -12,7 +12,10 @@ mod flat;
 mod header;
 mod javascript;
 mod layout;
+mod matlab;
 mod names;
+mod python;
+mod records;
 pub mod rust;
 mod statement;
 mod statements;
@@ -31,6 +34,10 @@ pub enum Language {
     C,
     /// An ES module of pure functions.
     JavaScript,
+    /// A module of functions on arrays of NumPy.
+    Python,
+    /// A class of static functions, for Matlab and Octave.
+    Matlab,
 }
 
 /// A file of generated code.
@@ -44,7 +51,7 @@ pub struct SourceFile {
 
 impl Language {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Rust, Self::C, Self::JavaScript];
+    pub const ALL: [Self; 5] = [Self::Rust, Self::C, Self::JavaScript, Self::Python, Self::Matlab];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -52,6 +59,8 @@ impl Language {
             Self::Rust => "rust",
             Self::C => "c",
             Self::JavaScript => "js",
+            Self::Python => "python",
+            Self::Matlab => "matlab",
         }
     }
 
@@ -65,6 +74,8 @@ impl Language {
             Self::Rust => one("rs", rust::module(spec, &model, &routines)),
             Self::C => c::files(spec, &model, &routines),
             Self::JavaScript => one("js", javascript::module(spec, &routines)),
+            Self::Python => one("py", python::module(spec, &routines)),
+            Self::Matlab => vec![matlab::class(spec, &routines)],
         }
     }
 }

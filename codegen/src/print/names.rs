@@ -13,6 +13,8 @@ use crate::spec::{Component, Spec};
 pub(super) struct Names<'s> {
     spec: &'s Spec,
     used: HashSet<String>,
+    /// What the language can have as a name.
+    spelled: fn(&str) -> String,
     counter: usize,
     variables: Vec<String>,
     parameters: Vec<String>,
@@ -26,7 +28,12 @@ pub(super) struct Names<'s> {
 
 impl<'s> Names<'s> {
     /// No name is reserved, or that of an array, of a routine that is called, or of a table.
-    pub(super) fn new(spec: &'s Spec, routine: &Routine, reserved: &str) -> Self {
+    pub(super) fn new(
+        spec: &'s Spec,
+        routine: &Routine,
+        reserved: &str,
+        spelled: fn(&str) -> String,
+    ) -> Self {
         let signatures = Function::ALL.map(Function::signature);
         let arrays =
             signatures.iter().flat_map(|signature| signature.arguments.iter().chain(signature.results));
@@ -41,8 +48,18 @@ impl<'s> Names<'s> {
         let used = taken.chain(called.flatten()).chain(tables).collect();
         let (variables, parameters, inputs) = (vec![], vec![], vec![]);
         let (errors, magnitudes, locals) = (vec![], vec![], vec![]);
-        let mut names =
-            Self { spec, used, counter: 0, variables, parameters, inputs, errors, magnitudes, locals };
+        let mut names = Self {
+            spec,
+            used,
+            spelled,
+            counter: 0,
+            variables,
+            parameters,
+            inputs,
+            errors,
+            magnitudes,
+            locals,
+        };
         names.variables = spec.variables.iter().map(|variable| names.free(&variable.name)).collect();
         names.parameters = spec.parameters.iter().map(|parameter| names.free(&parameter.name)).collect();
         names.inputs = spec.inputs.iter().map(|input| names.free(&input.name)).collect();
@@ -155,7 +172,7 @@ impl<'s> Names<'s> {
     }
 
     fn free(&mut self, name: &str) -> String {
-        let mut name = name.to_owned();
+        let mut name = (self.spelled)(name);
         while !self.used.insert(name.clone()) {
             name.push('_');
         }

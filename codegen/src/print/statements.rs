@@ -49,7 +49,7 @@ impl Statements {
         syntax: &dyn Syntax,
         by_columns: bool,
     ) -> Self {
-        let names = Names::new(spec, routine, &syntax.reserved());
+        let names = Names::new(spec, routine, &syntax.reserved(), syntax.spelled());
         let mut writer = Writer {
             routine,
             description,
@@ -197,6 +197,8 @@ impl Writer<'_> {
                 self.declare(fresh, statements);
                 statements.push(Statement::Copy { from: *from, to: *to });
             }
+            // There is nothing to clear.
+            Stage::Clear(array) if self.routine.arrays[*array].is_empty(self.description) => {}
             Stage::Clear(array) => {
                 let fresh = self.begin([*array].into_iter());
                 self.declare(fresh, statements);

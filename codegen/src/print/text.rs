@@ -16,7 +16,10 @@ pub(super) fn escaped(text: &str) -> String {
 pub(super) fn harmless(text: &str) -> String {
     let turns = |c: char| matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let ends = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}');
-    text.replace(|c| turns(c) || ends(c), " ").replace("*/", "* /").replace("/*", "/ *")
+    text.replace(|c| turns(c) || ends(c), " ")
+        .replace("*/", "* /")
+        .replace("/*", "/ *")
+        .replace(r#"""""#, "'''")
 }
 
 /// A text in lines of bounded width.

@@ -95,6 +95,31 @@ impl Routines {
         self.named(function.name())
     }
 
+    /// The tables that a loop goes over.
+    pub fn used_tables(&self) -> impl Iterator<Item = &Table> {
+        let lists = |stage: &Stage, index: usize| match stage {
+            Stage::Block(block) => block
+                .reads
+                .iter()
+                .chain(&block.writes)
+                .any(|place| matches!(place.row, Row::Listed { table, .. } if table == index)),
+            _ => false,
+        };
+        let is_used = move |index| self.stages().any(|stage| lists(stage, index));
+        self.tables.iter().enumerate().filter(move |(index, _)| is_used(*index)).map(|(_, table)| table)
+    }
+
+    /// The sums that a routine has.
+    pub fn used_sums(&self) -> impl Iterator<Item = &Sums> {
+        let is_used =
+            |index| self.stages().any(|stage| matches!(stage, Stage::Sums { sums, .. } if *sums == index));
+        self.sums.iter().enumerate().filter(move |(index, _)| is_used(*index)).map(|(_, sums)| sums)
+    }
+
+    fn stages(&self) -> impl Iterator<Item = &Stage> {
+        self.list.iter().flat_map(|routine| &routine.stages)
+    }
+
     /// What one call of a routine takes, that of others in it.
     fn operations(&self, routine: &Routine) -> Operations {
         let stage = |stage: &Stage| match stage {

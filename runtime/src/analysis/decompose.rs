@@ -1,9 +1,9 @@
 //! Decompositions that end, whatever the numbers: they are scaled, looked at first, and have a limit of steps.
 
 use nalgebra::allocator::Allocator;
-use nalgebra::{DefaultAllocator, Dim, DimDiff, DimSub, OMatrix, SymmetricEigen, U1};
+use nalgebra::{DMatrix, DefaultAllocator, Dim, DimDiff, DimSub, OMatrix, SVD, SymmetricEigen, U1};
 #[cfg(feature = "identify")]
-use nalgebra::{Matrix3, SVD, U3};
+use nalgebra::{Matrix3, U3};
 
 /// Some hundred times what matrices of this size take.
 pub(crate) const STEPS: usize = 100_000;
@@ -16,6 +16,18 @@ where
 {
     let is_finite = matrix.iter().all(|value| value.is_finite());
     is_finite.then(|| SymmetricEigen::try_new(matrix, f64::EPSILON, STEPS))?
+}
+
+/// The singular values, the largest first; none if a number is not finite.
+pub(crate) fn singular_values(matrix: DMatrix<f64>) -> Option<Vec<f64>> {
+    if matrix.is_empty() {
+        return Some(Vec::new());
+    }
+    let is_finite = matrix.iter().all(|value| value.is_finite());
+    let svd = is_finite.then(|| SVD::try_new(matrix, false, false, f64::EPSILON, STEPS))??;
+    let mut values = svd.singular_values.as_slice().to_vec();
+    values.sort_by(|a, b| b.total_cmp(a));
+    Some(values)
 }
 
 /// `U Σ Vᵀ`; none if a number is not finite. Squares of the numbers may be too large or too small to be numbers.
@@ -35,7 +47,7 @@ pub(crate) fn svd3(matrix: Matrix3<f64>) -> Option<SVD<f64, U3, U3>> {
 mod tests {
     use nalgebra::{DMatrix, Matrix3};
 
-    use super::{svd3, symmetric_eigen};
+    use super::{singular_values, svd3, symmetric_eigen};
 
     #[test]
     fn any_numbers_end() {
@@ -57,6 +69,7 @@ mod tests {
             assert!(svd3(matrix).is_none());
             assert!(symmetric_eigen(matrix).is_none());
             assert!(symmetric_eigen(DMatrix::from_element(4, 4, wrong)).is_none());
+            assert!(singular_values(DMatrix::from_element(4, 3, wrong)).is_none());
         }
     }
 }

@@ -8,6 +8,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::linearize::linearize;
 use super::{Failure, Model, Observability, Observation, Unknown};
+use crate::analysis::decompose::singular_values;
+use crate::{Error, Quantity};
 
 /// Singular values of the matrix with columns of unit length at or below this share of the largest count as zero.
 pub const THRESHOLD: f64 = 1e-8;
@@ -85,6 +87,10 @@ fn judged(
     let triangle = linearize(model, data, x, None)?;
     let p = model.unknowns.len();
     let columns = Columns::new(&triangle.finish().columns(0, p).into_owned(), expected, noise);
+    let columns = columns.ok_or_else(|| Failure::Observation {
+        line: data.first().map_or(0, |first| first.line),
+        error: Error::NotFinite { quantity: Quantity::Jacobian, index: 0 },
+    })?;
     let rows = data.iter().map(Observation::count).sum();
     let all = order(model);
     let is_placement = |k: &usize| model.unknowns[*k].is_placement();
@@ -129,7 +135,8 @@ struct Columns {
 }
 
 impl Columns {
-    fn new(triangle: &DMatrix<f64>, expected: &[Option<f64>], noise: f64) -> Self {
+    /// None if a derivative is not finite beside the noise.
+    fn new(triangle: &DMatrix<f64>, expected: &[Option<f64>], noise: f64) -> Option<Self> {
         let p = triangle.ncols();
         let mut unit = triangle.clone();
         let lengths: Vec<f64> = unit.column_iter().map(|column| column.norm()).collect();
@@ -138,14 +145,14 @@ impl Columns {
         for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
             column.scale_mut(if *length > largest * 1e-14 { 1.0 / length } else { 0.0 });
         }
-        let singular_values = singular_values(&unit);
+        let singular_values = singular_values(unit.clone())?;
         let threshold = singular_values.first().map_or(0.0, |first| first * THRESHOLD);
         let exact = singular_values.iter().filter(|value| **value > threshold).count();
         let expected: Vec<Option<f64>> = (0..p).map(|k| expected.get(k).copied().flatten()).collect();
         let worth = lengths.iter().zip(&expected);
         let worth = worth.map(|(length, expected)| expected.map_or(f64::INFINITY, |e| length * e / noise));
         let worth = worth.collect();
-        Self { unit, lengths, worth, expected, singular_values, exact }
+        Some(Self { unit, lengths, worth, expected, singular_values, exact })
     }
 
     /// The columns that stand for all, in groups of falling preference, sorted.
@@ -203,7 +210,8 @@ impl Columns {
             (Some(last), Some(next)) if *next > 0.0 => self.singular_values[last] / next,
             _ => f64::INFINITY,
         };
-        let observability = Observability::from_singular_values(&singular_values(&basis), rows);
+        let observability =
+            Observability::from_singular_values(&singular_values(basis).unwrap_or_default(), rows);
         let weak = self.weak(&kept);
         let inexact = self.inexact(&kept);
         Identifiable {
@@ -269,14 +277,4 @@ fn take_out(columns: &mut DMatrix<f64>, k: usize) {
         let along = direction.dot(&column);
         column.axpy(-along, &direction, 1.0);
     }
-}
-
-/// Largest first.
-fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
-    if matrix.is_empty() {
-        return Vec::new();
-    }
-    let mut values = matrix.singular_values().as_slice().to_vec();
-    values.sort_by(|a, b| b.total_cmp(a));
-    values
 }

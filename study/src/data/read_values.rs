@@ -2,11 +2,12 @@
 
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, parse_value};
+use abbe_codegen::expr::{Allowed, Dimension, Entry, LARGEST, Scope, parse_value};
 use abbe_codegen::spec::Spec;
 
 use super::column::Column;
 
+/// What squares and reciprocals of can be computed with.
 pub(super) fn positive(
     item: &Item<'_>,
     document: &mut Document,
@@ -14,10 +15,11 @@ pub(super) fn positive(
     dimension: Dimension,
 ) -> Option<f64> {
     let value = constant(item, document, spec, dimension)?;
-    if value > 0.0 {
+    if value >= 1.0 / LARGEST {
         return Some(value);
     }
-    let mistake = Diagnostic::new(item.span(), format!("`{}` must be more than zero", item.key));
+    let what = if value > 0.0 { "is too small to compute with" } else { "must be more than zero" };
+    let mistake = Diagnostic::new(item.span(), format!("`{}` {what}", item.key));
     document.mistake(mistake.help("say what the instrument's data sheet says: one standard deviation"));
     None
 }

@@ -107,7 +107,7 @@ pub(crate) fn watched(
     }
     let taken = worked().zip(worked_before).map_or(begun.elapsed(), |(after, before)| after - before);
     if taken > LONG {
-        eprintln!("{kind} {seed} takes {taken:.1?}");
+        eprintln!("{kind} {seed} takes {taken:.1?}:\n{input}");
     }
     (result.is_ok(), taken)
 }

@@ -83,14 +83,14 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines) -> String {
     comment(&mut writer, &format!("The functions that {}.h declares and describes. Do not edit.", spec.name));
     writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>", spec.name));
     values(&mut writer, spec, "", true);
-    for table in &routines.tables {
+    for table in routines.used_tables() {
         writer.blank();
         comment(&mut writer, table.documentation);
         let rows: Vec<String> =
             table.rows.iter().map(|[first, second]| format!("{{ {first}, {second} }}")).collect();
         writer.braces(&format!("static const int {}[{}][2] = ", table.name, rows.len()), &rows, ";");
     }
-    routines.sums.iter().for_each(|sums| sums_of_terms(&mut writer, sums));
+    routines.used_sums().for_each(|sums| sums_of_terms(&mut writer, sums));
     writer.blank();
     writer.lines(IS_FINITE.trim_end());
     for support in Support::used(routines) {

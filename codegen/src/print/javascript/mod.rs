@@ -10,6 +10,7 @@ use self::functions::function;
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
+use super::records::records;
 use super::text::escaped;
 use crate::expr::Table;
 use crate::program::{Routines, Sums};
@@ -21,13 +22,17 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     writer.lines("/**");
     header(&mut writer, spec, routines);
     writer.lines(" */");
-    description(&mut writer, routines);
-    for table in &routines.tables {
+    writer.blank();
+    comment(&mut writer, "Names, units, limits and nominal values, in the order of the arguments.");
+    writer.open("export const description =");
+    records(&mut writer, &routines.description, str::to_owned, number);
+    writer.close("};");
+    for table in routines.used_tables() {
         let rows: Vec<String> =
             table.rows.iter().map(|[first, second]| format!("{first}, {second}")).collect();
         constant(&mut writer, table.documentation, table.name, &rows);
     }
-    for Sums { name, constants, factors } in &routines.sums {
+    for Sums { name, constants, factors } in routines.used_sums() {
         let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
         constant(&mut writer, "What is constant in each entry.", &format!("{name}_CONSTANTS"), &values);
         let row =
@@ -47,49 +52,6 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         function(&mut writer, spec, routines, routine);
     }
     writer.finish()
-}
-
-/// Names, units, limits, values.
-fn description(writer: &mut Writer, routines: &Routines) {
-    let description = &routines.description;
-    let record = |fields: &[(&str, String)]| {
-        let fields: Vec<String> = fields.iter().map(|(name, value)| format!("{name}: {value}")).collect();
-        format!("{{ {} }}", fields.join(", "))
-    };
-    let pair = |[lower, upper]: [f64; 2]| format!("[{}, {}]", number(lower), number(upper));
-    writer.blank();
-    comment(writer, "Names, units, limits and nominal values, in the order of the arguments.");
-    writer.open("export const description =");
-    writer.lines(&format!("name: {},", quoted(&description.name)));
-    writer.lines(&format!("title: {},", quoted(&description.title)));
-    writer.lines(&format!("length: {},", quoted(description.length.symbol())));
-    writer.lines(&format!("orientation: {},", quoted(description.orientation.name())));
-    let mut list = |name: &str, entries: Vec<String>| {
-        writer.lines(&format!("{name}: ["));
-        entries.iter().for_each(|entry| writer.lines(&format!("    {entry},")));
-        writer.lines("],");
-    };
-    list("frames", description.frames.iter().map(|frame| quoted(&frame.name)).collect());
-    let variables = description.variables.iter().map(|variable| {
-        let kind = format!("{:?}", variable.kind).to_ascii_lowercase();
-        let (limits, home) = (pair(variable.limits), number(variable.home));
-        let name = quoted(&variable.name);
-        record(&[("name", name), ("kind", quoted(&kind)), ("limits", limits), ("home", home)])
-    });
-    list("variables", variables.collect());
-    let parameters = description.parameters.iter().map(|parameter| {
-        let (name, unit) = (quoted(&parameter.name), quoted(&parameter.unit));
-        record(&[("name", name), ("nominal", number(parameter.nominal)), ("unit", unit)])
-    });
-    list("parameters", parameters.collect());
-    let inputs = description.inputs.iter().map(|input| {
-        let (name, unit) = (quoted(&input.name), quoted(&input.unit));
-        let (nominal, range) = (number(input.nominal), pair(input.range));
-        record(&[("name", name), ("nominal", nominal), ("range", range), ("unit", unit)])
-    });
-    list("inputs", inputs.collect());
-    list("sources", description.sources.iter().map(|source| quoted(&source.name)).collect());
-    writer.close("};");
 }
 
 /// A function given by points.
@@ -153,9 +115,4 @@ fn comment(writer: &mut Writer, text: &str) {
     writer.lines("/**");
     writer.documentation(text);
     writer.lines(" */");
-}
-
-/// A text on one line, as both languages write it.
-fn quoted(text: &str) -> String {
-    format!("{:?}", text.replace(char::is_control, " "))
 }

@@ -27,14 +27,14 @@ pub(super) fn lookup_table(writer: &mut Writer, table: &Table) {
 
 /// The tables and sums of a module, as constants.
 pub(super) fn tables(writer: &mut Writer, routines: &Routines) {
-    for table in &routines.tables {
+    for table in routines.used_tables() {
         writer.blank();
         writer.documentation(table.documentation);
         let rows: Vec<String> =
             table.rows.iter().map(|[first, second]| format!("({first}, {second})")).collect();
         writer.array(&format!("const {}: [(usize, usize); {}] = ", table.name, rows.len()), &rows, ";");
     }
-    for Sums { name, constants, factors } in &routines.sums {
+    for Sums { name, constants, factors } in routines.used_sums() {
         writer.blank();
         writer.documentation("What is constant in each entry.");
         let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();

@@ -61,6 +61,16 @@ impl<'d, 'm> Draft<'d, 'm> {
         self.stages.push(body.stage(Some(Repeated { count: Count::Frames, backwards: true })));
     }
 
+    /// The margin, if there is one, from the x axis of the tool in an array: for what has no rows 4–6 to compute.
+    pub(super) fn margin_alone(&mut self, axis: impl FnOnce(&mut Body) -> Vector) {
+        let Some(margin) = self.margin() else { return };
+        let mut body = Body::new();
+        let axis = axis(&mut body);
+        let rows = Rows::new(&mut body.graph, Orientation::EulerYzx, axis);
+        body.write(margin, Row::All, &rows.margin().into_iter().collect::<Vec<_>>());
+        self.once(body);
+    }
+
     /// What rows 4–6 take, and the margin, from the x axis of the tool in an array.
     pub(super) fn rows(&mut self, axis: impl FnOnce(&mut Body) -> Vector) -> RowsArray {
         if self.loops.orientation == Orientation::RotationVector {

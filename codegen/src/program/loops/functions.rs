@@ -47,16 +47,27 @@ impl Draft<'_, '_> {
         let frames = self.frames(terms);
         let pose = self.array("pose");
         self.copy(frames, Row::Last, pose);
-        let rows = self.rows(|body| body.frame(pose, Row::All).axes[0]);
         let twists = if by_parameters { &self.loops.parameters } else { &self.loops.joints };
+        let axis = |body: &mut Body| body.frame(pose, Row::All).axes[0];
+        if twists.count == 0 {
+            // Nothing moves anything.
+            self.margin_alone(axis);
+            self.stages.push(Stage::Clear(self.array("columns")));
+            return;
+        }
+        let rows = self.rows(axis);
         self.columns_of_twists(twists, terms, frames, &rows);
     }
 
     /// The pose with errors, and `J_q` with rotation-vector rows.
     pub(super) fn compensator_step(&mut self) {
-        let terms = self.terms();
-        let frames = self.frames(terms);
-        self.columns_of_twists(&self.loops.joints, terms, frames, &RowsArray::ROTATION_VECTOR);
+        if self.loops.joints.count == 0 {
+            self.stages.push(Stage::Clear(self.array("columns")));
+        } else {
+            let terms = self.terms();
+            let frames = self.frames(terms);
+            self.columns_of_twists(&self.loops.joints, terms, frames, &RowsArray::ROTATION_VECTOR);
+        }
         let arrays = ["q", "s", "u", "pose"].map(|name| self.array(name));
         self.call("real_pose", &arrays);
     }
@@ -137,6 +148,15 @@ impl Draft<'_, '_> {
 
     /// ΔX of each source by itself from the columns of `J_e`.
     pub(super) fn by_source(&mut self) {
+        if self.loops.model.effects.is_empty() {
+            if self.margin().is_some() {
+                let pose = self.zeros("pose", &POSE);
+                self.call("pose", &[self.array("q"), self.array("s"), pose]);
+                self.margin_alone(|body| body.frame(pose, Row::All).axes[0]);
+            }
+            self.stages.push(Stage::Clear(self.array("displacements")));
+            return;
+        }
         let pose = self.zeros("pose", &POSE);
         let columns = self.zeros("columns", &[Count::Errors, Count::Exactly(6)]);
         let effects = self.zeros("effects", &[Count::Effects]);

@@ -47,7 +47,11 @@ impl<'m> Loops<'m> {
             documentation: "Column of `J_e` and source of every effect.",
             rows,
         });
-        let terms = terms.into_iter().collect();
+        let mut terms: Vec<Node> = terms.into_iter().collect();
+        if terms.is_empty() {
+            // Nothing moves: there is an array of terms all the same.
+            terms.extend(model.transforms.first().map(|first| first.position[0]));
+        }
         Self { model, orientation: spec.orientation, motions, joints, parameters, terms, sums, tables }
     }
 

@@ -3,9 +3,9 @@
 mod in_parts;
 mod parts;
 
-use nalgebra::{DMatrix, SVD};
+use nalgebra::DMatrix;
 
-use super::decompose::STEPS;
+use super::decompose::singular_values;
 use super::{Configuration, Unevaluated, sampling};
 use crate::twist::twist;
 use crate::{Component, Error, Manipulator, Pose, Quantity};
@@ -129,15 +129,6 @@ pub fn identifiable(
 /// What is not a number, or takes more steps than any matrix of numbers.
 fn not_finite() -> Error {
     Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }
-}
-
-/// The singular values of a matrix, in any order; none if that takes too many steps.
-fn singular_values(matrix: DMatrix<f64>) -> Option<Vec<f64>> {
-    if matrix.is_empty() {
-        return Some(Vec::new());
-    }
-    let svd = SVD::try_new(matrix, false, false, f64::EPSILON, STEPS)?;
-    Some(svd.singular_values.as_slice().to_vec())
 }
 
 /// The column of an error of `E_0`: `(e; 0)` for a translation, `(a × p_T; a)` for a rotation.

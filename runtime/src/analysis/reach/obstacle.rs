@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix6xX, SVD, Vector3};
 
 use super::real_tool::RealTool;
-use crate::analysis::sampling;
+use crate::analysis::{decompose::singular_values, sampling};
 use crate::compensator::{Compensated, norms};
 use crate::twist::twist;
 use crate::{Error, Manipulator, Pose, VariableKind};
@@ -100,8 +100,10 @@ pub fn mobility(manipulator: &dyn Manipulator, s: &[f64]) -> Result<usize, Error
                 column.scale_mut(metres);
             }
         }
-        let values = columns.singular_values();
-        Ok(values.iter().filter(|value| **value > SINGULAR * values.max()).count())
+        let values = singular_values(DMatrix::from_column_slice(6, columns.ncols(), columns.as_slice()));
+        let values = values.unwrap_or_default();
+        let largest = values.first().copied().unwrap_or(0.0);
+        Ok(values.iter().filter(|value| **value > SINGULAR * largest).count())
     };
     let mut most = 0;
     let mut failure = None;

@@ -1,6 +1,6 @@
 // node run.mjs MODULE FUNCTIONS INPUT OUTPUT: calls functions of a generated module.
 //
-// FUNCTIONS is JSON, a name and the names of the arguments each. INPUT holds doubles, q, s, u, errors, variances and
+// FUNCTIONS has JSON: a name, the names of the arguments and those of the results each. INPUT holds doubles, q, s, u, errors, variances and
 // magnitudes of one configuration after the other; OUTPUT gets what every function returns, in the order of the names.
 import { readFileSync, writeFileSync } from "node:fs";
 
@@ -24,7 +24,7 @@ for (let at = 0; at < numbers.length; ) {
         given[name] = numbers.subarray(at, at + size);
         at += size;
     }
-    for (const [name, names] of JSON.parse(functions)) {
+    for (const [name, names] of JSON.parse(readFileSync(functions))) {
         const result = robot[name](...names.map((argument) => given[argument]));
         const arrays = result instanceof Float64Array ? [result] : Object.values(result);
         for (const array of arrays) {

@@ -1,0 +1,229 @@
+//! Routines as functions.
+
+use abbe::function;
+
+use super::operators::{Matlab, number};
+use crate::print::flat::Flat;
+use crate::print::header::operations;
+use crate::print::layout::Writer;
+use crate::print::statement::Statement;
+use crate::print::statements::Statements;
+use crate::print::text::harmless;
+use crate::program::{Array, Place, Role, Routine, Routines, Row};
+use crate::spec::Spec;
+
+/// One function.
+pub(super) fn function(
+    writer: &mut Writer,
+    class: &str,
+    spec: &Spec,
+    routines: &Routines,
+    routine: &Routine,
+) {
+    let Statements { list, .. } =
+        Statements::new(spec, &routines.description, routine, &Matlab { class, spec });
+    let names = |role| routine.arrays.iter().filter(move |array| array.role == role).map(|array| array.name);
+    let arguments: Vec<&str> = names(Role::Argument).collect();
+    let results: Vec<&str> = names(Role::Result).chain(names(Role::Margin)).collect();
+    writer.blank();
+    let (name, arguments) = (routine.name, arguments.join(", "));
+    writer.begin(&format!("function [{}] = {name}({arguments})", results.join(", ")));
+    documentation(writer, routines, routine);
+    let mut printer =
+        Printer { writer, class, flat: Flat { routines, routine }, begun: vec![false; routine.arrays.len()] };
+    printer.begin();
+    list.iter().for_each(|statement| printer.statement(statement));
+    printer.end();
+    writer.close("end");
+}
+
+fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
+    writer.documentation(routine.documentation);
+    if let Some(function) = routine.function {
+        let signature = function.signature();
+        let shape = |array: &function::Array| {
+            let counts = array.shape.iter().rev().map(|count| count.value(&routines.description).to_string());
+            let shape: Vec<String> = counts.collect();
+            match &shape[..] {
+                [one] => format!("{one} numbers"),
+                several => several.join(" x "),
+            }
+        };
+        let arrays = signature.arguments.iter().map(|array| (array, "takes"));
+        for (array, way) in arrays.chain(signature.results.iter().map(|array| (array, "gives"))) {
+            writer.documentation_line("");
+            writer.documentation(&format!(
+                "{way} {}: {} {}; {}.",
+                array.name,
+                array.documentation,
+                shape(array),
+                array.unit
+            ));
+        }
+        if signature.has_margin(routines.description.orientation) {
+            writer.documentation_line("");
+            writer.documentation("gives margin: cos(rho); where that is 0, rows 4-6 are not finite.");
+        }
+    }
+    writer.documentation_line("");
+    writer.documentation(&format!("{}.", operations(routine)));
+}
+
+struct Printer<'p> {
+    writer: &'p mut Writer,
+    class: &'p str,
+    flat: Flat<'p>,
+    /// Which arrays are there already.
+    begun: Vec<bool>,
+}
+
+impl Printer<'_> {
+    fn name(&self, array: usize) -> &'static str {
+        self.flat.routine.arrays[array].name
+    }
+
+    /// Number k of row `index` of a place; loops count from 0, matrices from 1.
+    fn place(&self, place: Place, index: usize, k: usize) -> String {
+        let listed = |table: &str, column| format!("{}.{table}(i + 1, {})", self.class, column + 1);
+        let flat = self.flat.index(place, index, k, listed);
+        let from_1 = match (flat.parse::<usize>(), flat.rsplit_once(" + ")) {
+            (Ok(flat), _) => (flat + 1).to_string(),
+            (_, Some((before, last))) if last.parse::<usize>().is_ok() => {
+                format!("{before} + {}", last.parse::<usize>().map_or(1, |last| last + 1))
+            }
+            _ => format!("{flat} + 1"),
+        };
+        format!("{}({from_1})", self.name(place.array))
+    }
+
+    /// The numbers of some rows.
+    fn part(&self, place: Place) -> String {
+        let name = self.name(place.array);
+        match (place.row, self.flat.range(place)) {
+            (Row::First | Row::Last | Row::AllButFirst, [begin, end]) => {
+                format!("{name}({}:{end})", begin + 1)
+            }
+            (_, [_, end]) => format!("{name}(1:{end})"),
+        }
+    }
+
+    /// What is given must have its size; inputs must be in their ranges.
+    fn begin(&mut self) {
+        if self.flat.routine.function.is_none() {
+            return;
+        }
+        for (index, array) in self.flat.routine.arrays.iter().enumerate() {
+            let (name, class) = (array.name, self.class);
+            if array.role == Role::Argument {
+                let count = self.flat.len(index);
+                self.writer.lines(&format!("{class}.is_given('{name}', {name}, {count});"));
+            }
+            if array.role == Role::Argument && name == "u" && self.flat.len(index) > 0 {
+                let outside = format!("u(:) < {class}.ranges(:, 1) | u(:) > {class}.ranges(:, 2)");
+                self.writer.begin(&format!("if any({outside})"));
+                self.writer.lines("error('abbe:range', 'an input is not in its range');");
+                self.writer.close("end");
+            }
+        }
+    }
+
+    fn declare(&mut self, array: usize) {
+        self.begun[array] = true;
+        self.writer.lines(&format!("{} = zeros(1, {});", self.name(array), self.flat.len(array)));
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Unpack { names, from } => {
+                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
+                for (k, name) in named {
+                    self.writer.lines(&format!("{name} = {};", self.place(*from, 0, k)));
+                }
+            }
+            Statement::Comment(text) => self.writer.lines(format!("% {}", harmless(text)).trim_end()),
+            Statement::Let { name, value } => self.writer.lines(&format!("{name} = {value};")),
+            Statement::SinCos(pairs) => {
+                for ([sine, cosine], angle) in pairs {
+                    let angle = &angle.text;
+                    self.writer.lines(&format!("{sine} = sin({angle});"));
+                    self.writer.lines(&format!("{cosine} = cos({angle});"));
+                }
+            }
+            Statement::Declare(array) => self.declare(*array),
+            // What is cleared has only begun.
+            Statement::Clear(_) => {}
+            Statement::Copy { from, to } => {
+                self.writer.lines(&format!("{} = {};", self.name(*to), self.part(*from)));
+            }
+            Statement::Assign { to, index, values, fresh } => {
+                if *fresh && !self.begun[to.array] {
+                    self.declare(to.array);
+                }
+                let began = *fresh || self.flat.routine.arrays[to.array].role == Role::Result;
+                let values = values.iter().enumerate().filter(|(_, value)| !(began && value.is_zero));
+                for (k, value) in values {
+                    self.writer.lines(&format!("{} = {};", self.place(*to, *index, k), value.text));
+                }
+            }
+            Statement::Call { routine, arrays, .. } => self.call(routine, arrays),
+            Statement::Sums { sums, terms, entries } => {
+                let (name, class) = (self.flat.routines.sums[*sums].name, self.class);
+                let [terms, entries] = [terms, entries].map(|array| self.name(*array));
+                self.writer.lines(&format!("{entries} = {class}.{name}_CONSTANTS;"));
+                self.writer.begin(&format!("for k = 1:size({class}.{name}_FACTORS, 1)"));
+                let column = |column| format!("{class}.{name}_FACTORS(k, {column})");
+                let sum = format!("{entries}({}) + {} * {terms}({})", column(1), column(3), column(2));
+                self.writer.lines(&format!("{entries}({}) = {sum};", column(1)));
+                self.writer.close("end");
+            }
+            Statement::For { repeated, body } => {
+                let count = repeated.count.value(&self.flat.routines.description);
+                let head = match repeated.backwards {
+                    false => format!("for i = 0:{}", number(count as f64 - 1.0)),
+                    true => format!("for i = {}:-1:0", number(count as f64 - 1.0)),
+                };
+                self.writer.begin(&head);
+                body.iter().for_each(|statement| self.statement(statement));
+                self.writer.close("end");
+            }
+            Statement::Return(margin) if margin != "margin" => {
+                self.writer.lines(&format!("margin = {margin};"));
+            }
+            // Columns go to arrays.
+            Statement::Return(_) | Statement::Column { .. } => {}
+        }
+    }
+
+    fn call(&mut self, routine: &str, arrays: &[usize]) {
+        let callee = self.flat.routines.named(routine);
+        let is_given = |(_, array): &(&usize, &Array)| array.role == Role::Argument;
+        let (given, filled): (Vec<_>, Vec<_>) = arrays.iter().zip(&callee.arrays).partition(is_given);
+        let names = |arrays: &[(&usize, &Array)]| {
+            arrays.iter().map(|(array, _)| self.name(**array)).collect::<Vec<_>>().join(", ")
+        };
+        let (results, class) = (names(&filled), self.class);
+        self.writer.lines(&format!("[{results}] = {class}.{routine}({});", names(&given)));
+        filled.iter().for_each(|(array, _)| self.begun[**array] = true);
+    }
+
+    /// Results become matrices.
+    fn end(&mut self) {
+        for (index, array) in self.flat.routine.arrays.iter().enumerate() {
+            if array.role != Role::Result {
+                continue;
+            }
+            let counts = array.shape.iter().rev();
+            let shape: Vec<String> =
+                counts.map(|count| count.value(&self.flat.routines.description).to_string()).collect();
+            let name = array.name;
+            match &shape[..] {
+                [_] if self.flat.len(index) > 0 => {}
+                [_] => self.writer.lines(&format!("{name} = zeros(1, 0);")),
+                _ if self.flat.len(index) == 0 => {
+                    self.writer.lines(&format!("{name} = zeros({});", shape.join(", ")));
+                }
+                _ => self.writer.lines(&format!("{name} = reshape({name}, {});", shape.join(", "))),
+            }
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! Matlab and Octave: a class of static functions, one configuration at a time.
+//!
+//! Arrays are matrices as Matlab keeps them, which is the order in which the Rust arrays have their numbers. `functions`
+//! prints routines, `operators` what expressions are made of.
+
+mod functions;
+mod operators;
+
+use self::functions::function;
+use self::operators::{WORDS, number, spelled};
+use super::SourceFile;
+use super::header::header;
+use super::layout::Writer;
+use super::text::{escaped, harmless, wrapped};
+use crate::expr::Table;
+use crate::program::{Routines, Sums};
+use crate::spec::Spec;
+
+/// The file of a manipulator's class, which must be called as the class is.
+pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
+    let class = class_name(spec, routines);
+    let mut writer = Writer::new("%");
+    writer.begin(&format!("classdef {class}"));
+    header(&mut writer, spec, routines);
+    writer.documentation_line("");
+    writer.documentation(&format!(
+        "Functions are called as `{class}.pose(q, {class}.parameters)`, and take one configuration. Matrices are matrices: a \
+         pose is `[x_axis y_axis z_axis position]`, 3 rows and 4 columns; J_e has 6 rows."
+    ));
+    properties(&mut writer, spec, routines);
+    writer.blank();
+    writer.begin("methods (Static)");
+    writer.paragraphs(HELPERS);
+    if !spec.tables.is_empty() {
+        writer.blank();
+        writer.paragraphs(LOOK_UP);
+    }
+    for routine in &routines.list {
+        function(&mut writer, &class, spec, routines, routine);
+    }
+    writer.close("end");
+    writer.close("end");
+    SourceFile { name: format!("{class}.m"), text: writer.finish() }
+}
+
+/// What a class can be called: as the manipulator, if that is no word and none of its functions.
+fn class_name(spec: &Spec, routines: &Routines) -> String {
+    let mut name = spelled(&spec.name);
+    let own = ["only_real", "side", "least", "greatest", "look_up", "is_given"];
+    let is_taken = |name: &str| {
+        own.contains(&name)
+            || PROPERTIES.contains(&name)
+            || WORDS.split_whitespace().any(|word| word == name)
+            || routines.list.iter().any(|routine| routine.name == name)
+    };
+    while is_taken(&name) {
+        name.push('_');
+    }
+    name
+}
+
+const PROPERTIES: [&str; 11] = [
+    "title",
+    "length_unit",
+    "orientation",
+    "variables",
+    "limits",
+    "home",
+    "parameter_names",
+    "parameters",
+    "input_names",
+    "inputs",
+    "ranges",
+];
+
+/// Names, units, limits, values, and what the functions read.
+fn properties(writer: &mut Writer, spec: &Spec, routines: &Routines) {
+    let description = &routines.description;
+    writer.blank();
+    writer.begin("properties (Constant)");
+    comment(writer, "Names, units, limits and nominal values, in the order of the arguments.");
+    let texts = [
+        ("title", &description.title[..]),
+        ("length_unit", description.length.symbol()),
+        ("orientation", description.orientation.name()),
+    ];
+    for (name, text) in texts {
+        writer.lines(&format!("{name} = {};", quoted(text)));
+    }
+    let names = |names: Vec<&str>| names.into_iter().map(quoted).collect::<Vec<_>>();
+    let pair = |[lower, upper]: [f64; 2]| format!("{} {};", number(lower), number(upper));
+    let numbers = |values: Vec<f64>| values.into_iter().map(number).collect::<Vec<_>>();
+    let variables = || description.variables.iter();
+    let parameters = || description.parameters.iter();
+    let inputs = || description.inputs.iter();
+    list(writer, "variables", ["{", "}"], &names(variables().map(|variable| &variable.name[..]).collect()));
+    list(
+        writer,
+        "limits",
+        ["[", "]"],
+        &variables().map(|variable| pair(variable.limits)).collect::<Vec<_>>(),
+    );
+    list(writer, "home", ["[", "]"], &numbers(variables().map(|variable| variable.home).collect()));
+    list(writer, "parameter_names", ["{", "}"], &names(parameters().map(|one| &one.name[..]).collect()));
+    list(writer, "parameters", ["[", "]"], &numbers(parameters().map(|one| one.nominal).collect()));
+    list(writer, "input_names", ["{", "}"], &names(inputs().map(|one| &one.name[..]).collect()));
+    list(writer, "inputs", ["[", "]"], &numbers(inputs().map(|one| one.nominal).collect()));
+    list(writer, "ranges", ["[", "]"], &inputs().map(|one| pair(one.range)).collect::<Vec<_>>());
+    for table in routines.used_tables() {
+        comment(writer, table.documentation);
+        let rows = table.rows.iter().map(|[first, second]| format!("{first} {second};"));
+        list(writer, table.name, ["[", "]"], &rows.collect::<Vec<_>>());
+    }
+    for Sums { name, constants, factors } in routines.used_sums() {
+        comment(writer, "What is constant in each entry.");
+        list(writer, &format!("{name}_CONSTANTS"), ["[", "]"], &numbers(constants.clone()));
+        comment(writer, "Entry, term, and the factor with which the term is added.");
+        let row = |(entry, term, factor): &(usize, usize, f64)| {
+            format!("{} {} {};", entry + 1, term + 1, number(*factor))
+        };
+        list(writer, &format!("{name}_FACTORS"), ["[", "]"], &factors.iter().map(row).collect::<Vec<_>>());
+    }
+    for table in &spec.tables {
+        lookup_table(writer, table);
+    }
+    writer.close("end");
+}
+
+/// A function given by points.
+fn lookup_table(writer: &mut Writer, table: &Table) {
+    let lookup = table.lookup();
+    comment(writer, &table.documentation(&escaped(&table.description)));
+    writer.begin(&format!("{} = struct( ...", spelled(&table.constant_name())));
+    let (first, scale) = (number(lookup.first), number(lookup.scale));
+    writer.lines(&format!("'first', {first}, 'scale', {scale}, 'steps', {}, ...", lookup.steps));
+    let field = |writer: &mut Writer, name: &str, entries: Vec<String>, end: &str| {
+        writer.lines(&format!("'{name}', [ ..."));
+        entries.chunks(6).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
+        writer.lines(&format!("]{end}"));
+    };
+    field(writer, "starts", lookup.starts.iter().map(u32::to_string).collect(), ", ...");
+    field(writer, "knots", lookup.knots.iter().map(|knot| number(*knot)).collect(), ", ...");
+    let piece = |piece: &[f64; 4]| format!("{};", piece.map(number).join(" "));
+    field(writer, "pieces", lookup.pieces.iter().map(piece).collect(), ");");
+    writer.end();
+}
+
+/// `name = [first second …];` in lines of a few entries.
+fn list(writer: &mut Writer, name: &str, [open, close]: [&str; 2], entries: &[String]) {
+    let inner = entries.join(" ");
+    if inner.len() < 70 {
+        return writer.lines(&format!("{name} = {open}{inner}{close};"));
+    }
+    writer.lines(&format!("{name} = {open} ..."));
+    entries.chunks(4).for_each(|line| writer.lines(&format!("    {} ...", line.join(" "))));
+    writer.lines(&format!("{close};"));
+}
+
+fn comment(writer: &mut Writer, text: &str) {
+    for line in wrapped(&harmless(text), 92) {
+        writer.lines(&format!("% {line}"));
+    }
+}
+
+/// A text on one line.
+fn quoted(text: &str) -> String {
+    format!("'{}'", harmless(text).replace('\'', "''"))
+}
+
+/// What functions of the language do otherwise than those of all others.
+const HELPERS: &str = "\
+function y = only_real(y)
+    % A number; NaN where there is only a complex one.
+    if ~isreal(y)
+        y = NaN;
+    end
+end
+
+function y = side(x)
+    % -1 below 0, else 1.
+    y = 1;
+    if x < 0
+        y = -1;
+    end
+end
+
+function y = least(a, b)
+    % The smaller one; NaN if one of them is.
+    y = min(a, b);
+    if isnan(a) || isnan(b)
+        y = NaN;
+    end
+end
+
+function y = greatest(a, b)
+    % The larger one; NaN if one of them is.
+    y = max(a, b);
+    if isnan(a) || isnan(b)
+        y = NaN;
+    end
+end
+
+function is_given(name, value, count)
+    % Ends with an error if an argument has another number of numbers.
+    if numel(value) ~= count
+        error('abbe:size', '%s has %d numbers, and %d are expected', name, numel(value), count);
+    end
+end
+";
+
+/// The value of a table or a derivative of it: as `LookupTable` of the crate `abbe`.
+const LOOK_UP: &str = "\
+function y = look_up(table, order, x)
+    % The derivative of that order of a table at x; the table itself if of order 0.
+    even = isempty(table.starts);
+    u = (x - table.first) * table.scale;
+    if isnan(u)
+        y = NaN;
+        return
+    end
+    last = numel(table.starts) - 2;
+    if even
+        last = size(table.pieces, 1) - 2;
+    end
+    nearest = min(max(u - 0.5, -1), last);
+    % Adding 1.5 * 2^52 rounds to the nearest integer.
+    bucket = nearest + 6755399441055744 - 6755399441055744;
+    piece = bucket + 1;
+    t = u - bucket;
+    unit = table.scale;
+    if ~even
+        unit = 1;
+        piece = table.starts(piece + 1);
+        step = floor(2 ^ (table.steps - 1));
+        while step >= 1
+            if piece + step < numel(table.knots) && x > table.knots(piece + step + 1)
+                piece = piece + step;
+            end
+            step = floor(step / 2);
+        end
+        t = x - table.knots(piece + 1);
+    end
+    p = table.pieces(piece + 1, :);
+    switch order
+        case 0
+            y = ((p(4) * t + p(3)) * t + p(2)) * t + p(1);
+        case 1
+            y = ((3 * p(4) * t + 2 * p(3)) * t + p(2)) * unit;
+        case 2
+            y = (6 * p(4) * t + 2 * p(3)) * unit ^ 2;
+        otherwise
+            y = 6 * p(4) * unit ^ 3;
+    end
+end
+";

@@ -1,0 +1,250 @@
+//! Routines as functions.
+
+use abbe::Quantity;
+use abbe::function;
+
+use super::operators::{Python, number};
+use crate::print::flat::Flat;
+use crate::print::header::operations;
+use crate::print::layout::Writer;
+use crate::print::statement::Statement;
+use crate::print::statements::Statements;
+use crate::print::text::harmless;
+use crate::program::{Array, Place, Role, Routine, Routines, Row};
+use crate::spec::Spec;
+
+/// What is called from outside: it looks at shapes, and gives results the shapes that users expect.
+pub(super) fn face(writer: &mut Writer, routines: &Routines, routine: &Routine) {
+    let Some(function) = routine.function else { return };
+    let signature = function.signature();
+    let optional = signature.arguments.iter().all(|array| matches!(array.name, "q" | "s" | "u"));
+    let arguments: Vec<String> = signature
+        .arguments
+        .iter()
+        .map(|array| format!("{}{}", array.name, if optional && array.name != "q" { "=None" } else { "" }))
+        .collect();
+    writer.blank();
+    writer.blank();
+    writer.begin(&format!("def {}({}):", routine.name, arguments.join(", ")));
+    documentation(writer, routines, routine);
+    let shape = |array: &function::Array| {
+        let counts = array.shape.iter().map(|count| format!("{},", count.value(&routines.description)));
+        format!("({})", counts.collect::<Vec<_>>().join(" "))
+    };
+    let given = signature.arguments.iter().map(|array| format!("{0}=({0}, {1})", array.name, shape(array)));
+    let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
+    let names = names.join(", ");
+    writer.lines(&format!("batch, {names} = _given({})", given.collect::<Vec<_>>().join(", ")));
+    let has_margin = signature.has_margin(routines.description.orientation);
+    let shaped = |array: &function::Array| {
+        let reshaped = format!("{}.reshape(batch + {})", array.name, shape(array));
+        if is_matrix(array) { format!("np.swapaxes({reshaped}, -1, -2)") } else { reshaped }
+    };
+    let results = signature.results.iter().map(|array| array.name).chain(has_margin.then_some("margin"));
+    writer.lines(&format!("{} = _{}(batch, {names})", results.collect::<Vec<_>>().join(", "), routine.name));
+    let returned: Vec<String> =
+        signature.results.iter().map(shaped).chain(has_margin.then(|| "margin".to_owned())).collect();
+    writer.lines(&format!("return {}", returned.join(", ")));
+    writer.end();
+}
+
+/// Whether the numbers of an array are columns of matrices.
+fn is_matrix(array: &function::Array) -> bool {
+    array.quantity == Quantity::Pose || array.name == "columns"
+}
+
+fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
+    let Some(function) = routine.function else { return };
+    let signature = function.signature();
+    writer.lines("r\"\"\"");
+    writer.documentation(routine.documentation);
+    writer.documentation_line("");
+    let shape = |array: &function::Array| {
+        let mut shape: Vec<String> =
+            array.shape.iter().map(|count| count.value(&routines.description).to_string()).collect();
+        if is_matrix(array) {
+            let last = shape.len() - 1;
+            shape.swap(last - 1, last);
+        }
+        format!("Shape (..., {}); {}.", shape.join(", "), array.unit)
+    };
+    for array in signature.arguments {
+        writer.documentation(&format!("{}: {} {}", array.name, array.documentation, shape(array)));
+    }
+    writer.documentation_line("");
+    let has_margin = signature.has_margin(routines.description.orientation);
+    let several = if signature.results.len() > 1 || has_margin { ", in this order" } else { "" };
+    writer.documentation(&format!("Returns{several}:"));
+    for array in signature.results {
+        writer.documentation(&format!("{}: {} {}", array.name, array.documentation, shape(array)));
+    }
+    if has_margin {
+        writer.documentation(
+            "margin: `cos ρ`; where that is 0, the rows of the orientation are not finite. Shape (...).",
+        );
+    }
+    writer.documentation_line("");
+    writer.documentation(&format!("{}.", operations(routine)));
+    writer.lines("\"\"\"");
+}
+
+/// The routine, on flat arrays.
+pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
+    let Statements { list, .. } =
+        Statements::new(spec, &routines.description, routine, &Python(&spec.tables));
+    let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
+    let arguments: Vec<&str> = ["batch"].into_iter().chain(given.map(|array| array.name)).collect();
+    writer.blank();
+    writer.blank();
+    writer.begin(&format!("def _{}({}):", routine.name, arguments.join(", ")));
+    if routine.function.is_none() {
+        writer.lines("r\"\"\"");
+        writer.documentation(routine.documentation);
+        writer.lines("\"\"\"");
+    }
+    let mut printer =
+        Printer { writer, flat: Flat { routines, routine }, begun: vec![false; routine.arrays.len()] };
+    list.iter().for_each(|statement| printer.statement(statement));
+    let margin = list.iter().find_map(|statement| match statement {
+        Statement::Return(value) => Some(value.as_str()),
+        _ => None,
+    });
+    printer.results(margin);
+    writer.end();
+}
+
+struct Printer<'p> {
+    writer: &'p mut Writer,
+    flat: Flat<'p>,
+    /// Which arrays are there already.
+    begun: Vec<bool>,
+}
+
+impl Printer<'_> {
+    fn name(&self, array: usize) -> &'static str {
+        self.flat.routine.arrays[array].name
+    }
+
+    /// Number k of row `index` of a place, in every configuration.
+    fn place(&self, place: Place, index: usize, k: usize) -> String {
+        let listed = |table: &str, column| format!("{table}[i][{column}]");
+        format!("{}[..., {}]", self.name(place.array), self.flat.index(place, index, k, listed))
+    }
+
+    /// The numbers of some rows, in every configuration.
+    fn part(&self, place: Place) -> String {
+        let name = self.name(place.array);
+        match (place.row, self.flat.range(place)) {
+            (Row::First, [_, end]) => format!("{name}[..., :{end}]"),
+            (Row::Last | Row::AllButFirst, [begin, _]) => format!("{name}[..., {begin}:]"),
+            _ => name.to_owned(),
+        }
+    }
+
+    fn declare(&mut self, array: usize) {
+        self.begun[array] = true;
+        self.writer.lines(&format!("{} = np.zeros(batch + ({},))", self.name(array), self.flat.len(array)));
+    }
+
+    fn statement(&mut self, statement: &Statement) {
+        match statement {
+            Statement::Unpack { names, from } => {
+                // A part of an array that changes later would change with it.
+                let is_given = self.flat.routine.arrays[from.array].role == Role::Argument;
+                let copied = if is_given { "" } else { ".copy()" };
+                let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
+                for (k, name) in named {
+                    self.writer.lines(&format!("{name} = {}{copied}", self.place(*from, 0, k)));
+                }
+            }
+            Statement::Comment(text) => self.writer.lines(format!("# {}", harmless(text)).trim_end()),
+            Statement::Let { name, value } => self.writer.lines(&format!("{name} = {value}")),
+            Statement::SinCos(pairs) => {
+                for ([sine, cosine], angle) in pairs {
+                    let angle = &angle.text;
+                    self.writer.lines(&format!("{sine}, {cosine} = np.sin({angle}), np.cos({angle})"));
+                }
+            }
+            Statement::Declare(array) => self.declare(*array),
+            // What is cleared has only begun.
+            Statement::Clear(_) => {}
+            Statement::Copy { from, to } => {
+                self.writer.lines(&format!("{}[...] = {}", self.name(*to), self.part(*from)));
+            }
+            Statement::Assign { to, index, values, fresh } => {
+                if *fresh && !self.begun[to.array] {
+                    self.declare(to.array);
+                }
+                // It began as zeros, and what a loop may have written is not zero always.
+                let began = *fresh || self.flat.routine.arrays[to.array].role == Role::Result;
+                let values = values.iter().enumerate().filter(|(_, value)| !(began && value.is_zero));
+                for (k, value) in values {
+                    self.writer.lines(&format!("{} = {}", self.place(*to, *index, k), value.text));
+                }
+            }
+            Statement::Call { routine, arrays, .. } => self.call(routine, arrays),
+            Statement::Sums { sums, terms, entries } => {
+                let name = self.flat.routines.sums[*sums].name;
+                let [terms, entries] = [terms, entries].map(|array| self.name(*array));
+                self.writer.lines(&format!("{entries}[...] = {name}_CONSTANTS"));
+                self.writer.begin(&format!("for entry, term, factor in {name}_FACTORS:"));
+                self.writer.lines(&format!("{entries}[..., entry] += factor * {terms}[..., term]"));
+                self.writer.end();
+            }
+            Statement::For { repeated, body } => {
+                let count = repeated.count.value(&self.flat.routines.description);
+                let head = match repeated.backwards {
+                    false => format!("for i in range({count}):"),
+                    true => format!(
+                        "for i in range({}, -1, -1):",
+                        number(count as f64 - 1.0).trim_end_matches(".0")
+                    ),
+                };
+                self.writer.begin(&head);
+                if body.is_empty() {
+                    self.writer.lines("pass");
+                }
+                body.iter().for_each(|statement| self.statement(statement));
+                self.writer.end();
+            }
+            // With the results; columns go to arrays.
+            Statement::Return(_) | Statement::Column { .. } => {}
+        }
+    }
+
+    fn call(&mut self, routine: &str, arrays: &[usize]) {
+        let callee = self.flat.routines.named(routine);
+        let is_given = |(_, array): &(&usize, &Array)| array.role == Role::Argument;
+        let (given, filled): (Vec<_>, Vec<_>) = arrays
+            .iter()
+            .zip(&callee.arrays)
+            .filter(|(_, array)| array.role != Role::Zeros)
+            .partition(is_given);
+        let names = |arrays: Vec<(&usize, &Array)>| {
+            arrays.into_iter().map(|(array, _)| self.name(*array)).collect::<Vec<_>>()
+        };
+        let filled_arrays: Vec<usize> = filled.iter().map(|(array, _)| **array).collect();
+        let (given, filled) = (names(given), names(filled));
+        let given: Vec<&str> = ["batch"].into_iter().chain(given).collect();
+        self.writer.lines(&format!("{} = _{routine}({})", filled.join(", "), given.join(", ")));
+        filled_arrays.into_iter().for_each(|array| self.begun[array] = true);
+    }
+
+    /// What is returned: the only result, or all in their order.
+    fn results(&mut self, margin: Option<&str>) {
+        let arrays = self.flat.routine.arrays.iter().enumerate();
+        let results = arrays.filter(|(_, array)| array.role == Role::Result).map(|(index, _)| {
+            match self.flat.len(index) {
+                0 => "np.zeros(batch + (0,))".to_owned(),
+                _ => self.name(index).to_owned(),
+            }
+        });
+        // A margin may be a number of the spec alone.
+        let margin = margin.map(|value| match value {
+            "margin" => value.to_owned(),
+            value => format!("np.broadcast_to({value}, batch)"),
+        });
+        let results: Vec<String> = results.chain(margin).collect();
+        self.writer.lines(&format!("return {}", results.join(", ")));
+    }
+}

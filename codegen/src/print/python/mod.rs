@@ -1,0 +1,161 @@
+//! Python: a module of functions on arrays of NumPy, of which any number of leading axes are configurations.
+//!
+//! Every function is two: one that looks at what it is given, says what is wrong with it and gives arrays the shapes that
+//! NumPy's users expect, and behind it the routine on flat arrays. `functions` prints both, `operators` what expressions are
+//! made of.
+
+mod functions;
+mod operators;
+
+use self::functions::{face, kernel};
+use self::operators::number;
+use super::header::header;
+use super::layout::Writer;
+use super::records::{quoted, records};
+use super::text::{escaped, harmless};
+use crate::expr::Table;
+use crate::program::{Routines, Sums};
+use crate::spec::Spec;
+
+/// The source of a manipulator's module.
+pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
+    let mut writer = Writer::new("");
+    writer.lines("r\"\"\"");
+    header(&mut writer, spec, routines);
+    writer.blank();
+    writer.documentation(
+        "Any number of axes before those of one configuration are configurations, here called `...`. Matrices have their rows \
+         in the last axis but one, as NumPy has them: a pose is `[x_axis y_axis z_axis position]`, 3 rows and 4 columns. \
+         `None` for `s` or `u` takes the nominal values.",
+    );
+    writer.lines("\"\"\"");
+    writer.blank();
+    writer.lines("import numpy as np");
+    writer.blank();
+    comment(&mut writer, "Names, units, limits and nominal values, in the order of the arguments.");
+    writer.begin("description = {");
+    records(&mut writer, &routines.description, quoted, number);
+    writer.end();
+    writer.lines("}");
+    for table in routines.used_tables() {
+        let rows: Vec<String> =
+            table.rows.iter().map(|[first, second]| format!("[{first}, {second}]")).collect();
+        constant(&mut writer, table.documentation, table.name, &rows);
+    }
+    for Sums { name, constants, factors } in routines.used_sums() {
+        let values: Vec<String> = constants.iter().map(|value| number(*value)).collect();
+        constant(&mut writer, "What is constant in each entry.", &format!("{name}_CONSTANTS"), &values);
+        let row =
+            |(entry, term, factor): &(usize, usize, f64)| format!("({entry}, {term}, {})", number(*factor));
+        let rows: Vec<String> = factors.iter().map(row).collect();
+        let what = "Entry, term, and the factor with which the term is added.";
+        constant(&mut writer, what, &format!("{name}_FACTORS"), &rows);
+    }
+    spec.tables.iter().for_each(|table| lookup_table(&mut writer, table));
+    writer.blank();
+    writer.blank();
+    writer.paragraphs(GIVEN);
+    if !spec.tables.is_empty() {
+        writer.blank();
+        writer.blank();
+        writer.paragraphs(LOOK_UP);
+    }
+    for routine in &routines.list {
+        if routine.function.is_some() {
+            face(&mut writer, routines, routine);
+        }
+        kernel(&mut writer, spec, routines, routine);
+    }
+    writer.finish()
+}
+
+/// A function given by points.
+fn lookup_table(writer: &mut Writer, table: &Table) {
+    let lookup = table.lookup();
+    writer.blank();
+    comment(writer, &table.documentation(&escaped(&table.description)));
+    writer.begin(&format!("{} = {{", table.constant_name()));
+    writer.lines(&format!(
+        "\"first\": {}, \"scale\": {}, \"steps\": {},",
+        number(lookup.first),
+        number(lookup.scale),
+        lookup.steps
+    ));
+    let numbers = |values: &[f64]| values.iter().map(|value| number(*value)).collect::<Vec<_>>();
+    let starts: Vec<String> = lookup.starts.iter().map(u32::to_string).collect();
+    writer.array("\"starts\": np.array(", &starts, ", dtype=int),");
+    writer.array("\"knots\": np.array(", &numbers(lookup.knots), "),");
+    let pieces: Vec<String> =
+        lookup.pieces.iter().map(|piece| format!("[{}]", numbers(piece).join(", "))).collect();
+    writer.array("\"pieces\": np.array(", &pieces, "),");
+    writer.end();
+    writer.lines("}");
+}
+
+fn constant(writer: &mut Writer, documentation: &str, name: &str, values: &[String]) {
+    writer.blank();
+    comment(writer, documentation);
+    writer.array(&format!("{name} = "), values, "");
+}
+
+/// A comment of one line or more.
+fn comment(writer: &mut Writer, text: &str) {
+    for line in super::text::wrapped(&harmless(text), 96) {
+        writer.lines(&format!("# {line}"));
+    }
+}
+
+/// What every function does first.
+const GIVEN: &str = r#"
+def _given(**arguments):
+    """The common leading shape of arrays, and each of them flat behind it."""
+    nominal = {
+        "s": [parameter["nominal"] for parameter in description["parameters"]],
+        "u": [value["nominal"] for value in description["inputs"]],
+    }
+    flat = []
+    for name, (array, shape) in arguments.items():
+        array = np.asarray(nominal[name] if array is None else array, dtype=float)
+        leading = array.ndim - len(shape)
+        if leading < 0 or array.shape[leading:] != shape:
+            expected = ", ".join(map(str, ("...", *shape)))
+            raise ValueError(f"{name} has the shape {array.shape}, and ({expected}) is expected")
+        count = int(np.prod(shape))
+        flat.append(array.reshape(array.shape[:leading] + (count,)))
+    for value, record in zip(np.moveaxis(flat[2], -1, 0) if "u" in arguments else [], description["inputs"]):
+        lower, upper = record["range"]
+        if np.any((value < lower) | (value > upper)):
+            raise ValueError(f"input {record['name']} must be in its range, {lower} to {upper}")
+    return np.broadcast_shapes(*(array.shape[:-1] for array in flat)), *flat
+"#;
+
+/// The value of a table or a derivative of it: as `LookupTable` of the crate `abbe`.
+const LOOK_UP: &str = r#"
+def _look_up(table, order, x):
+    """The derivative of that order of a table at x; the table itself if of order 0."""
+    x = np.asarray(x, dtype=float)
+    starts, knots, pieces = table["starts"], table["knots"], table["pieces"]
+    even = starts.size == 0
+    u = (x - table["first"]) * table["scale"]
+    last = (pieces if even else starts).shape[0] - 2
+    nearest = np.minimum(np.maximum(u - 0.5, -1.0), last)
+    # Adding 1.5 * 2^52 rounds to the nearest integer.
+    bucket = np.where(np.isnan(u), 0.0, nearest + 6755399441055744.0 - 6755399441055744.0)
+    piece = bucket.astype(int) + 1
+    t = u - bucket
+    if not even:
+        piece = starts[piece]
+        step = 2 ** (table["steps"] - 1) if table["steps"] else 0
+        while step >= 1:
+            next_one = np.minimum(piece + step, knots.size - 1)
+        piece = np.where((piece + step < knots.size) & (x > knots[next_one]), next_one, piece)
+            step //= 2
+        t = x - knots[piece]
+    a, b, c, d = np.moveaxis(pieces[piece], -1, 0)
+    unit = table["scale"] if even else 1.0
+    if order == 0:
+        return ((d * t + c) * t + b) * t + a
+    if order == 1:
+        return ((3 * d * t + 2 * c) * t + b) * unit
+    return (6 * d * t + 2 * c) * unit**2 if order == 2 else 6 * d * unit**3
+"#;

@@ -1,0 +1,58 @@
+//! What a manipulator is called and has, as records within records.
+
+use abbe::Description;
+
+use super::layout::Writer;
+
+/// Names, units, limits and nominal values; keys and numbers as the language writes them.
+pub(super) fn records(
+    writer: &mut Writer,
+    description: &Description,
+    key: fn(&str) -> String,
+    number: fn(f64) -> String,
+) {
+    let record = |fields: &[(&str, String)]| {
+        let fields = fields.iter().map(|(name, value)| format!("{}: {value}", key(name)));
+        format!("{{ {} }}", fields.collect::<Vec<_>>().join(", "))
+    };
+    let pair = |[lower, upper]: [f64; 2]| format!("[{}, {}]", number(lower), number(upper));
+    let texts = [
+        ("name", &description.name[..]),
+        ("title", &description.title),
+        ("length", description.length.symbol()),
+        ("orientation", description.orientation.name()),
+    ];
+    for (name, text) in texts {
+        writer.lines(&format!("{}: {},", key(name), quoted(text)));
+    }
+    let mut list = |name: &str, entries: Vec<String>| {
+        writer.lines(&format!("{}: [", key(name)));
+        entries.iter().for_each(|entry| writer.lines(&format!("    {entry},")));
+        writer.lines("],");
+    };
+    list("frames", description.frames.iter().map(|frame| quoted(&frame.name)).collect());
+    let variables = description.variables.iter().map(|variable| {
+        let kind = format!("{:?}", variable.kind).to_ascii_lowercase();
+        let (limits, home) = (pair(variable.limits), number(variable.home));
+        let name = quoted(&variable.name);
+        record(&[("name", name), ("kind", quoted(&kind)), ("limits", limits), ("home", home)])
+    });
+    list("variables", variables.collect());
+    let parameters = description.parameters.iter().map(|parameter| {
+        let (name, unit) = (quoted(&parameter.name), quoted(&parameter.unit));
+        record(&[("name", name), ("nominal", number(parameter.nominal)), ("unit", unit)])
+    });
+    list("parameters", parameters.collect());
+    let inputs = description.inputs.iter().map(|input| {
+        let (name, unit) = (quoted(&input.name), quoted(&input.unit));
+        let (nominal, range) = (number(input.nominal), pair(input.range));
+        record(&[("name", name), ("nominal", nominal), ("range", range), ("unit", unit)])
+    });
+    list("inputs", inputs.collect());
+    list("sources", description.sources.iter().map(|source| quoted(&source.name)).collect());
+}
+
+/// A text on one line, between quotation marks.
+pub(super) fn quoted(text: &str) -> String {
+    format!("{:?}", text.replace(char::is_control, " "))
+}
