@@ -69,7 +69,7 @@ fn names_and_values_to_set() {
 fn usage() {
     refused(&["frobnicate"], &["unrecognized subcommand"]);
     refused(&["check"], &["Usage: abbe check"]);
-    refused(&["generate", "pps", "--lang", "matlab"], &["invalid value 'matlab'", "rust"]);
+    refused(&["generate", "pps", "--lang", "fortran"], &["invalid value 'fortran'", "rust"]);
     refused(&["generate", "pps", "--lang", "c"], &["c is written as 2 files", "--out DIR"]);
     refused(&["analyze", "pps", "--outt", "x"], &["--out"]);
 }

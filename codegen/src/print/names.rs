@@ -155,7 +155,11 @@ impl<'s> Names<'s> {
     /// Sine and cosine: `s2` and `c2` of the variable of frame 2, with an offset or without, `sin_x` and `cos_x`
     /// of a parameter x.
     pub(super) fn sine_and_cosine(&mut self, angle: Operand, program: &Program) -> (String, String) {
-        let of = |name: &str| (format!("sin_{name}"), format!("cos_{name}"));
+        // No two underlines next to each other.
+        let of = |name: &str| {
+            let name = name.trim_start_matches('_');
+            (format!("sin_{name}"), format!("cos_{name}"))
+        };
         let (sine, cosine) = match without_offset(angle, program) {
             Operand::Symbol(Symbol::Variable(i)) => {
                 let frame = self.spec.variables[i].frame + 1;

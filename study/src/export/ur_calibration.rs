@@ -118,7 +118,7 @@ fn frames(table: &Table) -> Vec<Pose> {
 }
 
 fn text(found: &Found, origins: &[Pose], metres: f64) -> String {
-    let mut text = format!("# {}, as identified. In m and rad.\nkinematics:\n", found.spec.name);
+    let mut text = format!("# {}. In m and rad.\nkinematics:\n", found.spec.name);
     for ((name, _), origin) in JOINTS.iter().zip(origins) {
         let _ = writeln!(text, "  {name}:");
         for (key, value) in KEYS.iter().zip(numbers(origin, metres)) {

@@ -15,7 +15,7 @@ pub(super) fn write(table: &Table, found: &Found) -> String {
         DhConvention::Modified => ("Modified", "Rx(alpha) Tx(a) Rz(theta) Tz(d)"),
     };
     let mut text = format!(
-        "# {word} DH numbers of {}, as identified: {product}. A joint adds to theta, or to d where it slides\n\
+        "# {word} DH numbers of {}: {product}. A joint adds to theta, or to d where it slides\n\
          joint,kind,sign,theta (rad),d ({unit}),a ({unit}),alpha (rad)\n",
         found.spec.name
     );
