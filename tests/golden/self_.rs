@@ -238,7 +238,7 @@ pub mod self_ {
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_2, cos_2),
                 (sin_3, cos_3),
             ] = T::sin_cos_each([
@@ -263,19 +263,19 @@ pub mod self_ {
                 [r1_13, r1_23, r1_33],
                 [p1_x, p1_y, zero],
             ];
-            let t5 = cos__s * self_;
-            let t6 = sin__s * self_;
-            let t7 = cos__s * cos_2;
-            let t8 = sin__s * cos_2;
-            let t9 = cos__s * sin_2;
-            let t10 = sin__s * sin_2;
+            let t5 = cos_s * self_;
+            let t6 = sin_s * self_;
+            let t7 = cos_s * cos_2;
+            let t8 = sin_s * cos_2;
+            let t9 = cos_s * sin_2;
+            let t10 = sin_s * sin_2;
             let t11 = -sin_2;
             let t12 = cos_2 * cos_3;
             let t13 = cos_2 * sin_3;
-            let t14 = sin_3.mul_sub(t9, sin__s * cos_3);
-            let t15 = cos__s.mul_add(cos_3, sin_3 * t10);
-            let t16 = sin__s.mul_add(sin_3, cos_3 * t9);
-            let t17 = cos_3.mul_sub(t10, cos__s * sin_3);
+            let t14 = sin_3.mul_sub(t9, sin_s * cos_3);
+            let t15 = cos_s.mul_add(cos_3, sin_3 * t10);
+            let t16 = sin_s.mul_add(sin_3, cos_3 * t9);
+            let t17 = cos_3.mul_sub(t10, cos_s * sin_3);
             transforms[1] = [
                 [t7, t8, t11],
                 [t14, t15, t13],
@@ -292,7 +292,7 @@ pub mod self_ {
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_2, cos_2),
                 (sin_3, cos_3),
             ] = T::sin_cos_each([
@@ -309,12 +309,12 @@ pub mod self_ {
             let t5 = cos_1 * cos_r1_11;
             let t6 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let t7 = sin_r1_11 * cos__s;
-            let t8 = sin_r1_11 * sin__s;
-            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
-            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let t7 = sin_r1_11 * cos_s;
+            let t8 = sin_r1_11 * sin_s;
+            let t9 = cos_1.mul_add(cos_s, r1_12 * sin_s);
+            let t10 = sin_1.mul_sub(cos_s, t5 * sin_s);
+            let t11 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
+            let t12 = sin_1.mul_add(sin_s, t5 * cos_s);
             let p2_z = -(t8 * self_);
             let p2_x = t9.mul_add(self_, p1_x);
             let p2_y = t10.mul_add(self_, p1_y);
@@ -380,7 +380,7 @@ pub mod self_ {
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_2, cos_2),
                 (sin_3, cos_3),
             ] = T::sin_cos_each([
@@ -408,12 +408,12 @@ pub mod self_ {
             let r1_13 = -t6;
             columns.along(2, [r1_13, r1_23, r1_33]);
             columns.turn(4, [r1_13, r1_23, r1_33]);
-            let t7 = sin_r1_11 * cos__s;
-            let t8 = sin_r1_11 * sin__s;
-            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
-            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let t7 = sin_r1_11 * cos_s;
+            let t8 = sin_r1_11 * sin_s;
+            let t9 = cos_1.mul_add(cos_s, r1_12 * sin_s);
+            let t10 = sin_1.mul_sub(cos_s, t5 * sin_s);
+            let t11 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
+            let t12 = sin_1.mul_add(sin_s, t5 * cos_s);
             let t13 = t8 * self_;
             let p2_z = -t13;
             let p2_x = t9.mul_add(self_, p1_x);
@@ -475,7 +475,7 @@ pub mod self_ {
             let [
                 (sin_2, cos_2),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_3, cos_3),
                 (sin_4, cos_4),
             ] = T::sin_cos_each([
@@ -492,13 +492,13 @@ pub mod self_ {
             let t6 = cos_2 * cos_r1_11;
             let t7 = sin_2 * sin_r1_11;
             let r1_23 = cos_2 * sin_r1_11;
-            let t8 = sin_r1_11 * cos__s;
-            let t9 = sin_r1_11 * sin__s;
+            let t8 = sin_r1_11 * cos_s;
+            let t9 = sin_r1_11 * sin_s;
             let t10 = -t9;
-            let t11 = cos_2.mul_add(cos__s, r1_12 * sin__s);
-            let t12 = sin_2.mul_sub(cos__s, t6 * sin__s);
-            let t13 = r1_12.mul_sub(cos__s, cos_2 * sin__s);
-            let t14 = sin_2.mul_add(sin__s, t6 * cos__s);
+            let t11 = cos_2.mul_add(cos_s, r1_12 * sin_s);
+            let t12 = sin_2.mul_sub(cos_s, t6 * sin_s);
+            let t13 = r1_12.mul_sub(cos_s, cos_2 * sin_s);
+            let t14 = sin_2.mul_add(sin_s, t6 * cos_s);
             let p2_z = -(t9 * self_);
             let p2_x = t11.mul_add(self_, p1_x);
             let p2_y = t12.mul_add(self_, p1_y);
@@ -553,7 +553,7 @@ pub mod self_ {
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_2, cos_2),
                 (sin_3, cos_3),
             ] = T::sin_cos_each([
@@ -572,12 +572,12 @@ pub mod self_ {
             let t6 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
             let r1_13 = -t6;
-            let t7 = sin_r1_11 * cos__s;
-            let t8 = sin_r1_11 * sin__s;
-            let t9 = cos_1.mul_add(cos__s, r1_12 * sin__s);
-            let t10 = sin_1.mul_sub(cos__s, t5 * sin__s);
-            let t11 = r1_12.mul_sub(cos__s, cos_1 * sin__s);
-            let t12 = sin_1.mul_add(sin__s, t5 * cos__s);
+            let t7 = sin_r1_11 * cos_s;
+            let t8 = sin_r1_11 * sin_s;
+            let t9 = cos_1.mul_add(cos_s, r1_12 * sin_s);
+            let t10 = sin_1.mul_sub(cos_s, t5 * sin_s);
+            let t11 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
+            let t12 = sin_1.mul_add(sin_s, t5 * cos_s);
             let t13 = t8 * self_;
             let p2_z = -t13;
             let p2_x = t9.mul_add(self_, p1_x);
@@ -678,7 +678,7 @@ pub mod self_ {
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_2, cos_2),
                 (sin_3, cos_3),
             ] = T::sin_cos_each([
@@ -688,31 +688,30 @@ pub mod self_ {
                 self_.atan2(q_),
                 Some_.abs().powf(T::constant(2.7)),
             ]);
-            let t4 = cos__s * self_;
-            let t5 = sin__s * self_;
+            let t4 = cos_s * self_;
+            let t5 = sin_s * self_;
             let t6 = cos_3.mul_sub(e2_y, sin_3 * e2_z);
             let t7 = sin_3.mul_add(e2_y, cos_3 * e2_z);
             let t8 = cos_3.mul_sub(e2_s, sin_3 * e2_r);
             let t9 = sin_3.mul_add(e2_s, cos_3 * e2_r);
             let t10 = sin_2.mul_add(t7, cos_2 * e2_x);
             let t11 = sin_2.mul_add(t9, cos_2 * e2_p);
-            let t12 = e1_x + cos__s.mul_sub(t10, sin__s * t6);
-            let t13 = t5.neg_mul_add(e1_r, t12);
-            let t14 = t4.mul_add(e1_r, e1_y + sin__s.mul_add(t10, cos__s * t6));
-            let t15 = e1_z + cos_2.mul_sub(t7, sin_2 * e2_x);
-            let t16 = t5.mul_sub(e1_p, t4 * e1_s) + t15;
-            let t17 = e1_p + cos__s.mul_sub(t11, sin__s * t8);
-            let t18 = e1_s + sin__s.mul_add(t11, cos__s * t8);
-            let t19 = e1_r + cos_2.mul_sub(t9, sin_2 * e2_p);
-            let t20 = sin_r1_11.mul_sub(t16, cos_r1_11 * t14);
-            let t21 = -sin_r1_11.mul_add(t14, cos_r1_11 * t16);
-            let t22 = sin_r1_11.mul_sub(t19, cos_r1_11 * t18);
-            let t23 = -sin_r1_11.mul_add(t18, cos_r1_11 * t19);
-            let t24 = cos_1.mul_sub(t13, sin_1 * t20);
-            let t25 = sin_1.mul_add(t13, cos_1 * t20);
-            let t26 = cos_1.mul_sub(t17, sin_1 * t22);
-            let t27 = sin_1.mul_add(t17, cos_1 * t22);
-            *displacement = [t24, t25, t21, t26, t27, t23];
+            let t12 = t5.neg_mul_add(e1_r, e1_x + cos_s.mul_sub(t10, sin_s * t6));
+            let t13 = t4.mul_add(e1_r, e1_y + sin_s.mul_add(t10, cos_s * t6));
+            let t14 = e1_z + cos_2.mul_sub(t7, sin_2 * e2_x);
+            let t15 = t5.mul_sub(e1_p, t4 * e1_s) + t14;
+            let t16 = e1_p + cos_s.mul_sub(t11, sin_s * t8);
+            let t17 = e1_s + sin_s.mul_add(t11, cos_s * t8);
+            let t18 = e1_r + cos_2.mul_sub(t9, sin_2 * e2_p);
+            let t19 = sin_r1_11.mul_sub(t15, cos_r1_11 * t13);
+            let t20 = -sin_r1_11.mul_add(t13, cos_r1_11 * t15);
+            let t21 = sin_r1_11.mul_sub(t18, cos_r1_11 * t17);
+            let t22 = -sin_r1_11.mul_add(t17, cos_r1_11 * t18);
+            let t23 = cos_1.mul_sub(t12, sin_1 * t19);
+            let t24 = sin_1.mul_add(t12, cos_1 * t19);
+            let t25 = cos_1.mul_sub(t16, sin_1 * t21);
+            let t26 = sin_1.mul_add(t16, cos_1 * t21);
+            *displacement = [t23, t24, t20, t25, t26, t22];
         }
 
         /// `J_e diag(σ²) J_eᵀ`, column-major, for the variance of each error of each frame, in the
@@ -733,7 +732,7 @@ pub mod self_ {
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_2, cos_2),
                 (sin_3, cos_3),
             ] = T::sin_cos_each([
@@ -743,8 +742,8 @@ pub mod self_ {
                 self_.atan2(q_),
                 Some_.abs().powf(T::constant(2.7)),
             ]);
-            let t4 = cos__s * self_;
-            let t5 = sin__s * self_;
+            let t4 = cos_s * self_;
+            let t5 = sin_s * self_;
             let t6 = t5 * v1_r;
             let t7 = t4 * v1_r;
             let t8 = t5 * v1_p;
@@ -775,16 +774,16 @@ pub mod self_ {
             let t33 = t22 * t32;
             let t34 = t20 - t33;
             let t35 = t23 * t32;
-            let t36 = cos__s * cos__s;
-            let t37 = sin__s * cos__s;
+            let t36 = cos_s * cos_s;
+            let t37 = sin_s * cos_s;
             let t38 = t36 + t36 - T::constant(1.0);
             let t39 = t37 + t37;
-            let t40 = cos__s.mul_sub(t29, sin__s * t24);
-            let t41 = sin__s.mul_add(t29, cos__s * t24);
+            let t40 = cos_s.mul_sub(t29, sin_s * t24);
+            let t41 = sin_s.mul_add(t29, cos_s * t24);
             let t42 = t28 - t14;
             let t43 = t36.mul_sub(t42, t25 * t39);
-            let t44 = cos__s.mul_sub(t35, sin__s * t30);
-            let t45 = sin__s.mul_add(t35, cos__s * t30);
+            let t44 = cos_s.mul_sub(t35, sin_s * t30);
+            let t45 = sin_s.mul_add(t35, cos_s * t30);
             let t46 = t34 - t19;
             let t47 = t36.mul_sub(t46, t31 * t39);
             let t48 = t37.mul_add(t46, t31 * t38);
@@ -886,16 +885,16 @@ pub mod self_ {
             let [
                 (sin_1, cos_1),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_2, cos_2),
             ] = T::sin_cos_each([None_.mul_add(T, Some_), r1_11, _s, self_.atan2(q_)]);
             let r1_12 = sin_1 * cos_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let t3 = cos_1.mul_add(cos__s, r1_12 * sin__s) * cos_2;
+            let t3 = cos_1.mul_add(cos_s, r1_12 * sin_s) * cos_2;
             let r2_11 = (sin_1 * sin_r1_11).mul_add(sin_2, t3);
-            let t4 = sin_1.mul_sub(cos__s, cos_1 * cos_r1_11 * sin__s);
+            let t4 = sin_1.mul_sub(cos_s, cos_1 * cos_r1_11 * sin_s);
             let r2_21 = t4.mul_sub(cos_2, r1_23 * sin_2);
-            let r2_31 = cos_r1_11.mul_sub(sin_2, sin_r1_11 * sin__s * cos_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, sin_r1_11 * sin_s * cos_2);
             let t5 = u_ * (q_ * (q_ * q_)) / (T::constant(3.0) * EI) * t1.sqrt();
             let t6 = zero_.mul_add(T::constant(1e-6), t5 / q_);
             let t7 = T::constant(1e-6) * pose_;
@@ -944,7 +943,7 @@ pub mod self_ {
             let [
                 (sin_4, cos_4),
                 (sin_r1_11, cos_r1_11),
-                (sin__s, cos__s),
+                (sin_s, cos_s),
                 (sin_5, cos_5),
                 (sin_6, cos_6),
                 (sin_7, cos_7),
@@ -963,12 +962,12 @@ pub mod self_ {
             let t9 = cos_4 * cos_r1_11;
             let t10 = sin_4 * sin_r1_11;
             let r1_23 = cos_4 * sin_r1_11;
-            let t11 = sin_r1_11 * cos__s;
-            let t12 = sin_r1_11 * sin__s;
-            let t13 = cos_4.mul_add(cos__s, r1_12 * sin__s);
-            let t14 = sin_4.mul_sub(cos__s, t9 * sin__s);
-            let t15 = r1_12.mul_sub(cos__s, cos_4 * sin__s);
-            let t16 = sin_4.mul_add(sin__s, t9 * cos__s);
+            let t11 = sin_r1_11 * cos_s;
+            let t12 = sin_r1_11 * sin_s;
+            let t13 = cos_4.mul_add(cos_s, r1_12 * sin_s);
+            let t14 = sin_4.mul_sub(cos_s, t9 * sin_s);
+            let t15 = r1_12.mul_sub(cos_s, cos_4 * sin_s);
+            let t16 = sin_4.mul_add(sin_s, t9 * cos_s);
             let p2_x = t13.mul_add(self_, p1_x);
             let p2_y = t14.mul_add(self_, p1_y);
             let t17 = t13.mul_sub(sin_5, t10 * cos_5);

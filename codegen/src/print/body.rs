@@ -67,9 +67,11 @@ pub(super) fn body(
         text: writer.output(*output),
         ready: match output {
             Operand::Register(register) => ready[*register],
-            // Numbers get their names first.
-            Operand::Constant(_) => writer.numbers.len(),
-            Operand::Symbol(_) => 0,
+            // Numbers get their names first, if they get one.
+            Operand::Constant(value) if program.numbers.iter().any(|(named, _)| named == value) => {
+                writer.numbers.len()
+            }
+            Operand::Constant(_) | Operand::Symbol(_) => 0,
         },
         is_zero: *output == Operand::Constant(0.0),
     };
