@@ -154,8 +154,9 @@ fn whoever_is_killed_leaves_whole_files_and_the_next_run_nothing() {
             assert!(ended && number == 9, "{}: {name}: a set in halves", victim.line);
             mixed += 1;
         }
-        let found = contents(victim.workshop.0.path()).len() - victim.forms[0].len();
-        assert!(found == 0 || number == 9, "{}: {name} leaves something", victim.line);
+        let now = contents(victim.workshop.0.path());
+        let found = now.len() - victim.forms[0].len();
+        assert!(found == 0 || number == 9, "{}: {name}: {status} leaves {:?}", victim.line, now.keys());
         left += usize::from(found > 0);
         if after.is_none() {
             victim.write_something_else();
