@@ -6,8 +6,9 @@ use crate::output::temporary::Begun;
 
 /// Ends the process with that status, without what was begun.
 fn end(status: i32) -> ! {
-    // Held to the end: no other file is begun, and files that are going to their places are there.
-    Begun::hold().clear();
+    // Held to the end, by a name: no other file is begun, and files that are going to their places are there.
+    let begun = Begun::hold();
+    begun.clear();
     process::exit(status)
 }
 
@@ -51,4 +52,54 @@ pub(crate) fn clean_up_on_signals() {
     const INTERRUPTED: i32 = 130;
     // Without a handler the files stay behind as temporary ones; nothing else is lost.
     let _ = ctrlc::set_handler(|| end(INTERRUPTED));
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::process::{Command, Stdio};
+    use std::thread;
+    use std::time::Duration;
+
+    use super::*;
+    use crate::output::temporary;
+
+    /// In whose folder the process of this name is to work until it ends.
+    const WORKING: &str = "ABBE_TEST_WORKING";
+
+    const STATUS: i32 = 143;
+
+    #[test]
+    fn work_until_the_end() {
+        let Some(folder) = std::env::var_os(WORKING) else { return };
+        for name in ["a", "b", "c", "d"] {
+            let folder = std::path::PathBuf::from(&folder);
+            // As commands do until they hear of the end.
+            thread::spawn(move || {
+                loop {
+                    let _ = temporary::folder(&folder.join(name).join("inner"));
+                    let _ = temporary::file(&folder, None);
+                }
+            });
+        }
+        thread::sleep(Duration::from_millis(30));
+        end(STATUS);
+    }
+
+    #[test]
+    fn nothing_is_begun_after_the_end() {
+        for round in 0..20 {
+            let folder = tempfile::tempdir().unwrap();
+            let status = Command::new(std::env::current_exe().unwrap())
+                .args(["interrupt::tests::work_until_the_end", "--exact"])
+                .env(WORKING, folder.path())
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .status();
+            assert_eq!(status.unwrap().code(), Some(STATUS));
+            let left: Vec<_> =
+                fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.path()).collect();
+            assert!(left.is_empty(), "round {round}: {left:?}");
+        }
+    }
 }

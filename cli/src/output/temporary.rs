@@ -62,7 +62,7 @@ fn named<T>(
 }
 
 /// A new file: with the permissions of the one that it will replace, or else of any other file, not those of a secret.
-pub(super) fn file(folder: &Path, old: Option<&Metadata>) -> io::Result<NamedTempFile<File>> {
+pub(crate) fn file(folder: &Path, old: Option<&Metadata>) -> io::Result<NamedTempFile<File>> {
     let mut options = File::options();
     options.write(true).create_new(true);
     #[cfg(unix)]
@@ -111,18 +111,22 @@ fn alike(file: &File, old: &Metadata) {
 }
 
 /// Makes a folder and those above it.
-pub(super) fn folder(path: &Path) -> io::Result<Folders> {
+pub(crate) fn folder(path: &Path) -> io::Result<Folders> {
     let missing = path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
     let mut made: Vec<PathBuf> = missing.map(Path::to_owned).collect();
     made.reverse();
-    Begun::hold().folders.extend(made.iter().cloned());
     let folders = Folders(made);
-    fs::create_dir_all(path).map(|()| folders)
+    let mut begun = Begun::hold();
+    begun.folders.extend(folders.0.iter().cloned());
+    let made = fs::create_dir_all(path);
+    // Those that were made for nothing ask for it.
+    drop(begun);
+    made.map(|()| folders)
 }
 
 /// Folders that were made, from the outermost on. Those that are still empty in the end are taken away.
 #[derive(Debug)]
-pub(super) struct Folders(Vec<PathBuf>);
+pub(crate) struct Folders(Vec<PathBuf>);
 
 impl Drop for Folders {
     fn drop(&mut self) {

@@ -13,27 +13,12 @@ use std::time::{Duration, Instant};
 
 use tempfile::tempdir;
 
-use crate::running::{command, prints, shipped, write};
+use crate::running::{UR5_MAP, command, prints, shipped, write};
 
 /// When it is interrupted.
 const WORKED: Duration = Duration::from_millis(1500);
 /// When it must be gone.
 const GONE: Duration = Duration::from_secs(5);
-
-const MAP: &str = r#"
-[data]
-uncertainty = "0.02 mm"
-[joints]
-q1 = { column = "q1", unit = "rad" }
-q2 = { column = "q2", unit = "rad" }
-q3 = { column = "q3", unit = "rad" }
-q4 = { column = "q4", unit = "rad" }
-q5 = { column = "q5", unit = "rad" }
-q6 = { column = "q6", unit = "rad" }
-[point]
-columns = ["x", "y", "z"]
-unit = "mm"
-"#;
 
 /// Rows of the shipped UR5, the same again and again but for their last joint and a little noise.
 fn rows(folder: &Path, map: &Path, count: usize) -> String {
@@ -79,7 +64,7 @@ fn interrupt(mut child: Child, name: &str) {
 #[test]
 fn whoever_is_interrupted_is_gone_at_once() {
     let folder = tempdir().unwrap();
-    let map = write(folder.path(), "map.toml", MAP);
+    let map = write(folder.path(), "map.toml", UR5_MAP);
     let rows = rows(folder.path(), &map, 600_000);
     let study = "[study]\ntitle = \"many\"\n[workspace.random]\nsamples = 100000000\n";
     let study = write(folder.path(), "study.toml", study);
@@ -110,7 +95,7 @@ fn whoever_is_interrupted_is_gone_at_once() {
 #[test]
 fn a_pipe_that_never_ends_is_no_prison() {
     let folder = tempdir().unwrap();
-    let map = write(folder.path(), "map.toml", MAP);
+    let map = write(folder.path(), "map.toml", UR5_MAP);
     let mut command = command(&["measure", "ur5", "/dev/stdin", "--map", map.to_str().unwrap()]);
     let mut child =
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();

@@ -10,25 +10,10 @@ use std::time::Duration;
 
 use tempfile::tempdir;
 
-use crate::running::{command, prints, shipped, write};
+use crate::running::{UR5_MAP, command, prints, shipped, write};
 
 /// Rows of the two files.
 const ROWS: [usize; 2] = [5_000, 45_000];
-
-const MAP: &str = r#"
-[data]
-uncertainty = "0.02 mm"
-[joints]
-q1 = { column = "q1", unit = "rad" }
-q2 = { column = "q2", unit = "rad" }
-q3 = { column = "q3", unit = "rad" }
-q4 = { column = "q4", unit = "rad" }
-q5 = { column = "q5", unit = "rad" }
-q6 = { column = "q6", unit = "rad" }
-[point]
-columns = ["x", "y", "z"]
-unit = "mm"
-"#;
 
 /// The most memory that a command had while it was looked at, which is nearly until its end: bytes.
 fn peak(words: &[&str]) -> f64 {
@@ -83,7 +68,7 @@ fn visited_again(folder: &Path, rows: usize) -> String {
 #[test]
 fn rows_are_small() {
     let folder = tempdir().unwrap();
-    let map = write(folder.path(), "map.toml", MAP);
+    let map = write(folder.path(), "map.toml", UR5_MAP);
     let spec = write(folder.path(), "arm.toml", shipped("ur5"));
     let [map, spec] = [&map, &spec].map(|path| path.to_str().unwrap());
     let out = folder.path().join("out.csv");
@@ -100,7 +85,7 @@ fn rows_are_small() {
     let samples = of_a_row(|rows| {
         own(&["simulate", spec, "--map", map, "--samples", &rows.to_string(), "--out", out, "--force"])
     });
-    let days = MAP.replace("[data]\n", "[data]\ntime = \"day\"\n");
+    let days = UR5_MAP.replace("[data]\n", "[data]\ntime = \"day\"\n");
     let days = write(folder.path(), "days.toml", &days).to_str().unwrap().to_owned();
     let checked =
         of_a_row(|rows| own(&["monitor", spec, &visited_again(folder.path(), rows), "--map", &days]));

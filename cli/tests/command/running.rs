@@ -62,6 +62,23 @@ pub(crate) fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
     path
 }
 
+/// A map of the shipped UR5 whose columns are called as its variables.
+#[cfg(unix)]
+pub(crate) const UR5_MAP: &str = r#"
+[data]
+uncertainty = "0.02 mm"
+[joints]
+q1 = { column = "q1", unit = "rad" }
+q2 = { column = "q2", unit = "rad" }
+q3 = { column = "q3", unit = "rad" }
+q4 = { column = "q4", unit = "rad" }
+q5 = { column = "q5", unit = "rad" }
+q6 = { column = "q6", unit = "rad" }
+[point]
+columns = ["x", "y", "z"]
+unit = "mm"
+"#;
+
 /// A shipped spec.
 pub(crate) fn shipped(name: &str) -> &'static str {
     let shipped = abbe_manipulators::SHIPPED.iter().find(|shipped| shipped.name == name);

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::expr::{Function, Lookup};
 use crate::program::Action;
 
 /// How strongly the outermost operator of an expression binds.
@@ -53,6 +54,17 @@ impl Expression {
         Self { text, binding, is_name: false }
     }
 
+    /// A number as the language writes it.
+    pub(super) fn number(text: String, value: f64) -> Self {
+        Self::new(text, if value.is_sign_negative() { Binding::Sign } else { Binding::Atom })
+    }
+
+    /// `name(first, second, …)`.
+    pub(super) fn call(name: &str, operands: &[Self]) -> Self {
+        let arguments: Vec<&str> = operands.iter().map(|operand| operand.text.as_str()).collect();
+        Self::new(format!("{name}({})", arguments.join(", ")), Binding::Atom)
+    }
+
     pub(super) fn name(text: String) -> Self {
         Self { text, binding: Binding::Atom, is_name: true }
     }
@@ -74,4 +86,39 @@ pub(super) fn infix(a: &Expression, sign: &str, b: &Expression) -> Expression {
         _ => (Binding::Product, Binding::Sign),
     };
     Expression::new(format!("{} {sign} {}", a.at_least(own), b.at_least(right)), own)
+}
+
+/// An action that is a function.
+pub(super) enum Called {
+    Power,
+    Atan2,
+    Least,
+    Greatest,
+    Function(Function),
+    Lookup(Lookup),
+}
+
+/// What is written with signs between operands, in languages without operators of their own for sums of products; what is not,
+/// is called.
+pub(super) fn arithmetic(action: Action, operands: &[Expression]) -> Result<Expression, Called> {
+    let product = || infix(&operands[0], "*", &operands[1]);
+    Ok(match action {
+        // No two signs next to each other: that would be a decrement.
+        Action::Neg(_) => Expression::new(format!("-{}", operands[0].at_least(Binding::Atom)), Binding::Sign),
+        Action::Add(..) => infix(&operands[0], "+", &operands[1]),
+        Action::Sub(..) => infix(&operands[0], "-", &operands[1]),
+        Action::Mul(..) => product(),
+        Action::Div(..) => infix(&operands[0], "/", &operands[1]),
+        Action::MulAdd(..) => infix(&product(), "+", &operands[2]),
+        Action::MulSub(..) => infix(&product(), "-", &operands[2]),
+        Action::NegMulAdd(..) => infix(&operands[2], "-", &product()),
+        Action::Pow(..) => return Err(Called::Power),
+        Action::Atan2(..) => return Err(Called::Atan2),
+        Action::Min(..) => return Err(Called::Least),
+        Action::Max(..) => return Err(Called::Greatest),
+        Action::Call(function, _) => return Err(Called::Function(function)),
+        Action::Lookup(lookup, _) => return Err(Called::Lookup(lookup)),
+        // Pairs are statements of their own.
+        Action::SinCos(_) => return Err(Called::Function(Function::Sin)),
+    })
 }

@@ -85,14 +85,15 @@ pub fn optimal(
     Ok(best.and_then(|(_, chosen, exchanges)| search.design(chosen, exchanges)))
 }
 
-/// A list as it is: every configuration once.
+/// A list as it is: every configuration once; `progress` is told how many are evaluated, of how many.
 pub fn whole(
     model: &Model,
     list: &[Observation],
     identifiable: &Identifiable,
     objective: &Objective<'_>,
+    progress: &mut dyn FnMut(usize, usize),
 ) -> Result<Option<Design>, Failure> {
-    let search = Search::new(model, list, identifiable, objective, &mut |_, _| {})?;
+    let search = Search::new(model, list, identifiable, objective, progress)?;
     Ok(search.design((0..list.len()).collect(), 0))
 }
 

@@ -94,9 +94,15 @@ impl Plan {
             return Err(mistake::with_help(&machine.origin, message, "plan more of them"));
         };
         let own = self.model_error;
-        // What these rows tell, as an identification will judge it.
-        let observed = determined(&model, &rows).map_err(fail)?;
-        let told = whole(&model, &rows, &observed, &objective).map_err(fail)?;
+        // What these rows tell, as an identification will judge it: sets were not chosen from anything else.
+        let (observed, told) = match &self.choice {
+            Choice::Sets(_) => (identifiable.clone(), Some(design.clone())),
+            Choice::Optimal { .. } => {
+                let observed = determined(&model, &rows).map_err(fail)?;
+                let told = whole(&model, &rows, &observed, &objective, &mut |_, _| {}).map_err(fail)?;
+                (observed, told)
+            }
+        };
         let (judged, covariance) = match &told {
             Some(told) => (&observed, &told.covariance),
             None => (&identifiable, &design.covariance),
@@ -167,7 +173,8 @@ impl Plan {
                 let rows = self.map.in_sequence(self.aimed(setup, rows.collect())?);
                 let rows = seen_nominally(model, rows.into_iter()).map_err(fail)?;
                 let identifiable = determined(model, &rows).map_err(fail)?;
-                let design = whole(model, &rows, &identifiable, &objective).map_err(fail)?;
+                let progress = &mut |done, total| notes.progress(done, total);
+                let design = whole(model, &rows, &identifiable, &objective, progress).map_err(fail)?;
                 Ok(Chosen { title: sets.title.clone(), sets: counts, rows, identifiable, design })
             }
             Choice::Optimal { criterion, count, candidates } => {

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use abbe::Function;
 
 use crate::expr::{Function as Operator, Lookup};
-use crate::print::expression::{Binding, Expression, Syntax, infix};
+use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 use crate::spec::Spec;
 
@@ -38,8 +38,7 @@ impl Syntax for C<'_> {
     }
 
     fn number(&self, value: f64) -> Expression {
-        let binding = if value.is_sign_negative() { Binding::Sign } else { Binding::Atom };
-        Expression::new(number(value), binding)
+        Expression::number(number(value), value)
     }
 
     fn zero_and_one(&self) -> [&'static str; 2] {
@@ -47,37 +46,21 @@ impl Syntax for C<'_> {
     }
 
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
-        let call = |name: &str| {
-            let arguments: Vec<&str> = operands.iter().map(|operand| operand.text.as_str()).collect();
-            Expression::new(format!("{name}({})", arguments.join(", ")), Binding::Atom)
-        };
-        let product = || infix(&operands[0], "*", &operands[1]);
-        match action {
-            // No two signs next to each other: that would be a decrement.
-            Action::Neg(_) => {
-                Expression::new(format!("-{}", operands[0].at_least(Binding::Atom)), Binding::Sign)
-            }
-            Action::Add(..) => infix(&operands[0], "+", &operands[1]),
-            Action::Sub(..) => infix(&operands[0], "-", &operands[1]),
-            Action::Mul(..) => product(),
-            Action::Div(..) => infix(&operands[0], "/", &operands[1]),
-            Action::MulAdd(..) => infix(&product(), "+", &operands[2]),
-            Action::MulSub(..) => infix(&product(), "-", &operands[2]),
-            Action::NegMulAdd(..) => infix(&operands[2], "-", &product()),
-            Action::Pow(..) => call("pow"),
-            Action::Atan2(..) => call("atan2"),
-            Action::Min(..) => call("least"),
-            Action::Max(..) => call("greater"),
-            Action::Call(Operator::Abs, _) => call("fabs"),
-            Action::Call(Operator::Sin, _) => call("sine"),
-            Action::Call(Operator::Cos, _) => call("cosine"),
-            Action::Call(function, _) => call(function.name()),
-            Action::Lookup(Lookup { table, order }, _) => {
+        let call = |name: &str| Expression::call(name, operands);
+        arithmetic(action, operands).unwrap_or_else(|called| match called {
+            Called::Power => call("pow"),
+            Called::Atan2 => call("atan2"),
+            Called::Least => call("least"),
+            Called::Greatest => call("greater"),
+            Called::Function(Operator::Abs) => call("fabs"),
+            Called::Function(Operator::Sin) => call("sine"),
+            Called::Function(Operator::Cos) => call("cosine"),
+            Called::Function(function) => call(function.name()),
+            Called::Lookup(Lookup { table, order }) => {
                 let (name, x) = (self.0.tables[usize::from(table)].constant_name(), &operands[0].text);
                 Expression::new(format!("look_up(&{name}, {order}, {x})"), Binding::Atom)
             }
-            Action::SinCos(_) => call("sine"),
-        }
+        })
     }
 }
 

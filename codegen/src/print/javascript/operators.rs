@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::expr::{Function, Lookup, Table};
-use crate::print::expression::{Binding, Expression, Syntax, infix};
+use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 
 /// With the spec's tables, which are constants.
@@ -23,8 +23,7 @@ impl Syntax for JavaScript<'_> {
     }
 
     fn number(&self, value: f64) -> Expression {
-        let binding = if value.is_sign_negative() { Binding::Sign } else { Binding::Atom };
-        Expression::new(number(value), binding)
+        Expression::number(number(value), value)
     }
 
     fn zero_and_one(&self) -> [&'static str; 2] {
@@ -32,39 +31,23 @@ impl Syntax for JavaScript<'_> {
     }
 
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
-        let call = |name: &str| {
-            let arguments: Vec<&str> = operands.iter().map(|operand| operand.text.as_str()).collect();
-            Expression::new(format!("Math.{name}({})", arguments.join(", ")), Binding::Atom)
-        };
-        let product = || infix(&operands[0], "*", &operands[1]);
-        match action {
-            // No two signs next to each other: that would be a decrement.
-            Action::Neg(_) => {
-                Expression::new(format!("-{}", operands[0].at_least(Binding::Atom)), Binding::Sign)
-            }
-            Action::Add(..) => infix(&operands[0], "+", &operands[1]),
-            Action::Sub(..) => infix(&operands[0], "-", &operands[1]),
-            Action::Mul(..) => product(),
-            Action::Div(..) => infix(&operands[0], "/", &operands[1]),
-            Action::MulAdd(..) => infix(&product(), "+", &operands[2]),
-            Action::MulSub(..) => infix(&product(), "-", &operands[2]),
-            Action::NegMulAdd(..) => infix(&operands[2], "-", &product()),
-            Action::Pow(..) => call("pow"),
-            Action::Atan2(..) => call("atan2"),
-            Action::Min(..) => call("min"),
-            Action::Max(..) => call("max"),
+        let call = |name: &str| Expression::call(&format!("Math.{name}"), operands);
+        arithmetic(action, operands).unwrap_or_else(|called| match called {
+            Called::Power => call("pow"),
+            Called::Atan2 => call("atan2"),
+            Called::Least => call("min"),
+            Called::Greatest => call("max"),
             // Where Math.sign(-0) is -0, this is 1.
-            Action::Call(Function::Side, _) => {
+            Called::Function(Function::Side) => {
                 let text = format!("{} >= 0 ? 1 : -1", operands[0].at_least(Binding::Atom));
                 Expression::new(text, Binding::Choice)
             }
-            Action::Call(function, _) => call(function.name()),
-            Action::Lookup(Lookup { table, order }, _) => {
+            Called::Function(function) => call(function.name()),
+            Called::Lookup(Lookup { table, order }) => {
                 let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
                 Expression::new(format!("lookup({name}, {order}, {x})"), Binding::Atom)
             }
-            Action::SinCos(_) => call("sin"),
-        }
+        })
     }
 }
 

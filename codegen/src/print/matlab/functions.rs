@@ -29,8 +29,7 @@ pub(super) fn function(
     let (name, arguments) = (routine.name, arguments.join(", "));
     writer.begin(&format!("function [{}] = {name}({arguments})", results.join(", ")));
     documentation(writer, routines, routine);
-    let mut printer =
-        Printer { writer, class, flat: Flat { routines, routine }, begun: vec![false; routine.arrays.len()] };
+    let mut printer = Printer { writer, class, flat: Flat { routines, routine } };
     printer.begin();
     list.iter().for_each(|statement| printer.statement(statement));
     printer.end();
@@ -73,8 +72,6 @@ struct Printer<'p> {
     writer: &'p mut Writer,
     class: &'p str,
     flat: Flat<'p>,
-    /// Which arrays are there already.
-    begun: Vec<bool>,
 }
 
 impl Printer<'_> {
@@ -128,7 +125,6 @@ impl Printer<'_> {
     }
 
     fn declare(&mut self, array: usize) {
-        self.begun[array] = true;
         self.writer.lines(&format!("{} = zeros(1, {});", self.name(array), self.flat.len(array)));
     }
 
@@ -156,7 +152,8 @@ impl Printer<'_> {
                 self.writer.lines(&format!("{} = {};", self.name(*to), self.part(*from)));
             }
             Statement::Assign { to, index, values, fresh } => {
-                if *fresh && !self.begun[to.array] {
+                // What is fresh has one row.
+                if *fresh {
                     self.declare(to.array);
                 }
                 let began = *fresh || self.flat.routine.arrays[to.array].role == Role::Result;
@@ -203,7 +200,6 @@ impl Printer<'_> {
         };
         let (results, class) = (names(&filled), self.class);
         self.writer.lines(&format!("[{results}] = {class}.{routine}({});", names(&given)));
-        filled.iter().for_each(|(array, _)| self.begun[**array] = true);
     }
 
     /// Results become matrices.

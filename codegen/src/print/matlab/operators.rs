@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::expr::{Function, Lookup};
-use crate::print::expression::{Binding, Expression, Syntax, infix};
+use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 use crate::spec::Spec;
 
@@ -34,8 +34,7 @@ impl Syntax for Matlab<'_> {
     }
 
     fn number(&self, value: f64) -> Expression {
-        let binding = if value.is_sign_negative() { Binding::Sign } else { Binding::Atom };
-        Expression::new(number(value), binding)
+        Expression::number(number(value), value)
     }
 
     fn zero_and_one(&self) -> [&'static str; 2] {
@@ -43,46 +42,27 @@ impl Syntax for Matlab<'_> {
     }
 
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
-        let call = |name: &str| {
-            let arguments: Vec<&str> = operands.iter().map(|operand| operand.text.as_str()).collect();
-            Expression::new(format!("{name}({})", arguments.join(", ")), Binding::Atom)
-        };
+        let call = |name: &str| Expression::call(name, operands);
         let own = |name: &str| call(&format!("{}.{name}", self.class));
         // Where there is no real value it is NaN, as everywhere else, and no complex number.
-        let real = |name: &str| {
-            let inner = call(name).text;
-            Expression::new(format!("{}.only_real({inner})", self.class), Binding::Atom)
-        };
-        let product = || infix(&operands[0], "*", &operands[1]);
-        match action {
-            Action::Neg(_) => {
-                Expression::new(format!("-{}", operands[0].at_least(Binding::Atom)), Binding::Sign)
-            }
-            Action::Add(..) => infix(&operands[0], "+", &operands[1]),
-            Action::Sub(..) => infix(&operands[0], "-", &operands[1]),
-            Action::Mul(..) => product(),
-            Action::Div(..) => infix(&operands[0], "/", &operands[1]),
-            Action::MulAdd(..) => infix(&product(), "+", &operands[2]),
-            Action::MulSub(..) => infix(&product(), "-", &operands[2]),
-            Action::NegMulAdd(..) => infix(&operands[2], "-", &product()),
-            Action::Pow(..) => real("power"),
-            Action::Atan2(..) => call("atan2"),
-            Action::Min(..) => own("least"),
-            Action::Max(..) => own("greatest"),
-            Action::Call(Function::Side, _) => own("side"),
-            Action::Call(Function::Sqrt | Function::Asin | Function::Acos | Function::Log, _) => {
-                let Action::Call(function, _) = action else { unreachable!("it is a call") };
-                real(function.name())
-            }
-            Action::Call(function, _) => call(function.name()),
-            Action::Lookup(Lookup { table, order }, _) => {
-                let name = self.spec.tables[usize::from(table)].constant_name();
-                let (name, x) = (spelled(&name), &operands[0].text);
+        let real = |name: &str| Expression::call(&format!("{}.only_real", self.class), &[call(name)]);
+        arithmetic(action, operands).unwrap_or_else(|called| match called {
+            Called::Power => real("power"),
+            Called::Atan2 => call("atan2"),
+            Called::Least => own("least"),
+            Called::Greatest => own("greatest"),
+            Called::Function(Function::Side) => own("side"),
+            Called::Function(
+                function @ (Function::Sqrt | Function::Asin | Function::Acos | Function::Log),
+            ) => real(function.name()),
+            Called::Function(function) => call(function.name()),
+            Called::Lookup(Lookup { table, order }) => {
+                let name = spelled(&self.spec.tables[usize::from(table)].constant_name());
+                let x = &operands[0].text;
                 let text = format!("{0}.look_up({0}.{name}, {order}, {x})", self.class);
                 Expression::new(text, Binding::Atom)
             }
-            Action::SinCos(_) => call("sin"),
-        }
+        })
     }
 }
 

@@ -102,8 +102,7 @@ pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, rout
         writer.documentation(routine.documentation);
         writer.lines("\"\"\"");
     }
-    let mut printer =
-        Printer { writer, flat: Flat { routines, routine }, begun: vec![false; routine.arrays.len()] };
+    let mut printer = Printer { writer, flat: Flat { routines, routine } };
     list.iter().for_each(|statement| printer.statement(statement));
     let margin = list.iter().find_map(|statement| match statement {
         Statement::Return(value) => Some(value.as_str()),
@@ -116,8 +115,6 @@ pub(super) fn kernel(writer: &mut Writer, spec: &Spec, routines: &Routines, rout
 struct Printer<'p> {
     writer: &'p mut Writer,
     flat: Flat<'p>,
-    /// Which arrays are there already.
-    begun: Vec<bool>,
 }
 
 impl Printer<'_> {
@@ -142,7 +139,6 @@ impl Printer<'_> {
     }
 
     fn declare(&mut self, array: usize) {
-        self.begun[array] = true;
         self.writer.lines(&format!("{} = np.zeros(batch + ({},))", self.name(array), self.flat.len(array)));
     }
 
@@ -172,7 +168,8 @@ impl Printer<'_> {
                 self.writer.lines(&format!("{}[...] = {}", self.name(*to), self.part(*from)));
             }
             Statement::Assign { to, index, values, fresh } => {
-                if *fresh && !self.begun[to.array] {
+                // What is fresh has one row.
+                if *fresh {
                     self.declare(to.array);
                 }
                 // It began as zeros, and what a loop may have written is not zero always.
@@ -223,11 +220,9 @@ impl Printer<'_> {
         let names = |arrays: Vec<(&usize, &Array)>| {
             arrays.into_iter().map(|(array, _)| self.name(*array)).collect::<Vec<_>>()
         };
-        let filled_arrays: Vec<usize> = filled.iter().map(|(array, _)| **array).collect();
         let (given, filled) = (names(given), names(filled));
         let given: Vec<&str> = ["batch"].into_iter().chain(given).collect();
         self.writer.lines(&format!("{} = _{routine}({})", filled.join(", "), given.join(", ")));
-        filled_arrays.into_iter().for_each(|array| self.begun[array] = true);
     }
 
     /// What is returned: the only result, or all in their order.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::expr::{Function, Lookup, Table};
-use crate::print::expression::{Binding, Expression, Syntax, infix};
+use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 
 /// With the spec's tables, which are constants.
@@ -20,8 +20,7 @@ impl Syntax for Python<'_> {
     }
 
     fn number(&self, value: f64) -> Expression {
-        let binding = if value.is_sign_negative() { Binding::Sign } else { Binding::Atom };
-        Expression::new(number(value), binding)
+        Expression::number(number(value), value)
     }
 
     fn zero_and_one(&self) -> [&'static str; 2] {
@@ -29,41 +28,26 @@ impl Syntax for Python<'_> {
     }
 
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
-        let call = |name: &str| {
-            let arguments: Vec<&str> = operands.iter().map(|operand| operand.text.as_str()).collect();
-            Expression::new(format!("np.{name}({})", arguments.join(", ")), Binding::Atom)
-        };
-        let product = || infix(&operands[0], "*", &operands[1]);
-        match action {
-            Action::Neg(_) => {
-                Expression::new(format!("-{}", operands[0].at_least(Binding::Atom)), Binding::Sign)
-            }
-            Action::Add(..) => infix(&operands[0], "+", &operands[1]),
-            Action::Sub(..) => infix(&operands[0], "-", &operands[1]),
-            Action::Mul(..) => product(),
-            Action::Div(..) => infix(&operands[0], "/", &operands[1]),
-            Action::MulAdd(..) => infix(&product(), "+", &operands[2]),
-            Action::MulSub(..) => infix(&product(), "-", &operands[2]),
-            Action::NegMulAdd(..) => infix(&operands[2], "-", &product()),
+        let call = |name: &str| Expression::call(&format!("np.{name}"), operands);
+        arithmetic(action, operands).unwrap_or_else(|called| match called {
             // Of numbers alone Python's own would end where it cannot be computed.
-            Action::Pow(..) => call("float_power"),
-            Action::Atan2(..) => call("arctan2"),
-            Action::Min(..) => call("minimum"),
-            Action::Max(..) => call("maximum"),
-            Action::Call(Function::Side, _) => {
+            Called::Power => call("float_power"),
+            Called::Atan2 => call("arctan2"),
+            Called::Least => call("minimum"),
+            Called::Greatest => call("maximum"),
+            Called::Function(Function::Side) => {
                 let text = format!("np.where({} >= 0, 1.0, -1.0)", operands[0].text);
                 Expression::new(text, Binding::Atom)
             }
-            Action::Call(Function::Asin, _) => call("arcsin"),
-            Action::Call(Function::Acos, _) => call("arccos"),
-            Action::Call(Function::Atan, _) => call("arctan"),
-            Action::Call(function, _) => call(function.name()),
-            Action::Lookup(Lookup { table, order }, _) => {
+            Called::Function(Function::Asin) => call("arcsin"),
+            Called::Function(Function::Acos) => call("arccos"),
+            Called::Function(Function::Atan) => call("arctan"),
+            Called::Function(function) => call(function.name()),
+            Called::Lookup(Lookup { table, order }) => {
                 let (name, x) = (self.0[usize::from(table)].constant_name(), &operands[0].text);
                 Expression::new(format!("_look_up({name}, {order}, {x})"), Binding::Atom)
             }
-            Action::SinCos(_) => call("sin"),
-        }
+        })
     }
 }
 

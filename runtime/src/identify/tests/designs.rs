@@ -31,7 +31,7 @@ fn brute_force(criterion: Criterion, model_error: f64, targets: Vec<[f64; 3]>) {
         if set.count_ones() == 4 {
             let part: Vec<Observation> =
                 (0..13).filter(|i| set >> i & 1 == 1).map(|i| list[i].clone()).collect();
-            if let Some(design) = whole(&model, &part, &known, &objective).unwrap() {
+            if let Some(design) = whole(&model, &part, &known, &objective, &mut |_, _| {}).unwrap() {
                 // Columns are scaled by the list: to those of the whole one.
                 best = best.min(match criterion {
                     Criterion::Determinant => -by_hand(&model, &part, &known, model_error),
@@ -143,7 +143,7 @@ fn exchange_beats_an_even_spread() {
         let found = optimal(&model, &list, &known, 40, &objective, &mut |_, _| {}).unwrap().unwrap();
         assert!(found.chosen.len() == 40 && found.chosen.windows(2).all(|pair| pair[0] < pair[1]));
         let even: Vec<Observation> = (0..40).map(|i| list[50 * i].clone()).collect();
-        let even = whole(&model, &even, &known, &objective).unwrap().unwrap();
+        let even = whole(&model, &even, &known, &objective, &mut |_, _| {}).unwrap().unwrap();
         assert!(found.variance < 0.8 * even.variance, "{} {}", found.variance, even.variance);
         assert!(optimal(&model, &list, &known, 3, &objective, &mut |_, _| {}).unwrap().is_none());
         assert!(optimal(&model, &list[..9], &known, 10, &objective, &mut |_, _| {}).unwrap().is_none());
