@@ -5,7 +5,7 @@ abbe_codegen::tables! {
     FORMS: ["the file"], ["point", "difference", "target", "pose", "instrument"];
     STANDS: ["the file"], ["station", "placement", "place", "accept"];
     DATA: ["[data]"], ["title", "description", "reference", "uncertainty", "angle_uncertainty", "base", "group", "direction", "time", "station", "placement", "setup"];
-    CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "value"];
+    CHANNEL: ["[joints.NAME]", "[inputs.NAME]"], ["column", "unit", "sign", "zero", "value"];
     FROM_ROWS: ["[inputs.NAME]"], ["approach", "gravity_moment", "frame"];
 
     POINT: ["[point]"], ["columns", "unit"];
@@ -13,9 +13,10 @@ abbe_codegen::tables! {
     TARGET: ["[[target]]"], ["name", "columns", "unit", "position"];
     INSTRUMENT: ["[[instrument]]"], ["name", "kind", "column", "columns", "unit", "target", "targets", "at", "direction", "mirror", "zero", "radius", "nominal_radius", "range", "setup", "uncertainty"];
     POSE: ["[pose]"], ["position", "unit"];
-    TURN: ["[pose]"], ["quaternion", "matrix", "euler"];
+    TURN: ["[pose]"], ["quaternion", "matrix", "euler", "rotation_vector"];
     QUATERNION: ["[pose.quaternion]"], ["columns", "order"];
     EULER: ["[pose.euler]"], ["columns", "order", "unit"];
+    ROTATION_VECTOR: ["[pose.rotation_vector]"], ["columns", "unit"];
 
     STATION: ["[[station]]"], ["name", "position", "quaternion", "covariance"];
     PLACE: ["[[place]]"], ["name", "position", "direction", "zero", "covariance"];

@@ -63,7 +63,7 @@ impl Map {
     pub fn numbers(&self, row: &Observation, ideal: [f64; 3], measured: bool) -> Vec<Option<f64>> {
         let channels = self.joints.iter().zip(row.q.iter()).chain(self.inputs.iter().zip(row.u.iter()));
         let commanded = channels.filter_map(|(channel, value)| match channel {
-            Channel::Column(_, factor) => Some(Some(value / factor)),
+            Channel::Column(_, scale) => Some(Some(scale.number(*value))),
             Channel::Fixed(_) | Channel::FromRows(_) => None,
         });
         let mut numbers: Vec<Option<f64>> = commanded.collect();

@@ -8,7 +8,7 @@ use abbe::analysis::Configuration;
 use abbe::identify::{Measurement, Observation, Uncertainty};
 use abbe_codegen::spec::Spec;
 
-use super::column::{Channel, Column};
+use super::column::{Channel, Column, Scale};
 use super::configurations::resolution;
 use super::instrument::Instruments;
 use super::station::{Placement, Stations};
@@ -93,9 +93,10 @@ impl Map {
     /// no column among the inputs is nominal.
     pub fn from_names(header: &[String], spec: &Spec) -> Self {
         let column = |name: &str| Column { name: name.to_owned(), span: None };
-        let joints = spec.variables.iter().map(|variable| Channel::Column(column(&variable.name), 1.0));
+        let joints =
+            spec.variables.iter().map(|variable| Channel::Column(column(&variable.name), Scale::COHERENT));
         let inputs = spec.inputs.iter().map(|input| match header.contains(&input.name) {
-            true => Channel::Column(column(&input.name), 1.0),
+            true => Channel::Column(column(&input.name), Scale::COHERENT),
             false => Channel::Fixed(input.value),
         });
         Self {

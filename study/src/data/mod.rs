@@ -28,7 +28,7 @@ mod station;
 mod table;
 mod turn;
 
-pub use column::{Channel, Column};
+pub use column::{Channel, Column, Scale};
 pub use date::Calendar;
 pub(crate) use date::{in_name, parse_date};
 pub use dated::Dated;
@@ -43,6 +43,7 @@ pub use rows::{Data, Summary, Unusable};
 pub use source::{Cells, Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
 pub use table::{Csv, Heading, Table};
+pub(crate) use turn::EULER_ORDERS;
 pub use turn::{Order, Turn};
 
 pub(crate) use rotation::quaternion;

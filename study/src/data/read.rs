@@ -17,7 +17,7 @@ use super::read_channels::{inputs, joints};
 use super::read_instruments::instruments;
 use super::read_places::{found_places, placement, stations};
 use super::read_values::{column, columns, constant, positive, unit};
-use super::turn::{Order, Turn};
+use super::turn::{EULER_ORDERS, Order, Turn};
 use crate::acceptance::{Acceptance, FIGURES};
 use crate::named;
 
@@ -199,22 +199,20 @@ fn turn(section: &Section<'_>, document: &mut Document, spec: &Spec) -> Option<T
         let order = document.choice(&order, &[("wxyz", Order::Wxyz), ("xyzw", Order::Xyzw)]);
         return Some(Turn::Quaternion(Box::new(columns(&section, "columns", document)?), order?));
     }
+    if let Some(item) = section.get("rotation_vector") {
+        let section = document.section(&item)?;
+        section.check_keys(&[&keys::ROTATION_VECTOR], document);
+        let factor = unit(&section, document, spec, Dimension::NONE);
+        return Some(Turn::RotationVector(Box::new(columns(&section, "columns", document)?), factor?));
+    }
     let Some(item) = section.get("euler") else {
-        let help = "give `quaternion`, `matrix` or `euler`";
+        let help = "give `quaternion`, `matrix`, `euler` or `rotation_vector`";
         document.mistake(Diagnostic::new(section.span.clone(), "this pose has no orientation").help(help));
         return None;
     };
     let section = document.section(&item)?;
     section.check_keys(&[&keys::EULER], document);
-    let orders = [
-        ("xyz", [0, 1, 2]),
-        ("xzy", [0, 2, 1]),
-        ("yxz", [1, 0, 2]),
-        ("yzx", [1, 2, 0]),
-        ("zxy", [2, 0, 1]),
-        ("zyx", [2, 1, 0]),
-    ];
-    let order = section.required("order", document).and_then(|item| document.choice(&item, &orders));
+    let order = section.required("order", document).and_then(|item| document.choice(&item, &EULER_ORDERS));
     let factor = unit(&section, document, spec, Dimension::NONE);
     Some(Turn::Euler(Box::new(columns(&section, "columns", document)?), order?, factor?))
 }

@@ -5,7 +5,7 @@ use abbe_codegen::document::{Document, Item, Section};
 use abbe_codegen::expr::{Dimension, find_name};
 use abbe_codegen::spec::{Input, Spec, VariableKind};
 
-use super::column::Channel;
+use super::column::{Channel, Scale};
 use super::from_rows::FromRows;
 use super::keys;
 use super::read_values::{column, constant, unit};
@@ -121,7 +121,7 @@ fn read_from_rows(
     }
 }
 
-/// `{ column = "…", unit = "…", sign = -1 }` or `{ value = … }`.
+/// `{ column = "…", unit = "…", sign = -1, zero = "…" }` or `{ value = … }`.
 fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dimension) -> Option<Channel> {
     let mut section = document.section(item)?;
     section.name = format!("`{}`", item.key);
@@ -143,5 +143,9 @@ fn channel(item: &Item<'_>, document: &mut Document, spec: &Spec, dimension: Dim
         },
         None => 1.0,
     };
-    Some(Channel::Column(column?, factor? * sign))
+    let zero = match section.get("zero") {
+        Some(item) => constant(&item, document, spec, dimension)?,
+        None => 0.0,
+    };
+    Some(Channel::Column(column?, Scale { one: factor? * sign, zero }))
 }

@@ -33,6 +33,14 @@ pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, Str
             let turns = axes.iter().zip(numbers).map(|(axis, angle)| about(*axis, angle * factor));
             Ok(turns.fold(about(0, 0.0), |product, turn| times(&product, &turn)))
         }
+        Turn::RotationVector(_, factor) => {
+            let vector = [0, 1, 2].map(|i| numbers[i] * factor);
+            let angle = length(vector);
+            // sin(a/2) / a.
+            let share = if angle > 0.0 { (0.5 * angle).sin() / angle } else { 0.5 };
+            let [x, y, z] = vector.map(|v| v * share);
+            from_quaternion(&[(0.5 * angle).cos(), x, y, z])
+        }
     }
 }
 
@@ -68,6 +76,7 @@ pub(super) fn to_numbers(turn: &Turn, r: &Rotation) -> Vec<f64> {
         }
         Turn::Matrix(_) => (0..9).map(|k| r[k % 3][k / 3]).collect(),
         Turn::Euler(_, axes, factor) => euler(r, *axes).map(|angle| angle / factor).to_vec(),
+        Turn::RotationVector(_, factor) => rotation_vector(r).map(|v| v / factor).to_vec(),
     }
 }
 
@@ -104,10 +113,30 @@ pub(crate) fn quaternion(r: &Rotation) -> [f64; 4] {
     q
 }
 
-/// Angles of `R_a R_b R_c` for three different axes.
+/// The axis times the angle, which is at most π.
+fn rotation_vector(r: &Rotation) -> [f64; 3] {
+    let [w, x, y, z] = quaternion(r);
+    let sine = length([x, y, z]);
+    let angle = 2.0 * sine.atan2(w.abs());
+    let share = if sine > 0.0 { angle / sine } else { 2.0 };
+    [x, y, z].map(|v| v * share * w.signum())
+}
+
+fn length([x, y, z]: [f64; 3]) -> f64 {
+    x.hypot(y).hypot(z)
+}
+
+/// Angles of `R_a R_b R_c`, where no axis follows itself.
 fn euler(r: &Rotation, [a, b, c]: [usize; 3]) -> [f64; 3] {
     let sign = if (a + 1) % 3 == b { 1.0 } else { -1.0 };
-    // R_ac = ± sin of the middle angle; entries are r[column][row].
+    // Entries are r[column][row].
+    if a == c {
+        let other = 3 - a - b;
+        // R_aa = cos of the middle angle.
+        let middle = r[a][b].hypot(r[a][other]).atan2(r[a][a]);
+        return [r[a][b].atan2(-sign * r[a][other]), middle, r[b][a].atan2(sign * r[other][a])];
+    }
+    // R_ac = ± sin of the middle angle.
     let middle = (sign * r[c][a]).clamp(-1.0, 1.0).asin();
     [(-sign * r[c][b]).atan2(r[c][c]), middle, (-sign * r[b][a]).atan2(r[a][a])]
 }
@@ -130,6 +159,11 @@ mod tests {
             Turn::Euler(three(), [2, 1, 0], 1.0),
             Turn::Euler(three(), [0, 1, 2], 0.5),
             Turn::Euler(three(), [1, 2, 0], 1.0),
+            Turn::Euler(three(), [2, 1, 2], 1.0),
+            Turn::Euler(three(), [2, 0, 2], 1.0),
+            Turn::Euler(three(), [0, 1, 0], 1.0),
+            Turn::Euler(three(), [1, 0, 1], 1.0),
+            Turn::RotationVector(three(), 0.5),
         ];
         for turn in turns {
             let back = from_numbers(&turn, &to_numbers(&turn, &r)).unwrap();

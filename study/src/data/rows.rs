@@ -319,7 +319,7 @@ fn row(
     let commanded = record.numbers(commanded)?;
     let mut values = commanded.iter().copied();
     let mut channel = |channel: &Channel| match channel {
-        Channel::Column(_, factor) => values.next().unwrap_or_default() * factor,
+        Channel::Column(_, scale) => scale.value(values.next().unwrap_or_default()),
         Channel::Fixed(value) => *value,
         // All rows tell it together.
         Channel::FromRows(_) => 0.0,

@@ -11,6 +11,22 @@ pub enum Order {
     Xyzw,
 }
 
+/// The orders of axes, 0 = x, in which no axis follows itself.
+pub(crate) const EULER_ORDERS: [(&str, [usize; 3]); 12] = [
+    ("xyz", [0, 1, 2]),
+    ("xzy", [0, 2, 1]),
+    ("yxz", [1, 0, 2]),
+    ("yzx", [1, 2, 0]),
+    ("zxy", [2, 0, 1]),
+    ("zyx", [2, 1, 0]),
+    ("xyx", [0, 1, 0]),
+    ("xzx", [0, 2, 0]),
+    ("yxy", [1, 0, 1]),
+    ("yzy", [1, 2, 1]),
+    ("zxz", [2, 0, 2]),
+    ("zyz", [2, 1, 2]),
+];
+
 /// The columns of an orientation.
 #[derive(Clone, Debug)]
 pub enum Turn {
@@ -20,6 +36,8 @@ pub enum Turn {
     Matrix(Box<[Column; 9]>),
     /// Angles: times the factor are rad; the axes (0 = x) in the order of the product.
     Euler(Box<[Column; 3]>, [usize; 3], f64),
+    /// An axis times its angle: times the factor in rad.
+    RotationVector(Box<[Column; 3]>, f64),
 }
 
 impl Turn {
@@ -27,7 +45,7 @@ impl Turn {
         match self {
             Self::Quaternion(columns, _) => &columns[..],
             Self::Matrix(columns) => &columns[..],
-            Self::Euler(columns, ..) => &columns[..],
+            Self::Euler(columns, ..) | Self::RotationVector(columns, _) => &columns[..],
         }
     }
 }

@@ -110,7 +110,7 @@ impl Doctor {
         let first = found.first();
         let (map, of_spec) = match first {
             Some(first) => {
-                let (map, of_spec) = written::map(&first.reading, spec, &columns, within);
+                let (map, of_spec) = written::map(&first.reading, spec, &columns, within, search.spread());
                 (Some(map), of_spec)
             }
             None => (None, Vec::new()),

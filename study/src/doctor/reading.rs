@@ -4,6 +4,7 @@ use abbe::Pose;
 use serde::Serialize;
 
 use super::change::Change;
+use crate::data::EULER_ORDERS;
 
 /// How a pose is written.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -72,7 +73,7 @@ pub(super) fn layouts(count: usize) -> Vec<Layout> {
             for degrees in [true, false] {
                 all.push(Layout::RotationVector { degrees });
                 for fixed in [false, true] {
-                    all.extend(axes().map(|axes| Layout::Euler { axes, fixed, degrees }));
+                    all.extend(EULER_ORDERS.map(|(_, axes)| Layout::Euler { axes, fixed, degrees }));
                 }
             }
             all
@@ -85,12 +86,6 @@ pub(super) fn layouts(count: usize) -> Vec<Layout> {
         16 => [true, false].map(|by_rows| Layout::Homogeneous { by_rows }).to_vec(),
         _ => Vec::new(),
     }
-}
-
-/// The twelve orders of axes in which no axis follows itself.
-fn axes() -> impl Iterator<Item = [usize; 3]> {
-    let all = (0..27).map(|k| [k / 9, k / 3 % 3, k % 3]);
-    all.filter(|[a, b, c]| a != b && b != c)
 }
 
 impl Layout {

@@ -12,100 +12,137 @@ use super::words;
 use crate::number::digits;
 use crate::toml_text::quoted;
 
-/// The map, and in words what it cannot hold.
-pub(super) fn map(reading: &Reading, spec: &Spec, columns: &Columns, within: f64) -> (String, Vec<String>) {
-    let mut of_spec = Vec::new();
-    let (mut order, mut signs) =
-        ((0..spec.variables.len()).collect::<Vec<_>>(), vec![1; spec.variables.len()]);
-    let mut base = "known";
+/// Digits of a fitted zero: rows tell fewer.
+const DIGITS: usize = 8;
+
+/// The map, and in words what it cannot hold. Uncertainties are a twentieth of what a reading may leave of positions that spread so
+/// far.
+pub(super) fn map(
+    reading: &Reading,
+    spec: &Spec,
+    columns: &Columns,
+    within: f64,
+    spread: f64,
+) -> (String, Vec<String>) {
+    let count = spec.variables.len();
+    let mut joints = Joints { order: (0..count).collect(), signs: vec![1; count], zeros: vec![0.0; count] };
+    let coupled = reading.changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
+    let (mut base, mut of_spec) = ("known", Vec::new());
     for change in &reading.changes {
         match change {
-            Change::Order(columns) => order.clone_from(columns),
-            Change::Reversed(joints) => joints.iter().for_each(|i| signs[*i] = -1),
+            Change::Order(columns) => joints.order.clone_from(columns),
+            Change::Reversed(reversed) => reversed.iter().for_each(|i| joints.signs[*i] = -1),
+            // With a coupling it would be the zero of another number.
+            Change::Zero { joint, offset } if !coupled => joints.zeros[*joint] = *offset,
             Change::BaseElsewhere => base = "unknown",
             change => of_spec.push(words::change(change, spec)),
         }
+    }
+    if reading.layout == (Layout::Difference { target_minus_actual: false }) {
+        let turn = "differences are actual − target, a map has target − actual: turn their signs in the file";
+        of_spec.push(turn.to_owned());
     }
     let mut text = String::from("# A map by `abbe doctor`.\n");
     if !of_spec.is_empty() {
         text += "# It cannot hold all of the reading. To be changed in the spec, or in the file:\n";
         of_spec.iter().for_each(|line| text += &format!("# - {line}\n"));
     }
-    let _ = write!(
-        text,
-        "\n[data]\ntitle = \"As abbe doctor reads it\"\nuncertainty = \"{} {}\"        # not known: state that of the instrument\nbase = \"{base}\"\n\n[joints]\n",
-        digits(0.05 * within, 2),
-        spec.length.symbol(),
-    );
-    for (i, variable) in spec.variables.iter().enumerate() {
-        let unit = match variable.kind {
-            VariableKind::Revolute if reading.joints_in_degrees == Some(true) => "deg",
-            VariableKind::Revolute => "rad",
-            VariableKind::Prismatic => reading.slides_in.unwrap_or(spec.length.symbol()),
-        };
-        let sign = if signs[i] < 0 { ", sign = -1" } else { "" };
-        let column = quoted(&columns.joint_names[order[i]]);
-        let _ = writeln!(text, "{} = {{ column = {column}, unit = \"{unit}\"{sign} }}", variable.name);
+    text += "\n[data]\ntitle = \"As abbe doctor reads it\"\n# Not known: state those of the instrument.\n";
+    let uncertainty = 0.05 * within;
+    let _ = writeln!(text, "uncertainty = \"{} {}\"", digits(uncertainty, 2), spec.length.symbol());
+    if reading.layout.is_oriented() {
+        let _ = writeln!(text, "angle_uncertainty = \"{} rad\"", digits(uncertainty / spread, 2));
     }
-    let name = |range: std::ops::Range<usize>| {
-        let names: Vec<String> = columns.pose_names[range].iter().map(|name| quoted(name)).collect();
+    let _ = write!(text, "base = \"{base}\"\n\n[joints]\n");
+    text += &joints.written(reading, spec, columns);
+    text += &measured(reading, columns);
+    (text, of_spec)
+}
+
+/// How columns are joints.
+struct Joints {
+    order: Vec<usize>,
+    signs: Vec<i32>,
+    zeros: Vec<f64>,
+}
+
+impl Joints {
+    fn written(&self, reading: &Reading, spec: &Spec, columns: &Columns) -> String {
+        let mut text = String::new();
+        for (i, variable) in spec.variables.iter().enumerate() {
+            let unit = match variable.kind {
+                VariableKind::Revolute if reading.joints_in_degrees == Some(true) => "deg",
+                VariableKind::Revolute => "rad",
+                VariableKind::Prismatic => reading.slides_in.unwrap_or(spec.length.symbol()),
+            };
+            let sign = if self.signs[i] < 0 { ", sign = -1" } else { "" };
+            let column = quoted(&columns.joint_names[self.order[i]]);
+            let zero = zero(self.zeros[i], variable.kind, spec);
+            let _ =
+                writeln!(text, "{} = {{ column = {column}, unit = \"{unit}\"{sign}{zero} }}", variable.name);
+        }
+        if self.zeros.iter().any(|zero| *zero != 0.0) {
+            text += "# A zero is as the rows fit it; a convention is a round number.\n";
+        }
+        text
+    }
+}
+
+/// The table of what was measured.
+fn measured(reading: &Reading, columns: &Columns) -> String {
+    let names = |places: &[usize]| {
+        let names: Vec<String> = places.iter().map(|place| quoted(&columns.pose_names[*place])).collect();
         format!("[{}]", names.join(", "))
     };
     let unit = reading.lengths_in;
-    text += &match reading.layout {
-        Layout::Difference { target_minus_actual } => {
-            if !target_minus_actual {
-                of_spec.push("differences are actual − target, a map has target − actual: turn their signs in the file".to_owned());
-            }
-            format!(
-                "\n[difference]\ntarget = {}\ndifference = {}\nunit = \"{unit}\"\n",
-                name(0..3),
-                name(3..6)
-            )
-        }
-        Layout::Euler { axes, fixed, degrees } if axes[0] != axes[2] => {
+    let of_angle = |degrees: bool| if degrees { "deg" } else { "rad" };
+    let pose = |position: &[usize], turn: String| {
+        format!("\n[pose]\nposition = {}\nunit = \"{unit}\"\n{turn}\n", names(position))
+    };
+    match reading.layout {
+        Layout::Position => format!("\n[point]\ncolumns = {}\nunit = \"{unit}\"\n", names(&[0, 1, 2])),
+        Layout::Difference { .. } => format!(
+            "\n[difference]\ntarget = {}\ndifference = {}\nunit = \"{unit}\"\n",
+            names(&[0, 1, 2]),
+            names(&[3, 4, 5])
+        ),
+        Layout::Euler { axes, fixed, degrees } => {
+            let (mut axes, mut places) = (axes, [3, 4, 5]);
             // About fixed axes the last turn stands first in the product.
-            let axes = if fixed { [axes[2], axes[1], axes[0]] } else { axes };
-            let order: String = axes.iter().map(|axis| ["x", "y", "z"][*axis]).collect();
-            let mut names: Vec<String> = columns.pose_names[3..6].iter().map(|name| quoted(name)).collect();
             if fixed {
-                names.reverse();
+                axes.reverse();
+                places.reverse();
             }
-            let unit_of_angle = if degrees { "deg" } else { "rad" };
-            format!(
-                "\n[pose]\nposition = {}\nunit = \"{unit}\"\neuler = {{ columns = [{}], order = \"{order}\", unit = \"{unit_of_angle}\" }}\n",
-                name(0..3),
-                names.join(", ")
-            )
+            let order: String = axes.iter().map(|axis| ["x", "y", "z"][*axis]).collect();
+            let (columns, unit) = (names(&places), of_angle(degrees));
+            let turn = format!("euler = {{ columns = {columns}, order = \"{order}\", unit = \"{unit}\" }}");
+            pose(&[0, 1, 2], turn)
+        }
+        Layout::RotationVector { degrees } => {
+            let (columns, unit) = (names(&[3, 4, 5]), of_angle(degrees));
+            pose(&[0, 1, 2], format!("rotation_vector = {{ columns = {columns}, unit = \"{unit}\" }}"))
         }
         Layout::Quaternion { scalar_first } => {
             let order = if scalar_first { "wxyz" } else { "xyzw" };
-            format!(
-                "\n[pose]\nposition = {}\nunit = \"{unit}\"\nquaternion = {{ columns = {}, order = \"{order}\" }}\n",
-                name(0..3),
-                name(3..7)
-            )
+            let columns = names(&[3, 4, 5, 6]);
+            pose(&[0, 1, 2], format!("quaternion = {{ columns = {columns}, order = \"{order}\" }}"))
         }
         Layout::Matrix { .. } | Layout::Homogeneous { .. } => {
             let (position, nine) = matrix(reading.layout, columns.pose_names.len());
-            let names = |places: &[usize]| {
-                let names: Vec<String> =
-                    places.iter().map(|place| quoted(&columns.pose_names[*place])).collect();
-                format!("[{}]", names.join(", "))
-            };
-            format!(
-                "\n[pose]\nposition = {}\nunit = \"{unit}\"\nmatrix = {}\n",
-                names(&position),
-                names(&nine)
-            )
+            pose(&position, format!("matrix = {}", names(&nine)))
         }
-        Layout::Position => format!("\n[point]\ncolumns = {}\nunit = \"{unit}\"\n", name(0..3)),
-        Layout::Euler { .. } | Layout::RotationVector { .. } => {
-            of_spec.push("a map has no such orientations: it takes the positions alone".to_owned());
-            format!("\n[point]\ncolumns = {}\nunit = \"{unit}\"\n", name(0..3))
+    }
+}
+
+/// The key of a zero, if it is not where the spec has it.
+fn zero(offset: f64, kind: VariableKind, spec: &Spec) -> String {
+    match kind {
+        _ if offset == 0.0 => String::new(),
+        VariableKind::Revolute => format!(", zero = \"{} deg\"", digits(offset.to_degrees(), DIGITS)),
+        VariableKind::Prismatic => {
+            format!(", zero = \"{} {}\"", digits(offset, DIGITS), spec.length.symbol())
         }
-    };
-    (text, of_spec)
+    }
 }
 
 /// The places of the position, and of the matrix row by row.

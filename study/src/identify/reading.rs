@@ -6,7 +6,7 @@ use abbe::identify::{Measurement, Observation};
 use abbe::{Pose, VariableKind};
 
 use super::setup::Setup;
-use crate::data::{Layout, Map, Order, Turn, reread};
+use crate::data::{EULER_ORDERS, Layout, Map, Order, Turn, reread};
 
 const DEGREE: f64 = PI / 180.0;
 
@@ -82,7 +82,10 @@ impl Change {
             }
             Self::Turned(Turn::Euler(_, axes, _)) => {
                 let order: String = axes.iter().map(|axis| ["x", "y", "z"][*axis]).collect();
-                format!("are the Euler angles in the order `{order}`?")
+                format!("are these Euler angles in the order `{order}`?")
+            }
+            Self::Turned(Turn::RotationVector(..)) => {
+                "are these numbers a rotation vector, not Euler angles? give them as `rotation_vector`".to_owned()
             }
             Self::Inverse | Self::Turned(Turn::Matrix(_)) => {
                 "are the orientations the other way round, of F_0 as the tool sees it? turn them round in the file".to_owned()
@@ -135,9 +138,13 @@ pub(super) fn orientations(map: &Map) -> Vec<Change> {
             vec![Change::Turned(Turn::Quaternion(columns.clone(), other))]
         }
         Turn::Euler(columns, axes, factor) => {
-            let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-            let others = orders.into_iter().filter(|order| order != axes);
-            others.map(|order| Change::Turned(Turn::Euler(columns.clone(), order, *factor))).collect()
+            let others = EULER_ORDERS.into_iter().filter(|(_, order)| order != axes);
+            let others = others.map(|(_, order)| Turn::Euler(columns.clone(), order, *factor));
+            others.chain([Turn::RotationVector(columns.clone(), *factor)]).map(Change::Turned).collect()
+        }
+        Turn::RotationVector(columns, factor) => {
+            let orders = EULER_ORDERS.into_iter();
+            orders.map(|(_, order)| Change::Turned(Turn::Euler(columns.clone(), order, *factor))).collect()
         }
         Turn::Matrix(_) => Vec::new(),
     };

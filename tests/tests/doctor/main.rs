@@ -1,0 +1,167 @@
+//! The doctor is given rows that were read wrongly in one way or in two, with noise, and must name how.
+//!
+//! Cases are seeded. `ABBE_DOCTOR_CASES` is how many of each kind are tried for each robot; the full proof has 100.
+
+mod case;
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use abbe_study::Machine;
+use abbe_study::data::{Data, Map};
+use abbe_study::doctor::{Change, Doctor, Reading, Report};
+use abbe_study::measure::Measure;
+
+use case::Mistake::*;
+use case::{ALL, Case, Mistake, Random, case, is_layout, text};
+
+const ROBOTS: [&str; 6] = ["ur5", "puma560", "stanford", "panda", "iiwa", "wam"];
+
+fn run(spec: &str, data: &str, folder: &Path) -> Report {
+    let (file, rows) = (folder.join("robot.toml"), folder.join("rows.csv"));
+    std::fs::write(&file, spec).unwrap();
+    std::fs::write(&rows, data).unwrap();
+    Doctor { machine: Machine::find(&file).unwrap(), data: rows, within: None }.run(&mut ()).unwrap()
+}
+
+/// The map of a reading that it holds wholly leaves as little of these rows as was said, give or take that a fitted base counts
+/// differently.
+fn map_holds(report: &Report, folder: &Path) {
+    let Some(text) = report.map.as_ref().filter(|_| report.of_spec.is_empty()) else { return };
+    let machine = Machine::find(folder.join("robot.toml")).unwrap();
+    let map =
+        Map::parse("map.toml", text, &machine.spec).unwrap_or_else(|mistakes| panic!("{text}\n{mistakes}"));
+    let data = Data::read(folder.join("rows.csv").as_path(), &map).unwrap();
+    let measured = Measure { machine, map, data, accept: Default::default() }.run(&mut ()).unwrap();
+    let left = measured.errors.iter().find(|size| size.name == "norm").unwrap().rms;
+    let said = report.found[0].residual;
+    assert!((left - said).abs() < 0.05 * said, "{left} is left, {said} was said\n{text}");
+}
+
+/// Whether two readings say the same, zeros to 0.02 rad, or 2 mm.
+fn is_same(a: &Reading, b: &Reading, in_mm: f64) -> bool {
+    let near = |change: &Change| {
+        b.changes.iter().any(|other| match (change, other) {
+            (Change::Zero { joint, offset }, Change::Zero { joint: of, offset: other }) => {
+                let off = (offset - other).abs();
+                let turn = (off % (2.0 * PI)).min((2.0 * PI - off % (2.0 * PI)).abs());
+                joint == of && (turn < 0.02 || off < 2.0 / in_mm)
+            }
+            _ => change == other,
+        })
+    };
+    (a.joints_in_degrees, a.slides_in, a.lengths_in) == (b.joints_in_degrees, b.slides_in, b.lengths_in)
+        && a.layout == b.layout
+        && a.changes.len() == b.changes.len()
+        && a.changes.iter().all(near)
+}
+
+#[derive(Debug, Default)]
+struct Score {
+    cases: usize,
+    /// The right reading is the first.
+    first: usize,
+    /// It is among those that cannot be told apart.
+    among: usize,
+    /// How many these are, summed.
+    found: usize,
+}
+
+impl Score {
+    fn add(&mut self, case: &Case, report: &Report, what: &str) {
+        let in_mm = if report.length == "mm" { 1.0 } else { 1e3 };
+        let place = report.found.iter().position(|finding| is_same(&case.right, &finding.reading, in_mm));
+        self.cases += 1;
+        self.first += usize::from(place == Some(0));
+        self.among += usize::from(place.is_some());
+        self.found += report.found.len();
+        if place.is_none() {
+            println!("{what}: {:?}\n  {}", case.right, report.sentence);
+        }
+    }
+}
+
+fn cases() -> usize {
+    std::env::var("ABBE_DOCTOR_CASES").ok().and_then(|count| count.parse().ok()).unwrap_or(1)
+}
+
+fn suits(robot: &str, mistake: Mistake) -> bool {
+    // The others have no Denavit-Hartenberg numbers.
+    mistake != Convention || !["iiwa", "puma560"].contains(&robot)
+}
+
+#[test]
+fn single_mistakes_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut score = Score::default();
+    for robot in ROBOTS {
+        let mut random = Random(1);
+        for k in 0..cases() {
+            let shift = ROBOTS.iter().position(|name| *name == robot).unwrap() * 3;
+            let mistake =
+                (0..).map(|i| ALL[(k + shift + i) % ALL.len()]).find(|one| suits(robot, *one)).unwrap();
+            let case = case(robot, &[mistake], &mut random);
+            let report = run(&case.spec, &case.data, folder.path());
+            score.add(&case, &report, &format!("{robot}, {mistake:?}"));
+            map_holds(&report, folder.path());
+        }
+    }
+    println!("single: {score:?}");
+    assert!(score.among * 100 >= score.cases * 98, "{score:?}");
+}
+
+#[test]
+fn pairs_of_mistakes_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut score = Score::default();
+    for robot in ROBOTS {
+        let mut random = Random(2 + robot.len() as u64);
+        for _ in 0..cases() {
+            let pair = loop {
+                let pair = [ALL[random.below(ALL.len())], ALL[random.below(ALL.len())]];
+                let [a, b] = pair;
+                let alike = a == b || (is_layout(a) && is_layout(b));
+                // A position alone is not seen from the tool.
+                let blind = pair.contains(&Difference) && pair.contains(&Pose);
+                if !alike && !blind && suits(robot, a) && suits(robot, b) {
+                    break pair;
+                }
+            };
+            let case = case(robot, &pair, &mut random);
+            let report = run(&case.spec, &case.data, folder.path());
+            score.add(&case, &report, &format!("{robot}, {pair:?}"));
+            map_holds(&report, folder.path());
+        }
+    }
+    println!("pairs: {score:?}");
+    assert!(score.among * 100 >= score.cases * 95, "{score:?}");
+}
+
+#[test]
+fn another_robot_is_said_to_be_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut random = Random(3);
+    let pairs = [
+        ("ur5", "puma560"),
+        ("panda", "iiwa"),
+        ("puma560", "ur5"),
+        ("iiwa", "wam"),
+        ("wam", "panda"),
+        ("ur5", "general6r"),
+    ];
+    // Without optimization all of it takes minutes.
+    let (pairs, layouts) = if cases() == 1 {
+        (&pairs[..2], &[Quaternion][..])
+    } else {
+        (&pairs[..], &[Quaternion, Difference][..])
+    };
+    for (robot, other) in pairs {
+        for &layout in layouts {
+            let case = case(robot, &[layout], &mut random);
+            let report = run(&text(other), &case.data, folder.path());
+            println!("{robot} as {other}: {}", report.sentence);
+            assert!(!report.fits, "{robot} as {other}: {}", report.sentence);
+            assert!(report.sentence.starts_with("None fits"));
+        }
+    }
+}
