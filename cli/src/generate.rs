@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use abbe_study::generate::SourceFile;
+use abbe_study::generate::{Language, SourceFile, archive};
 use abbe_study::{Machine, generate};
 
 use crate::arguments::Generate;
@@ -11,13 +11,17 @@ use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, note};
 
 pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
-    let job = generate::Generate { machine: Machine::find(&arguments.spec)?, language: arguments.lang };
+    let language = language(arguments)?;
+    let job = generate::Generate { machine: Machine::find(&arguments.spec)?, language };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
+    if let Language::Fmu(_) = language {
+        return unit(arguments, &job, outputs);
+    }
     let files = job.run(&mut Console::default())?;
     let paths: Vec<PathBuf> = match (&arguments.out, &files[..]) {
         (None, [file]) => return Ok(Outcome::passed(file.text.clone())),
         (None, _) => {
-            let message = format!("{} is written as {} files", arguments.lang.name(), files.len());
+            let message = format!("{} is written as {} files", language.name(), files.len());
             return Err(Failure::of("--lang", message).help("name a folder for them: `--out DIR`"));
         }
         (Some(file), [_]) => vec![file.clone()],
@@ -33,5 +37,32 @@ pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
     for (path, SourceFile { text, .. }) in both() {
         note(&format!("wrote {}: {} lines, {} bytes", path.display(), text.lines().count(), text.len()));
     }
+    Ok(Outcome::passed(String::new()))
+}
+
+/// The language, and of a functional mock-up unit the version that is asked for.
+fn language(arguments: &Generate) -> Result<Language, Failure> {
+    match (arguments.lang, arguments.fmi) {
+        (Language::Fmu(_), Some(fmi)) => Ok(Language::Fmu(fmi)),
+        (_, Some(_)) => Err(Failure::of("--fmi", "only a functional mock-up unit has a version of FMI")
+            .help("ask for one: `--lang fmu`; or leave `--fmi` out")),
+        (language, None) => Ok(language),
+    }
+}
+
+/// A functional mock-up unit: an archive of all files.
+fn unit(arguments: &Generate, job: &generate::Generate, mut outputs: Outputs) -> Result<Outcome, Failure> {
+    let Some(path) = &arguments.out else {
+        return Err(Failure::of(
+            "--lang",
+            "a functional mock-up unit is an archive, which is nothing to read",
+        )
+        .help(format!("name a file for it: `--out {}.fmu`", job.machine.spec.name)));
+    };
+    let files = job.run(&mut Console::default())?;
+    let archive = archive(&files);
+    let pending = outputs.file(path)?.fill(&archive)?;
+    outputs.finish(vec![pending])?;
+    note(&format!("wrote {}: {} files, {} bytes", path.display(), files.len(), archive.len()));
     Ok(Outcome::passed(String::new()))
 }

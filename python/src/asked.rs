@@ -356,7 +356,8 @@ impl Machine {
     /// the source of C stand in it one after the other.
     #[pyo3(signature = (language="rust"))]
     fn generate(&self, py: Python<'_>, language: &str) -> PyResult<String> {
-        let known = Language::ALL.into_iter().find(|known| known.name() == language);
+        let mut texts = Language::ALL.into_iter().filter(|known| !matches!(known, Language::Fmu(_)));
+        let known = texts.find(|known| known.name() == language);
         let language = known.ok_or_else(|| {
             PyValueError::new_err(format!(
                 "language={language:?}: \"rust\", \"c\", \"js\", \"python\" or \"matlab\""

@@ -33,6 +33,20 @@ pub fn measured_data(file: &str) -> Result<PathBuf, Missing> {
     if path.exists() { Ok(path) } else { Err(Missing(format!("the measured data are not here: {file}"))) }
 }
 
+/// A Python that has these modules: `PYTHON`, or `python3`.
+///
+/// # Errors
+///
+/// It has not.
+pub fn python(modules: &str) -> Result<String, Missing> {
+    let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let tried = Command::new(&python).args(["-c", &format!("import {modules}")]).output();
+    match tried.is_ok_and(|output| output.status.success()) {
+        true => Ok(python),
+        false => Err(Missing(format!("{python} has no {modules}"))),
+    }
+}
+
 /// What `program --version` prints, which must end with that version (an empty one: any).
 ///
 /// # Errors

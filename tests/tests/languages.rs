@@ -15,7 +15,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_tests::chains::{coupled_joints, long_chain};
 use abbe_tests::languages::{NAMES, assert_alike, configurations};
-use abbe_tests::needs::{Missing, run, tool};
+use abbe_tests::needs::{Missing, python, run, tool};
 use abbe_tests::specs;
 
 fn main() -> ExitCode {
@@ -48,14 +48,7 @@ fn command(language: Language) -> Result<Vec<String>, Missing> {
     let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
     match language {
         Language::JavaScript => tool("node", "").map(|_| words(&["node"])),
-        Language::Python => {
-            let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
-            let with_numpy = Command::new(&python).args(["-c", "import numpy"]).output();
-            match with_numpy.is_ok_and(|output| output.status.success()) {
-                true => Ok(words(&[&python])),
-                false => Err(Missing(format!("{python} has no NumPy"))),
-            }
-        }
+        Language::Python => python("numpy").map(|python| words(&[&python])),
         _ => tool("octave", "").map(|_| words(&["octave", "--no-gui", "--quiet", "--norc"])),
     }
 }

@@ -1,7 +1,7 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use abbe_codegen::print::Language;
+use abbe_codegen::print::{Fmi, Language};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 
@@ -14,6 +14,7 @@ use super::shared::Writing;
   abbe generate arm.toml --lang js --out arm.js
   abbe generate arm.toml --lang python --out arm.py
   abbe generate arm.toml --lang matlab --out arm.m
+  abbe generate arm.toml --lang fmu --out arm.fmu       for simulators
 "))]
 pub(crate) struct Generate {
     /// Spec file, or shipped name
@@ -22,6 +23,9 @@ pub(crate) struct Generate {
     /// Language of the code
     #[arg(long, value_parser = language(), default_value = Language::Rust.name())]
     pub(crate) lang: Language,
+    /// Version of FMI that --lang fmu follows. 3 if not given
+    #[arg(long, value_name = "VERSION", value_parser = fmi())]
+    pub(crate) fmi: Option<Fmi>,
     /// Write to this file instead of stdout; C, which is two files, to this folder
     #[arg(long, value_name = "PATH")]
     pub(crate) out: Option<PathBuf>,
@@ -34,4 +38,10 @@ fn language() -> impl TypedValueParser<Value = Language> {
     PossibleValuesParser::new(Language::ALL.map(Language::name)).try_map(|name| {
         Language::ALL.into_iter().find(|language| language.name() == name).ok_or("no such language")
     })
+}
+
+/// The versions of FMI by their names.
+fn fmi() -> impl TypedValueParser<Value = Fmi> {
+    PossibleValuesParser::new(Fmi::ALL.map(Fmi::name))
+        .try_map(|name| Fmi::ALL.into_iter().find(|fmi| fmi.name() == name).ok_or("no such version"))
 }

@@ -45,9 +45,9 @@ impl Pending {
         Ok(Self { path: path.to_owned(), place, content, hash: Sha256::new() })
     }
 
-    /// The same with a text in it.
-    pub(crate) fn fill(mut self, text: &str) -> Result<Self, Failure> {
-        match self.write_all(text.as_bytes()) {
+    /// The same with a text, or bytes, in it.
+    pub(crate) fn fill(mut self, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<Self, Failure> {
+        match self.write_all(content.as_ref()) {
             Ok(()) => Ok(self),
             Err(error) => Err(cannot_write(&self.path, &error)),
         }

@@ -56,3 +56,21 @@ fn c_is_two_files() {
         assert!(fs::read_to_string(out.join(file)).unwrap().contains(what), "{file}");
     }
 }
+
+/// The same bytes every time, wherever they are written; it is nothing for a screen, and has its version.
+#[test]
+fn a_functional_mock_up_unit_is_an_archive() {
+    let folder = tempdir().unwrap();
+    let write = |name: &str, more: &[&str]| {
+        let out = folder.path().join(name);
+        prints(&[&["generate", "pps", "--lang", "fmu", "--out", out.to_str().unwrap()], more].concat());
+        fs::read(out).unwrap()
+    };
+    let [first, second, same] = [("a.fmu", &[][..]), ("b.fmu", &["--fmi", "2"]), ("c.fmu", &["--fmi", "3"])]
+        .map(|(name, more)| write(name, more));
+    assert!(first.starts_with(b"PK") && first == same && first != second);
+    let refused = abbe(&["generate", "pps", "--lang", "fmu"]);
+    assert!(refused.status == 2 && refused.stderr.contains("--out pps.fmu"), "{}", refused.stderr);
+    let refused = abbe(&["generate", "pps", "--lang", "c", "--fmi", "2", "--out", "pps"]);
+    assert!(refused.status == 2 && refused.stderr.contains("`--lang fmu`"), "{}", refused.stderr);
+}

@@ -4,6 +4,7 @@ use super::deviation::frame_twists;
 use super::elastic::{Element, Loads};
 use super::six::{six, vectors};
 use super::walk::{transform, walk};
+use crate::expr::Symbol;
 use crate::graph::{Frame, Graph, Node};
 use crate::spec::{Cause, ChainNumber, Class, Component, Effect, Source, Spec};
 
@@ -82,7 +83,10 @@ pub(super) fn effects_in(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (V
     for (source, declared) in spec.enabled_sources().enumerate() {
         // Several effects of one source on one error of one frame are one effect.
         let mut sums = vec![[zero; 6]; frames.len()];
-        let times = graph.constant(declared.magnitude.map_or(1.0, |magnitude| magnitude.value));
+        let times = match declared.tuned_by {
+            Some(input) => graph.symbol(Symbol::Input(input)),
+            None => graph.constant(declared.magnitude.map_or(1.0, |magnitude| magnitude.value)),
+        };
         for effect in &declared.effects {
             let place = transform(graph, &effect.at);
             let there = at_place(graph, effect, &place, &loads);

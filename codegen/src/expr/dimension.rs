@@ -68,6 +68,12 @@ impl Dimension {
         i32::from(self.halves[0]) / 2
     }
 
+    /// The exponents of length, mass, time and temperature, if they are whole.
+    pub fn whole_exponents(self) -> Option<[i32; 4]> {
+        let whole = self.halves.iter().all(|half| half % 2 == 0);
+        whole.then(|| self.halves.map(|half| i32::from(half) / 2))
+    }
+
     /// The coherent unit in a system whose length unit is `length`: empty for a pure number.
     pub fn unit(self, length: &str) -> String {
         let names = [length, "kg", "s", "K"];

@@ -9,6 +9,7 @@ mod body;
 mod c;
 mod expression;
 mod flat;
+mod fmu;
 mod header;
 mod javascript;
 mod layout;
@@ -20,6 +21,8 @@ pub mod rust;
 mod statement;
 mod statements;
 mod text;
+
+pub use fmu::Fmi;
 
 use crate::chain::Model;
 use crate::program::Routines;
@@ -38,12 +41,14 @@ pub enum Language {
     Python,
     /// A class of static functions, for Matlab and Octave.
     Matlab,
+    /// The files of a functional mock-up unit, whose archive simulators load.
+    Fmu(Fmi),
 }
 
 /// A file of generated code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceFile {
-    /// Its name: that of the manipulator, and an extension.
+    /// Its name: that of the manipulator, and an extension; in an archive with its folder.
     pub name: String,
     /// What stands in it.
     pub text: String,
@@ -51,7 +56,8 @@ pub struct SourceFile {
 
 impl Language {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Rust, Self::C, Self::JavaScript, Self::Python, Self::Matlab];
+    pub const ALL: [Self; 6] =
+        [Self::Rust, Self::C, Self::JavaScript, Self::Python, Self::Matlab, Self::Fmu(Fmi::Three)];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -61,11 +67,14 @@ impl Language {
             Self::JavaScript => "js",
             Self::Python => "python",
             Self::Matlab => "matlab",
+            Self::Fmu(_) => "fmu",
         }
     }
 
     /// The code of a manipulator: one file, or several that belong together.
     pub fn files(self, spec: &Spec) -> Vec<SourceFile> {
+        let tunable = matches!(self, Self::Fmu(_)).then(|| spec.with_magnitudes_as_inputs());
+        let spec = tunable.as_ref().unwrap_or(spec);
         let model = Model::new(spec);
         let routines = Routines::new(spec, &model);
         let one =
@@ -76,6 +85,7 @@ impl Language {
             Self::JavaScript => one("js", javascript::module(spec, &routines)),
             Self::Python => one("py", python::module(spec, &routines)),
             Self::Matlab => vec![matlab::class(spec, &routines)],
+            Self::Fmu(fmi) => fmu::files(spec, &model, &routines, fmi),
         }
     }
 }

@@ -22,6 +22,7 @@ mod read;
 mod rigid;
 mod sources;
 mod tables;
+mod tunable;
 mod types;
 
 pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
@@ -29,6 +30,7 @@ pub use covariance::{Covariance, Identified};
 pub use fitted::Fitted;
 pub use keys::TABLES;
 pub use names::as_identifier;
+pub use tunable::MAGNITUDE;
 pub use types::{
     Axes, Beam, Cause, ChainNumber, Compliance, Deviation, DhConvention, DhNumber, Effect, Factor, Frame,
     Input, Load, Magnitude, Matrix, Parameter, Point, Source, Spec, Variable,

@@ -104,6 +104,7 @@ fn read_source(
         description,
         reference,
         magnitude,
+        tuned_by: None,
         effects,
         deviations,
     })

@@ -188,6 +188,8 @@ pub struct Source {
     pub reference: String,
     /// What its errors are multiplied by, if that is to be found.
     pub magnitude: Option<Magnitude>,
+    /// The input that they are multiplied by instead, if that is given at run time.
+    pub tuned_by: Option<usize>,
     /// What it does to which frame, in the order of the file.
     pub effects: Vec<Effect>,
     /// Which numbers of the chain it changes, in the order of the file; at least one if there are no effects.

@@ -101,6 +101,7 @@ impl Term {
             description: String::new(),
             reference: String::new(),
             magnitude: None,
+            tuned_by: None,
             effects,
             deviations,
         }

@@ -10,7 +10,7 @@ mod self_test;
 mod support;
 
 use self::functions::{comment, documentation, function, head};
-use self::operators::number;
+pub(super) use self::operators::number;
 use self::support::{IS_FINITE, Support};
 use super::SourceFile;
 use super::header::header;

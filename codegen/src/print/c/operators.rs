@@ -65,7 +65,7 @@ impl Syntax for C<'_> {
 }
 
 /// A number with the digits that give it back exactly.
-pub(super) fn number(value: f64) -> String {
+pub(in crate::print) fn number(value: f64) -> String {
     if value.is_nan() {
         return "(double)NAN".to_owned();
     }

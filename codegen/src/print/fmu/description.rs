@@ -1,0 +1,134 @@
+//! `modelDescription.xml`, and what FMI 3.0 wants to know of sources beside it.
+
+use super::Fmi;
+use super::units::definitions;
+use super::variables::{CORRECTION, Causality, Variable, Variables};
+use super::xml::Element;
+use crate::spec::Spec;
+
+/// `modelDescription.xml`.
+pub(super) fn model(spec: &Spec, fmi: Fmi, variables: &Variables, token: &str, sources: &[String]) -> String {
+    let (version, token_name) = match fmi {
+        Fmi::Two => ("2.0", "guid"),
+        Fmi::Three => ("3.0", "instantiationToken"),
+    };
+    let root = Element::new("fmiModelDescription")
+        .with("fmiVersion", version)
+        .with("modelName", &spec.name)
+        .with(token_name, token)
+        .with("description", &spec.title)
+        .with("generationTool", format!("abbe {}", env!("CARGO_PKG_VERSION")))
+        .with("variableNamingConvention", "structured");
+    let root = match fmi {
+        Fmi::Two => root.with("numberOfEventIndicators", 0),
+        Fmi::Three => root,
+    };
+    let units = variables.list.iter().filter_map(|variable| variable.unit.as_ref());
+    let mut described: Vec<Element> =
+        variables.list.iter().enumerate().map(|(k, variable)| real(fmi, variable, k)).collect();
+    described.extend(variables.corrected.then(|| correction(fmi, variables.list.len())));
+    root.containing(interfaces(spec, fmi, sources))
+        .containing([
+            definitions(units),
+            Element::new("ModelVariables").containing(described),
+            structure(fmi, variables),
+        ])
+        .document()
+}
+
+/// `buildDescription.xml`.
+pub(super) fn build(spec: &Spec, sources: &[String]) -> String {
+    let files = sources.iter().map(|file| Element::new("SourceFile").with("name", file));
+    let set = Element::new("SourceFileSet").with("language", "C99").containing(files);
+    let configuration = Element::new("BuildConfiguration").with("modelIdentifier", &spec.name);
+    Element::new("fmiBuildDescription")
+        .with("fmiVersion", "3.0")
+        .containing([configuration.containing([set])])
+        .document()
+}
+
+/// Model exchange and co-simulation.
+fn interfaces(spec: &Spec, fmi: Fmi, sources: &[String]) -> [Element; 2] {
+    let exchange = Element::new("ModelExchange").with("modelIdentifier", &spec.name);
+    let co_simulation = Element::new("CoSimulation")
+        .with("modelIdentifier", &spec.name)
+        .with("canHandleVariableCommunicationStepSize", true);
+    match fmi {
+        Fmi::Three => [exchange, co_simulation],
+        Fmi::Two => {
+            let files = sources.iter().map(|file| Element::new("File").with("name", file));
+            let files = Element::new("SourceFiles").containing(files);
+            let exchange = exchange.with("completedIntegratorStepNotNeeded", true);
+            [exchange, co_simulation].map(|interface| interface.containing([files.clone()]))
+        }
+    }
+}
+
+/// A variable that is a real number.
+fn real(fmi: Fmi, variable: &Variable, reference: usize) -> Element {
+    let (causality, variability) = match variable.causality {
+        Causality::Independent => ("independent", "continuous"),
+        Causality::Input => ("input", "continuous"),
+        Causality::Parameter => ("parameter", "tunable"),
+        Causality::Output => ("output", "continuous"),
+    };
+    let number = |value: f64| value.is_finite().then(|| format!("{value:?}"));
+    let [lower, upper] = variable.range;
+    let measured = |element: Element| {
+        element
+            .with_some("unit", variable.unit.as_ref().map(|unit| &unit.name))
+            .with_some("start", variable.start.and_then(number))
+            .with_some("min", number(lower))
+            .with_some("max", number(upper))
+    };
+    let described = |name| {
+        let some = Some(&variable.description).filter(|text| !text.is_empty());
+        Element::new(name)
+            .with("name", &variable.name)
+            .with("valueReference", reference)
+            .with_some("description", some)
+            .with("causality", causality)
+            .with("variability", variability)
+    };
+    match fmi {
+        Fmi::Two => described("ScalarVariable").containing([measured(Element::new("Real"))]),
+        Fmi::Three => measured(described("Float64")),
+    }
+}
+
+/// How good the corrected commands are.
+fn correction(fmi: Fmi, reference: usize) -> Element {
+    let described = |name| {
+        Element::new(name)
+            .with("name", CORRECTION.0)
+            .with("valueReference", reference)
+            .with("description", CORRECTION.1)
+            .with("causality", "output")
+            .with("variability", "discrete")
+    };
+    match fmi {
+        Fmi::Two => described("ScalarVariable").containing([Element::new("Integer")]),
+        Fmi::Three => described("Int32"),
+    }
+}
+
+/// Which variables are outputs; each may depend on all inputs.
+fn structure(fmi: Fmi, variables: &Variables) -> Element {
+    let count = variables.list.len() + usize::from(variables.corrected);
+    let each = |name, attribute, first: usize| {
+        (variables.outputs..count).map(move |k| Element::new(name).with(attribute, k + first))
+    };
+    let structure = Element::new("ModelStructure");
+    match fmi {
+        // Counted from 1.
+        Fmi::Two => structure.containing([
+            Element::new("Outputs").containing(each("Unknown", "index", 1)),
+            Element::new("InitialUnknowns").containing(each("Unknown", "index", 1)),
+        ]),
+        Fmi::Three => structure.containing(each("Output", "valueReference", 0)).containing(each(
+            "InitialUnknown",
+            "valueReference",
+            0,
+        )),
+    }
+}

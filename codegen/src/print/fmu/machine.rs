@@ -1,0 +1,71 @@
+//! `fmi-machine.h`: where numbers stand, where they begin, and which functions fill the outputs.
+
+use super::variables::{CORRECTED, OUTPUTS, Variables};
+use crate::print::c::number;
+use crate::print::layout::Writer;
+use crate::spec::Spec;
+
+/// The header.
+pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String {
+    let (name, upper) = (&spec.name, spec.name.to_ascii_uppercase());
+    let mut writer = Writer::new(" *");
+    writer.paragraphs(&format!(
+        "/* Which machine it is. Do not edit. */\n#ifndef FMI_MACHINE_H\n#define FMI_MACHINE_H\n\n\
+         #include \"{name}.h\"\n\n#include <stddef.h>\n\n#define TOKEN \"{token}\"\n\n\
+         /* Where numbers stand: value references. */"
+    ));
+    writer.open("enum");
+    let entry = |array: &str, place: usize| format!("AT_{} = {place},", array.to_ascii_uppercase());
+    writer.lines(&entry("time", 0));
+    variables.places.iter().for_each(|(array, place)| writer.lines(&entry(array, *place)));
+    writer.lines(&entry("outputs", variables.outputs));
+    writer.lines(&format!("VALUES = {},", variables.list.len()));
+    writer.lines("AT_CORRECTION = VALUES");
+    writer.close("};");
+    writer.blank();
+    writer.lines("/* Where they begin; outputs are computed. */");
+    let starts: Vec<String> =
+        variables.list.iter().map(|variable| number(variable.start.unwrap_or(0.0))).collect();
+    writer.braces("static const double START[VALUES] = ", &starts, ";");
+    writer.blank();
+    writer.lines("/* Fills the outputs; why they cannot be had, or null. */");
+    writer.lines("static const char *evaluate(double *values, int *correction)");
+    writer.open_alone();
+    for array in ["q", "u", "s"] {
+        writer.lines(&format!("const double *{array} = &values[AT_{}];", array.to_ascii_uppercase()));
+    }
+    writer.lines(&format!("int status = {upper}_OK;"));
+    for (function, output) in OUTPUTS {
+        let signature = function.signature();
+        let arguments: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
+        writer.open(&format!("if (status == {upper}_OK)"));
+        let (arguments, output) = (arguments.join(", "), output.to_ascii_uppercase());
+        writer.lines(&format!("status = {name}_{}({arguments}, &values[AT_{output}]);", signature.name));
+        writer.close("}");
+    }
+    if variables.corrected {
+        let corrected = CORRECTED.to_ascii_uppercase();
+        writer.open(&format!("if (status == {upper}_OK)"));
+        writer.lines("double before[6];\ndouble after[6];");
+        writer.lines(&format!(
+            "*correction = {name}_compensated(q, s, u, &values[AT_{corrected}], before, after);"
+        ));
+        writer.lines(&format!("status = (*correction == {upper}_NOT_CONVERGED) ? {upper}_OK : *correction;"));
+        writer.close("}");
+    } else {
+        writer.lines("*correction = 0;");
+    }
+    writer.open("switch (status)");
+    for (code, why) in [
+        ("OK", "NULL"),
+        ("SINGULAR", "\"The displacement has Euler angles, which do not exist at this pose.\""),
+        ("OUT_OF_RANGE", "\"An input is outside its range.\""),
+    ] {
+        writer.lines(&format!("case {upper}_{code}:\n    return {why};"));
+    }
+    writer.lines("default:\n    return \"An output is not finite: look at the inputs and parameters.\";");
+    writer.close("}");
+    writer.close("}");
+    writer.lines("\n#endif");
+    writer.finish()
+}

@@ -1,0 +1,58 @@
+//! Units as FMI defines them: a product of powers of SI units, and how many of them one is.
+
+use std::collections::BTreeSet;
+
+use abbe::LengthUnit;
+
+use super::xml::Element;
+use crate::expr::Dimension;
+
+/// A unit.
+#[derive(Clone, Debug)]
+pub(super) struct Unit {
+    pub(super) name: String,
+    /// The powers of m, kg, s and K, and how many of that it is; none of a square root of a unit.
+    base: Option<([i32; 4], f64)>,
+}
+
+impl Unit {
+    /// The coherent unit of a dimension.
+    pub(super) fn of(dimension: Dimension, length: LengthUnit) -> Self {
+        let factor = |powers: [i32; 4]| match length {
+            LengthUnit::Metre => 1.0,
+            LengthUnit::Millimetre => format!("1e{}", -3 * powers[0]).parse().expect("this is a number"),
+        };
+        let base = dimension.whole_exponents().map(|powers| (powers, factor(powers)));
+        Self { name: dimension.unit(length.symbol()), base }
+    }
+
+    /// The same; nothing for a pure number.
+    pub(super) fn some(dimension: Dimension, length: LengthUnit) -> Option<Self> {
+        (dimension != Dimension::NONE).then(|| Self::of(dimension, length))
+    }
+
+    /// An angle.
+    pub(super) fn angle() -> Self {
+        Self { name: "rad".to_owned(), base: None }
+    }
+
+    fn element(&self) -> Element {
+        let unit = Element::new("Unit").with("name", &self.name);
+        if self.name == "rad" {
+            let degrees = Element::new("DisplayUnit").with("name", "deg").with("factor", 1f64.to_degrees());
+            return unit.containing([Element::new("BaseUnit").with("rad", 1), degrees]);
+        }
+        unit.containing(self.base.map(|(powers, factor)| {
+            let powers = ["m", "kg", "s", "K"].into_iter().zip(powers).filter(|(_, power)| *power != 0);
+            let base = powers.fold(Element::new("BaseUnit"), |base, (name, power)| base.with(name, power));
+            if factor == 1.0 { base } else { base.with("factor", format!("{factor:?}")) }
+        }))
+    }
+}
+
+/// The definitions of all units, each once.
+pub(super) fn definitions<'u>(units: impl Iterator<Item = &'u Unit>) -> Element {
+    let mut defined = BTreeSet::new();
+    let once = units.filter(|unit| defined.insert(unit.name.clone()));
+    Element::new("UnitDefinitions").containing(once.map(Unit::element))
+}

@@ -1,0 +1,74 @@
+//! Elements of XML: attributes and other elements, and nothing else.
+
+use std::fmt::Display;
+
+/// An element.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    name: &'static str,
+    /// As they are written.
+    attributes: String,
+    inside: Vec<Self>,
+}
+
+impl Element {
+    pub(super) fn new(name: &'static str) -> Self {
+        Self { name, attributes: String::new(), inside: Vec::new() }
+    }
+
+    /// The same with one attribute more.
+    pub(super) fn with(mut self, name: &str, value: impl Display) -> Self {
+        self.attributes.push_str(&format!(" {name}=\"{}\"", escaped(&value.to_string())));
+        self
+    }
+
+    /// The same with an attribute, if there is a value for it.
+    pub(super) fn with_some(self, name: &str, value: Option<impl Display>) -> Self {
+        match value {
+            Some(value) => self.with(name, value),
+            None => self,
+        }
+    }
+
+    /// The same with more elements in it.
+    pub(super) fn containing(mut self, elements: impl IntoIterator<Item = Self>) -> Self {
+        self.inside.extend(elements);
+        self
+    }
+
+    /// A document of it.
+    pub(super) fn document(&self) -> String {
+        let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
+        self.write(0, &mut text);
+        text
+    }
+
+    fn write(&self, depth: usize, text: &mut String) {
+        let Self { name, attributes, inside } = self;
+        let indent = "  ".repeat(depth);
+        if inside.is_empty() {
+            text.push_str(&format!("{indent}<{name}{attributes}/>\n"));
+        } else {
+            text.push_str(&format!("{indent}<{name}{attributes}>\n"));
+            inside.iter().for_each(|element| element.write(depth + 1, text));
+            text.push_str(&format!("{indent}</{name}>\n"));
+        }
+    }
+}
+
+/// A text in which nothing is markup; what XML cannot hold becomes `�`, what begins a line a space.
+pub(super) fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\n' | '\r' | '\t' => escaped.push(' '),
+            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}

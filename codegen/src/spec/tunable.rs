@@ -1,0 +1,41 @@
+//! Magnitudes of sources that are given at run time.
+
+use std::collections::HashSet;
+
+use super::{Class, Input, Spec, as_identifier};
+use crate::expr::Dimension;
+
+/// How the name of an input begins that is the magnitude of a source.
+pub const MAGNITUDE: &str = "magnitude_";
+
+impl Spec {
+    /// The same with one input more for each enabled repeatable source, in their order: what the source is multiplied by. It is
+    /// mostly the magnitude that the source has, or 1; its name is [`MAGNITUDE`] and what identifier the source's name becomes,
+    /// with a number behind it if that is taken.
+    #[must_use]
+    pub fn with_magnitudes_as_inputs(&self) -> Self {
+        let mut spec = self.clone();
+        let names = spec.variables.iter().map(|variable| &variable.name);
+        let names = names.chain(spec.parameters.iter().map(|parameter| &parameter.name));
+        let names = names.chain(spec.inputs.iter().map(|input| &input.name));
+        let mut taken: HashSet<String> = names.cloned().collect();
+        let tunable = |source: &super::Source| source.enabled && source.class == Class::Repeatable;
+        for source in spec.sources.iter_mut().filter(|source| tunable(source)) {
+            let plain = format!("{MAGNITUDE}{}", as_identifier(&source.name));
+            let numbered = (2..).map(|number| format!("{plain}_{number}"));
+            let mut names = std::iter::once(plain.clone()).chain(numbered);
+            let name = names.find(|name| !taken.contains(name)).expect("there is always another number");
+            taken.insert(name.clone());
+            source.tuned_by = Some(spec.inputs.len());
+            spec.inputs.push(Input {
+                name,
+                value: source.magnitude.map_or(1.0, |magnitude| magnitude.value),
+                dimension: Dimension::NONE,
+                unit: String::new(),
+                range: [f64::NEG_INFINITY, f64::INFINITY],
+                description: format!("What this source is multiplied by: {}", source.name),
+            });
+        }
+        spec
+    }
+}
