@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use abbe_codegen::document::Document;
 use abbe_codegen::expr::{Dimension, parse_value};
+use abbe_study::Notes;
 use abbe_study::doctor::{Doctor, Finding, Report};
 use abbe_study::number::digits;
 
@@ -32,6 +33,10 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
     let report = job.run(&mut Console::default())?;
     let printed = match (wanted, &report.map) {
         (Some(file), Some(map)) => Some(outputs.finish([file.fill(map)?])?),
+        (Some(_), None) => {
+            Console::default().note("no reading fits: no map is written, and what was there stays");
+            None
+        }
         _ => None,
     };
     let text = if arguments.json { json(&report)? } else { text(&report) };
@@ -43,8 +48,17 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
 }
 
 fn text(report: &Report) -> String {
-    let Report { rows, found, others, sentence, of_spec, length, .. } = report;
-    let mut text = format!("{sentence}\n");
+    let Report { rows, joints, seen, found, simpler, others, sentence, of_spec, length, .. } = report;
+    let mut text =
+        format!("{sentence}\n\nRead as joints: {}.\nRead as seen: {}.\n", joints.join(", "), seen.join(", "));
+    if let Some(Finding { words, residual, .. }) = simpler {
+        let _ = writeln!(
+            text,
+            "\nWith less changed {} {length} are left, more than noise, but perhaps errors of this machine: {words}.\nIf its errors may be as large, say so: `--within \"{} {length}\"`.",
+            digits(*residual, 3),
+            digits(1.5 * residual, 2)
+        );
+    }
     if found.len() > 1 {
         let _ = writeln!(text, "\nThese readings cannot be told apart by these {rows} rows:");
         list(&mut text, found, length);

@@ -37,7 +37,7 @@ pub(crate) use from_rows::in_order;
 pub use instrument::{Instrument, Instruments, Kind};
 pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
-pub(crate) use numbers::numbers;
+pub(crate) use numbers::{Numbers, numbers};
 pub(crate) use rotation::reread;
 pub use rows::{Data, Summary, Unusable};
 pub use source::{Cells, Columns, Source};

@@ -7,11 +7,18 @@ use abbe_codegen::diagnostic::Diagnostics;
 use super::file::File;
 use crate::mistake;
 
-/// A row, cell by cell; none where there is no number.
-type Row = Vec<Option<f64>>;
+/// The cells of a file.
+pub(crate) struct Numbers {
+    /// The names of the columns.
+    pub(crate) heading: Vec<String>,
+    /// Row by row; NaN where there is no number.
+    pub(crate) rows: Vec<Vec<f64>>,
+    /// Of every column the first line in which it has no number, and why.
+    pub(crate) slips: Vec<Option<(u64, String)>>,
+}
 
-/// The names of all columns, and the rows.
-pub(crate) fn numbers(path: &Path) -> Result<(Vec<String>, Vec<Row>), Diagnostics> {
+/// All rows of a file.
+pub(crate) fn numbers(path: &Path) -> Result<Numbers, Diagnostics> {
     let file = File::open(path)?;
     let heading = file.heading.to_vec();
     if heading.iter().any(|name| name.parse::<f64>().is_ok()) {
@@ -19,7 +26,7 @@ pub(crate) fn numbers(path: &Path) -> Result<(Vec<String>, Vec<Row>), Diagnostic
         let help = "give it a heading: a name for each column, such as q1, …, x, y, z, a, b, c";
         return Err(mistake::with_help(path.display(), message, help));
     }
-    let mut rows = Vec::new();
+    let (mut rows, mut slips) = (Vec::new(), vec![None; heading.len()]);
     for record in file.records() {
         let record = record?;
         if let Some(reason) = record.too_long() {
@@ -30,7 +37,13 @@ pub(crate) fn numbers(path: &Path) -> Result<(Vec<String>, Vec<Row>), Diagnostic
                 "one row of numbers in every line below the heading",
             ));
         }
-        rows.push((0..heading.len()).map(|place| record.number(place).ok()).collect());
+        let cell = |(place, slip): (usize, &mut Option<(u64, String)>)| {
+            record.number(place).unwrap_or_else(|reason| {
+                slip.get_or_insert((record.line, reason));
+                f64::NAN
+            })
+        };
+        rows.push(slips.iter_mut().enumerate().map(cell).collect());
     }
-    Ok((heading, rows))
+    Ok(Numbers { heading, rows, slips })
 }

@@ -58,6 +58,22 @@ impl Change {
         }
     }
 
+    /// How many numbers are fitted to poses, or to positions alone.
+    pub(super) fn fitted(&self, oriented: bool) -> usize {
+        match self {
+            Self::Zero { .. } => 1,
+            Self::BaseElsewhere => 6,
+            Self::ToolElsewhere => {
+                if oriented {
+                    6
+                } else {
+                    3
+                }
+            }
+            _ => 0,
+        }
+    }
+
     /// The same, but for what is fitted.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         match (self, other) {

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_codegen::diagnostic::{Diagnostics, listed};
 use abbe_codegen::spec::Spec;
 
-use crate::data::numbers;
+use crate::data::{Numbers, numbers};
 use crate::{Notes, mistake};
 
 /// The rows of a file.
@@ -18,7 +18,12 @@ pub(super) struct Columns {
     pub(super) joints: Vec<Vec<f64>>,
     /// What was seen, as it stands there.
     pub(super) pose: Vec<Vec<f64>>,
+    /// How many configurations the rows are of.
+    pub(super) configurations: usize,
 }
+
+/// Of fewer configurations every reading fits.
+const LEAST: usize = 4;
 
 impl Columns {
     /// The columns that are named as the variables of the spec are the joints; if not all are there, the first ones.
@@ -28,52 +33,88 @@ impl Columns {
         most: usize,
         notes: &mut dyn Notes,
     ) -> Result<Self, Diagnostics> {
-        let (heading, rows) = numbers(file)?;
+        let Numbers { heading, rows, slips } = numbers(file)?;
         let fail = |message: String, help: &str| Err(mistake::with_help(file.display(), message, help));
-        let is_number = |place: usize| rows.iter().all(|row| row[place].is_some());
-        let numeric: Vec<usize> = (0..heading.len()).filter(|place| is_number(*place)).collect();
-        let texts: Vec<&str> = (0..heading.len())
-            .filter(|place| !is_number(*place))
-            .map(|place| heading[place].as_str())
-            .collect();
+        // A cell that is no number among numbers is a slip in its row; among texts it is a text.
+        let is_number = |place: usize| {
+            let numbers = rows.iter().filter(|row| !row[place].is_nan()).count();
+            2 * numbers > rows.len()
+        };
+        let (numeric, texts): (Vec<usize>, Vec<usize>) =
+            (0..heading.len()).partition(|place| is_number(*place));
         let count = spec.variables.len();
+        if numeric.len() < count + 3 {
+            let columns = match numeric.len() {
+                1 => "1 column".to_owned(),
+                count => format!("{count} columns"),
+            };
+            let message = format!(
+                "this file has {columns} of numbers; {count} joints and a position are {}",
+                count + 3
+            );
+            let help = "first the joints, then x, y, z, then the orientation if there is one; between cells stand commas, semicolons or tabs";
+            return fail(message, help);
+        }
+        if !texts.is_empty() {
+            let texts: Vec<&str> = texts.iter().map(|place| heading[*place].as_str()).collect();
+            notes.note(&format!("columns of texts are not read: {}", listed(&texts)));
+        }
+        let is_whole = |row: &&Vec<f64>| !numeric.iter().any(|place| row[*place].is_nan());
+        let whole: Vec<&Vec<f64>> = rows.iter().filter(is_whole).collect();
+        let slip = numeric.iter().filter_map(|place| slips[*place].as_ref()).min_by_key(|(line, _)| line);
+        if let Some((line, reason)) = slip {
+            let others = match rows.len() - whole.len() {
+                1 => String::new(),
+                count => format!("; {count} rows are like this"),
+            };
+            notes.warn(&format!("a row that is not whole is not read: line {line}: {reason}{others}"));
+        }
         let named: Option<Vec<usize>> = spec
             .variables
             .iter()
             .map(|variable| numeric.iter().copied().find(|place| heading[*place] == variable.name))
             .collect();
-        if rows.len() < 4 {
-            let message = format!("this file has {} rows below its heading", rows.len());
-            return fail(message, "give four at least, better ten, at configurations far from each other");
-        }
-        if numeric.len() < count + 3 {
-            let message = format!(
-                "this file has {} columns of numbers in every row; {count} joints and a position are {}",
-                numeric.len(),
-                count + 3
-            );
-            return fail(message, "first the joints, then x, y, z, then the orientation if there is one");
-        }
-        if !texts.is_empty() {
-            let texts = abbe_codegen::diagnostic::listed(&texts);
-            notes.note(&format!("columns without a number in every row are not read: {texts}"));
-        }
         let joints = named.unwrap_or_else(|| numeric[..count].to_vec());
         let pose: Vec<usize> = numeric.into_iter().filter(|place| !joints.contains(place)).collect();
-        let step = rows.len().div_ceil(most);
+        let step = whole.len().div_ceil(most).max(1);
         if step > 1 {
-            notes.note(&format!("of {} rows every {step}th is looked at", rows.len()));
+            notes.note(&format!("{} of {} rows are looked at", whole.len().div_ceil(step), whole.len()));
         }
         let picked = |places: &[usize]| -> Vec<Vec<f64>> {
-            let row = |row: &Vec<Option<f64>>| places.iter().filter_map(|place| row[*place]).collect();
-            rows.iter().step_by(step).map(row).collect()
+            let row = |row: &&Vec<f64>| places.iter().map(|place| row[*place]).collect();
+            whole.iter().step_by(step).map(row).collect()
         };
+        let (at, seen) = (picked(&joints), picked(&pose));
+        let configurations = configurations(&at);
+        if configurations < LEAST {
+            let message = match at.len() {
+                rows if rows == configurations => {
+                    format!("this file has {rows} whole rows below its heading")
+                }
+                rows if configurations == 1 => {
+                    format!("the {rows} rows of this file are of one configuration")
+                }
+                rows => format!("the {rows} rows of this file are of {configurations} configurations"),
+            };
+            return fail(message, "give four at least, better ten, at configurations far from each other");
+        }
         let names = |places: &[usize]| places.iter().map(|place| heading[*place].clone()).collect();
         Ok(Self {
             joint_names: names(&joints),
             pose_names: names(&pose),
-            joints: picked(&joints),
-            pose: picked(&pose),
+            joints: at,
+            pose: seen,
+            configurations,
         })
     }
+}
+
+/// How many rows differ from all before them in a joint, by more than a thousandth of how far its column goes from 0.
+fn configurations(rows: &[Vec<f64>]) -> usize {
+    let count = rows.first().map_or(0, Vec::len);
+    let largest = |joint: usize| rows.iter().fold(0.0_f64, |most, row| most.max(row[joint].abs()));
+    let steps: Vec<f64> = (0..count).map(|joint| 1e-3 * largest(joint)).collect();
+    let same =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&steps).all(|((a, b), step)| (a - b).abs() <= *step);
+    (0..rows.len()).filter(|i| !rows[..*i].iter().any(|before| same(before, &rows[*i]))).count()
 }

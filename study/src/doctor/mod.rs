@@ -26,8 +26,10 @@ use serde::Serialize;
 pub use self::change::Change;
 use self::columns::Columns;
 use self::kinematics::Kinematics;
+use self::ranked::Ranked;
 pub use self::reading::{Layout, Reading};
 use self::search::Search;
+use crate::number::digits;
 use crate::{Machine, Notes, mistake};
 
 /// How many rows are looked at; of more, so many at equal distances.
@@ -65,12 +67,18 @@ pub struct Report {
     pub length: &'static str,
     /// How many rows were looked at.
     pub rows: usize,
+    /// The columns that were read as joints.
+    pub joints: Vec<String>,
+    /// The columns that were read as what was seen.
+    pub seen: Vec<String>,
     /// Whether a reading fits.
     pub fits: bool,
     /// What may be left of a position for that.
     pub within: f64,
     /// Readings that fit and cannot be told apart by these rows, the simplest first; if none fits, none.
     pub found: Vec<Finding>,
+    /// The first of these with less in it, where that leaves little as well, but more than noise does.
+    pub simpler: Option<Finding>,
     /// The nearest of the others.
     pub others: Vec<Finding>,
     /// What is found, in one sentence.
@@ -95,31 +103,43 @@ impl Doctor {
             return Err(mistake::with_help(self.data.display(), message, help));
         }
         let search = Search::new(&kinematics, &columns, &layouts, self.within);
-        let within = self.within.unwrap_or(search::WITHIN * search.spread());
         let candidates = search.run(notes)?;
-        let (found, others) = ranked::ranked(candidates, self.within);
+        let Ranked { found, simpler, others } = ranked::ranked(candidates, self.within);
         let spec = &self.machine.spec;
+        let best = found.first().or(others.first());
+        let within =
+            best.map_or(self.within.unwrap_or_default(), |best| search::limit(self.within, best.spread));
+        if let Some(asked) = self.within.filter(|asked| *asked > within) {
+            let unit = spec.length.symbol();
+            notes.warn(&format!(
+                "{} {unit} are more than a tenth of how far the positions spread, which any reading may leave: {} {unit} are taken",
+                digits(asked, 3),
+                digits(within, 3)
+            ));
+        }
         let finding = |candidate: &search::Candidate| Finding {
             words: words::reading(&candidate.reading, spec),
             reading: candidate.reading.clone(),
             residual: candidate.residual.position,
             angle: candidate.residual.angle,
         };
-        let found: Vec<Finding> = found.iter().map(finding).collect();
-        let others: Vec<Finding> = others.iter().map(finding).collect();
-        let first = found.first();
-        let (map, of_spec) = match first {
+        let (map, of_spec) = match found.first() {
             Some(first) => {
-                let (map, of_spec) = written::map(&first.reading, spec, &columns, within, search.spread());
+                let (map, of_spec) = written::map(first, spec, &columns, within);
                 (Some(map), of_spec)
             }
             None => (None, Vec::new()),
         };
+        let found: Vec<Finding> = found.iter().map(finding).collect();
+        let others: Vec<Finding> = others.iter().map(finding).collect();
         Ok(Report {
             name: spec.name.clone(),
             length: spec.length.symbol(),
             rows: columns.joints.len(),
-            fits: first.is_some(),
+            fits: !found.is_empty(),
+            simpler: simpler.as_ref().map(finding),
+            joints: columns.joint_names,
+            seen: columns.pose_names,
             within,
             sentence: words::sentence(&found, &others, spec, within),
             found,

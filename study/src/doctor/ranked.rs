@@ -1,11 +1,8 @@
 //! Readings in the order in which they are believed.
 
 use super::change::Change;
-use super::residual::squares;
+use super::residual::{Residual, squares};
 use super::search::Candidate;
-
-/// Residuals within this factor of the least are alike: what noise makes of few rows.
-const ALIKE: f64 = 1.5;
 
 /// Without noise, residuals of this share of the spread are nothing.
 const ROUNDING: f64 = 1e-9;
@@ -13,20 +10,28 @@ const ROUNDING: f64 = 1e-9;
 /// So many of the others are shown.
 const OTHERS: usize = 5;
 
-/// Readings that fit and cannot be told apart, the simplest first; and the nearest of the others.
-pub(super) fn ranked(
-    mut candidates: Vec<Candidate>,
-    within: Option<f64>,
-) -> (Vec<Candidate>, Vec<Candidate>) {
+/// Readings in order.
+pub(super) struct Ranked {
+    /// Those that fit and cannot be told apart, the simplest first.
+    pub(super) found: Vec<Candidate>,
+    /// The first with less in it, where that leaves little as well, but more than noise does.
+    pub(super) simpler: Option<Candidate>,
+    /// The nearest of the others.
+    pub(super) others: Vec<Candidate>,
+}
+
+pub(super) fn ranked(mut candidates: Vec<Candidate>, within: Option<f64>) -> Ranked {
     candidates.sort_by(|a, b| {
         (cost(a), a.residual.both)
             .partial_cmp(&(cost(b), b.residual.both))
             .unwrap_or(std::cmp::Ordering::Equal)
     });
-    let fitting = candidates.iter().filter(|one| one.fits(within));
-    let least = fitting.map(|one| one.residual.both).fold(f64::INFINITY, f64::min);
-    let fits =
-        |one: &Candidate| one.fits(within) && one.residual.both <= ALIKE * least + ROUNDING * one.spread;
+    let best = best(candidates.iter().filter(|one| one.fits(within)));
+    // Whoever says what may be left is content with that.
+    let is_content = |one: &Candidate| within.is_some() || one.residual.both <= ROUNDING * one.spread;
+    let fits = |one: &Candidate| {
+        one.fits(within) && (is_content(one) || !best.iter().any(|best| one.residual.is_beyond(best)))
+    };
     let mut found: Vec<Candidate> = Vec::new();
     let mut others: Vec<Candidate> = Vec::new();
     for candidate in candidates {
@@ -46,6 +51,10 @@ pub(super) fn ranked(
         let cheapest = found.iter().map(cost).min().unwrap_or_default();
         found.retain(|one| cost(one) <= cheapest + 1 || !apart(one));
     }
+    let is_simpler = |one: &&Candidate| {
+        one.fits(within) && found.first().is_some_and(|first| cost(one) < cost(first) && is_part(one, first))
+    };
+    let simpler = others.iter().find(is_simpler).cloned();
     others.sort_by(|a, b| a.residual.both.total_cmp(&b.residual.both));
     // Not the same with more and more changes.
     let mut shown: Vec<Candidate> = Vec::new();
@@ -54,7 +63,20 @@ pub(super) fn ranked(
             shown.push(candidate);
         }
     }
-    (found, shown)
+    Ranked { found, simpler, others: shown }
+}
+
+/// Of as many fitted numbers, what leaves least.
+fn best<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Vec<Residual> {
+    let mut best: Vec<Residual> = Vec::new();
+    for Candidate { residual, .. } in candidates {
+        match best.iter_mut().find(|best| best.freedom == residual.freedom) {
+            Some(best) if best.both <= residual.both => {}
+            Some(best) => *best = *residual,
+            None => best.push(*residual),
+        }
+    }
+    best
 }
 
 fn cost(candidate: &Candidate) -> usize {

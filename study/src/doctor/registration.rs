@@ -11,28 +11,29 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 /// How often point and base are found in turns.
 const TURNS: usize = 12;
 
-/// The predictions with the base, the tool or both where they fit best.
+/// The predictions with the base, the tool or both where they fit best, and that tool as the one of the spec sees it.
 pub(super) fn registered(
     predicted: &[Pose],
     seen: &[Pose],
     oriented: bool,
     lever: f64,
     [base, tool]: [bool; 2],
-) -> Option<Vec<Pose>> {
-    let moved = match (base, tool, oriented) {
-        (false, false, _) => predicted.to_vec(),
-        (true, false, _) => placed(predicted, seen, oriented, lever)?,
+) -> Option<(Vec<Pose>, Pose)> {
+    let (moved, tool) = match (base, tool, oriented) {
+        (false, false, _) => (predicted.to_vec(), Pose::IDENTITY),
+        (true, false, _) => (placed(predicted, seen, oriented, lever)?, Pose::IDENTITY),
         (false, true, _) => held(predicted, seen, oriented)?,
         (true, true, true) => both(predicted, seen)?,
         (true, true, false) => {
-            let mut moved = placed(predicted, seen, false, lever)?;
+            let (mut moved, mut tool) = (placed(predicted, seen, false, lever)?, Pose::IDENTITY);
             for _ in 0..TURNS {
-                moved = placed(&held(&moved, seen, false)?, seen, false, lever)?;
+                let (next, step) = held(&moved, seen, false)?;
+                (moved, tool) = (placed(&next, seen, false, lever)?, tool.then(&step));
             }
-            moved
+            (moved, tool)
         }
     };
-    moved.iter().all(|pose| pose.0.as_flattened().iter().all(|x| x.is_finite())).then_some(moved)
+    moved.iter().all(|pose| pose.0.as_flattened().iter().all(|x| x.is_finite())).then_some((moved, tool))
 }
 
 fn vector(v: [f64; 3]) -> Vector3<f64> {
@@ -73,8 +74,8 @@ fn placed(predicted: &[Pose], seen: &[Pose], oriented: bool, lever: f64) -> Opti
     Some(predicted.iter().map(|predicted| base.then(predicted)).collect())
 }
 
-/// `P_i Y`.
-fn held(predicted: &[Pose], seen: &[Pose], oriented: bool) -> Option<Vec<Pose>> {
+/// `P_i Y`, and Y.
+fn held(predicted: &[Pose], seen: &[Pose], oriented: bool) -> Option<(Vec<Pose>, Pose)> {
     let rows = predicted.len() as f64;
     let pairs = || predicted.iter().zip(seen);
     let point = pairs()
@@ -90,11 +91,11 @@ fn held(predicted: &[Pose], seen: &[Pose], oriented: bool) -> Option<Vec<Pose>> 
         false => Matrix3::identity(),
     };
     let tool = pose(&turn, point);
-    Some(predicted.iter().map(|predicted| predicted.then(&tool)).collect())
+    Some((predicted.iter().map(|predicted| predicted.then(&tool)).collect(), tool))
 }
 
-/// `X P_i Y` of poses.
-fn both(predicted: &[Pose], seen: &[Pose]) -> Option<Vec<Pose>> {
+/// `X P_i Y` of poses, and Y.
+fn both(predicted: &[Pose], seen: &[Pose]) -> Option<(Vec<Pose>, Pose)> {
     let count = predicted.len();
     let turns = |poses: &[Pose]| -> Vec<Matrix3<f64>> { poses.iter().map(rotation).collect() };
     let (of_predicted, of_seen) = (turns(predicted), turns(seen));
@@ -121,7 +122,7 @@ fn both(predicted: &[Pose], seen: &[Pose]) -> Option<Vec<Pose>> {
     let point = Vector3::new(solution[0], solution[1], solution[2]);
     let place = Vector3::new(solution[3], solution[4], solution[5]);
     let (base, tool) = (pose(&base, place), pose(&tool, point));
-    Some(predicted.iter().map(|predicted| base.then(predicted).then(&tool)).collect())
+    Some((predicted.iter().map(|predicted| base.then(predicted).then(&tool)).collect(), tool))
 }
 
 /// `sin θ` times the axis of a turn: turned as the axis is, and nothing where the axis has no sign.

@@ -1,6 +1,7 @@
 //! How far two lists of poses are from each other.
 
 use abbe::Pose;
+use abbe::identify::f_test;
 
 /// What is left, as root mean squares.
 #[derive(Clone, Copy, Debug)]
@@ -8,8 +9,10 @@ pub(super) struct Residual {
     pub(super) position: f64,
     /// None if orientations were not seen.
     pub(super) angle: Option<f64>,
-    /// Both as a length: angles times a lever.
+    /// Both as a length, angles times a lever: as it would be if nothing had been fitted.
     pub(super) both: f64,
+    /// How many numbers more were seen than fitted.
+    pub(super) freedom: f64,
 }
 
 /// The sum over all rows of `|Δp|²`, and of `½ |ΔR|²`, which is the square of a small angle.
@@ -31,13 +34,29 @@ fn square(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 impl Residual {
-    /// Of so many rows, angles with this lever.
-    pub(super) fn new([positions, angles]: [f64; 2], rows: usize, oriented: bool, lever: f64) -> Self {
+    /// Of so many rows, angles with this lever; of the numbers that were seen, so many are fitted.
+    pub(super) fn new(
+        [positions, angles]: [f64; 2],
+        rows: usize,
+        oriented: bool,
+        lever: f64,
+        [numbers, fitted]: [usize; 2],
+    ) -> Self {
         let mean = |sum: f64| (sum / rows as f64).max(0.0).sqrt();
+        let freedom = numbers as f64 - fitted as f64;
         Self {
             position: mean(positions),
             angle: oriented.then(|| mean(angles)),
-            both: mean(positions + lever * lever * angles),
+            both: mean(positions + lever * lever * angles) * (numbers as f64 / freedom).sqrt(),
+            freedom,
         }
+    }
+
+    /// Whether this is more than noise makes of what leaves so little: the ratio of the two variances is beyond one that chance
+    /// has once in a million.
+    pub(super) fn is_beyond(&self, other: &Self) -> bool {
+        let squares = |residual: &Self| residual.both.powi(2) * residual.freedom;
+        let (own, least) = (squares(self), squares(other));
+        f_test(own + least, least, self.freedom as usize, other.freedom as usize).p < 1e-6
     }
 }

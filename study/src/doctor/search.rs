@@ -32,6 +32,8 @@ pub(super) struct Candidate {
     pub(super) residual: Residual,
     /// The poses that the spec has then.
     pub(super) predicted: Vec<Pose>,
+    /// The tool as the one of the spec sees it, if it is fitted.
+    pub(super) tool: Option<Pose>,
     /// How far the positions spread that were seen.
     pub(super) spread: f64,
 }
@@ -44,7 +46,7 @@ impl Candidate {
 }
 
 /// What may be left: as is asked for, and a small share of what was seen in any case.
-fn limit(within: Option<f64>, spread: f64) -> f64 {
+pub(super) fn limit(within: Option<f64>, spread: f64) -> f64 {
     within.map_or(WITHIN * spread, |within| within.min(MOST * spread))
 }
 
@@ -70,7 +72,6 @@ pub(super) struct Search<'a> {
     columns: &'a Columns,
     seen: Vec<Seen>,
     units: Vec<Units>,
-    spread: f64,
     within: Option<f64>,
 }
 
@@ -94,23 +95,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        let mut search = Self { kinematics, columns, seen, units, spread: 1.0, within };
-        search.spread = search.units.iter().filter_map(|units| search.spread_of(*units)).fold(0.0, f64::max);
-        if search.spread == 0.0 {
-            search.spread = 1.0;
-        }
-        search
-    }
-
-    /// The root mean square distance of the spec's positions from their middle.
-    pub(super) fn spread(&self) -> f64 {
-        self.spread
-    }
-
-    fn spread_of(&self, units: Units) -> Option<f64> {
-        let rows = self.parts(units, &[], &[])?;
-        let poses: Vec<Pose> = rows.iter().map(|[_, chain, tool]| chain.then(tool)).collect();
-        Some(spread(&poses))
+        Self { kinematics, columns, seen, units, within }
     }
 
     /// All readings that fit, and the nearest of the others.
@@ -201,17 +186,22 @@ impl<'a> Search<'a> {
         let zeros = self.zeros(joints);
         let forms: Vec<Form> = zeros.iter().map(|(_, form)| *form).collect();
         let free = [Change::BaseElsewhere, Change::ToolElsewhere].map(|change| ends.contains(&change));
-        let lever = LEVER * self.spread;
         let rows = self.columns.joints.len();
         for seen in &self.seen {
-            let oriented = seen.layout.is_oriented();
+            let (oriented, lever) = (seen.layout.is_oriented(), LEVER * seen.spread);
+            let numbers = self.columns.configurations * if oriented { 6 } else { 3 };
+            let fitted = joints.iter().chain(ends).map(|change| change.fitted(oriented)).sum::<usize>();
+            // So few numbers fit anything.
+            if numbers < 2 * fitted {
+                continue;
+            }
             // A position alone has no base that is seen from it.
             if !oriented && ends.contains(&Change::PoseInverted) {
                 continue;
             }
             let limit = limit(self.within, seen.spread);
             let both = |[positions, angles]: [f64; 2]| positions + lever * lever * angles;
-            let (changed, predicted) = if !zeros.is_empty() {
+            let (changed, predicted, tool) = if !zeros.is_empty() {
                 let values: Vec<f64> =
                     predicted.iter().map(|poses| both(squares(poses, &seen.poses, oriented))).collect();
                 let far = |sum: f64, times: f64| (sum.max(0.0) / rows as f64).sqrt() > times * limit;
@@ -233,19 +223,21 @@ impl<'a> Search<'a> {
                     }
                     change => change.clone(),
                 });
-                (changed.collect::<Vec<_>>(), self.with_ends(&parts, ends))
+                (changed.collect::<Vec<_>>(), self.with_ends(&parts, ends), None)
             } else if free.contains(&true) {
                 if !can_be_fitted(&predicted[0], &seen.poses, oriented, free[1], limit) {
                     continue;
                 }
-                let Some(moved) = registered(&predicted[0], &seen.poses, oriented, lever, free) else {
+                let Some((moved, tool)) = registered(&predicted[0], &seen.poses, oriented, lever, free)
+                else {
                     continue;
                 };
-                (joints.to_vec(), moved)
+                (joints.to_vec(), moved, free[1].then_some(tool))
             } else {
-                (joints.to_vec(), predicted[0].clone())
+                (joints.to_vec(), predicted[0].clone(), None)
             };
-            let residual = Residual::new(squares(&predicted, &seen.poses, oriented), rows, oriented, lever);
+            let left = squares(&predicted, &seen.poses, oriented);
+            let residual = Residual::new(left, rows, oriented, lever, [numbers, fitted]);
             if residual.both.is_nan() || residual.both > cut.max(2.0 * limit) {
                 continue;
             }
@@ -258,7 +250,7 @@ impl<'a> Search<'a> {
                 layout: seen.layout,
                 changes: [&changed[..], ends].concat(),
             };
-            candidates.push(Candidate { reading, residual, predicted, spread: seen.spread });
+            candidates.push(Candidate { reading, residual, predicted, tool, spread: seen.spread });
         }
     }
 

@@ -105,13 +105,20 @@ pub(super) fn sentence(found: &[Finding], others: &[Finding], spec: &Spec, withi
     let unit = spec.length.symbol();
     match found {
         [] => {
-            let nearest = others.first().map_or(String::new(), |one| {
-                format!("; the nearest leaves {} {unit}", digits(one.residual, 3))
-            });
-            format!(
-                "None fits: no reading leaves less than {} {unit}{nearest}. Is it another machine?",
-                digits(within, 3)
-            )
+            let nearest = match others.first() {
+                None => "no reading of these columns comes near".to_owned(),
+                Some(one) => {
+                    let turns = one.angle.map_or(String::new(), |angle| {
+                        format!(
+                            " of the positions and {}° of the orientations",
+                            digits(angle.to_degrees(), 3)
+                        )
+                    });
+                    let (within, left) = (digits(within, 3), digits(one.residual, 3));
+                    format!("{within} {unit} may be left, the nearest leaves {left} {unit}{turns}")
+                }
+            };
+            format!("None fits: {nearest}. Is it another machine, or are other columns the joints?")
         }
         [only] => {
             format!("One reading fits, and leaves {} {unit}: {}.", digits(only.residual, 3), only.words)

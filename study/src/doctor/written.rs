@@ -2,13 +2,15 @@
 
 use std::fmt::Write;
 
-use abbe::VariableKind;
+use abbe::{Pose, VariableKind};
 use abbe_codegen::spec::Spec;
 
 use super::change::Change;
 use super::columns::Columns;
 use super::reading::{Layout, Reading};
+use super::search::Candidate;
 use super::words;
+use crate::data::quaternion;
 use crate::number::digits;
 use crate::toml_text::quoted;
 
@@ -18,12 +20,13 @@ const DIGITS: usize = 8;
 /// The map, and in words what it cannot hold. Uncertainties are a twentieth of what a reading may leave of positions that spread so
 /// far.
 pub(super) fn map(
-    reading: &Reading,
+    candidate: &Candidate,
     spec: &Spec,
     columns: &Columns,
     within: f64,
-    spread: f64,
 ) -> (String, Vec<String>) {
+    let Candidate { reading, tool, spread, .. } = candidate;
+    let placement = tool.and_then(|tool| placement(tool, reading.layout, spec));
     let count = spec.variables.len();
     let mut joints = Joints { order: (0..count).collect(), signs: vec![1; count], zeros: vec![0.0; count] };
     let coupled = reading.changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
@@ -35,6 +38,7 @@ pub(super) fn map(
             // With a coupling it would be the zero of another number.
             Change::Zero { joint, offset } if !coupled => joints.zeros[*joint] = *offset,
             Change::BaseElsewhere => base = "unknown",
+            Change::ToolElsewhere if placement.is_some() => {}
             change => of_spec.push(words::change(change, spec)),
         }
     }
@@ -51,11 +55,12 @@ pub(super) fn map(
     let uncertainty = 0.05 * within;
     let _ = writeln!(text, "uncertainty = \"{} {}\"", digits(uncertainty, 2), spec.length.symbol());
     if reading.layout.is_oriented() {
-        let _ = writeln!(text, "angle_uncertainty = \"{} rad\"", digits(uncertainty / spread, 2));
+        let _ = writeln!(text, "angle_uncertainty = \"{} rad\"", digits(uncertainty / *spread, 2));
     }
     let _ = write!(text, "base = \"{base}\"\n\n[joints]\n");
     text += &joints.written(reading, spec, columns);
     text += &measured(reading, columns);
+    text += &placement.unwrap_or_default();
     (text, of_spec)
 }
 
@@ -141,6 +146,21 @@ fn zero(offset: f64, kind: VariableKind, spec: &Spec) -> String {
         VariableKind::Revolute => format!(", zero = \"{} deg\"", digits(offset.to_degrees(), DIGITS)),
         VariableKind::Prismatic => {
             format!(", zero = \"{} {}\"", digits(offset, DIGITS), spec.length.symbol())
+        }
+    }
+}
+
+/// The table of a tool that is elsewhere, as the one of the spec sees it.
+fn placement(tool: Pose, layout: Layout, spec: &Spec) -> Option<String> {
+    let unit = spec.length.symbol();
+    let point = tool.0[3].map(|x| format!("\"{} {unit}\"", digits(x, DIGITS))).join(", ");
+    match layout {
+        Layout::Position => Some(format!("\n[placement]\ntargets = [[{point}]]\n")),
+        Layout::Difference { .. } => None,
+        _ => {
+            let [x, y, z, _] = tool.0;
+            let turn = quaternion(&[x, y, z]).map(|x| digits(x, DIGITS)).join(", ");
+            Some(format!("\n[placement]\nposition = [{point}]\nquaternion = [{turn}]\n"))
         }
     }
 }

@@ -74,6 +74,8 @@ pub(crate) enum Mistake {
     Pose,
     Difference,
     RotationVector,
+    /// None at all: the positions alone.
+    Position,
 }
 
 pub(crate) use Mistake::*;
@@ -131,6 +133,8 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
             }
         };
         Layout::Euler { axes, fixed: random.below(2) == 0, degrees: random.below(2) == 0 }
+    } else if has(Position) {
+        Layout::Position
     } else if has(RotationVector) {
         Layout::RotationVector { degrees: random.below(2) == 0 }
     } else if has(Difference) {
@@ -203,6 +207,7 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
     let more = match layout {
         Layout::Quaternion { .. } => 4,
         Layout::Matrix { .. } => 9,
+        Layout::Position => 0,
         _ => 3,
     };
     (0..more).for_each(|k| write!(data, ",r{k}").unwrap());
@@ -284,7 +289,8 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
             Layout::Matrix { by_rows } => {
                 numbers.extend((0..9).map(|k| if by_rows { r[(k / 3, k % 3)] } else { r[(k % 3, k / 3)] }));
             }
-            _ => unreachable!(),
+            Layout::Position => {}
+            Layout::Homogeneous { .. } => unreachable!(),
         }
         let all = position.iter().map(|x| x * per_length).chain(numbers);
         data += &all.map(|x| x.to_string()).collect::<Vec<_>>().join(",");

@@ -137,6 +137,68 @@ fn pairs_of_mistakes_are_named() {
     assert!(score.among * 100 >= score.cases * 95, "{score:?}");
 }
 
+/// An end effector that the spec does not know, in poses and in positions: the map says where it is.
+#[test]
+fn another_tool_stands_in_the_map() {
+    let folder = tempfile::tempdir().unwrap();
+    for layout in [Matrix, Position] {
+        let case = case("ur5", &[layout], &mut Random(11));
+        let spec = case.spec.replace("Tx(30 mm)", "Tx(75 mm)");
+        assert_ne!(spec, case.spec);
+        let report = run(&spec, &case.data, folder.path());
+        assert_eq!(report.found[0].reading.changes, [Change::ToolElsewhere], "{}", report.sentence);
+        assert!(report.of_spec.is_empty() && report.map.as_ref().unwrap().contains("[placement]"));
+        map_holds(&report, folder.path());
+    }
+}
+
+/// Nothing is invented of few rows, of a robot with a slide either.
+#[test]
+fn few_rows_of_what_is_as_in_the_spec_are_as_in_the_spec() {
+    let folder = tempfile::tempdir().unwrap();
+    for (robot, layout) in
+        [("ur5", Position), ("ur5", Quaternion), ("stanford", Position), ("stanford", Quaternion)]
+    {
+        for seed in 0..4 {
+            let case = case(robot, &[layout], &mut Random(seed));
+            let rows: String = case.data.lines().take(5).map(|line| line.to_owned() + "\n").collect();
+            let report = run(&case.spec, &rows, folder.path());
+            assert!(is_same(&report.found[0].reading, &case.right, 1.0), "{robot}: {}", report.sentence);
+            map_holds(&report, folder.path());
+        }
+    }
+}
+
+/// A slip in a cell costs its row, not its column.
+#[test]
+fn a_row_that_is_not_whole_is_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = case("ur5", &[Quaternion], &mut Random(5));
+    for slip in ["", "n/a", "nan", "−0.5"] {
+        let mut lines: Vec<String> = case.data.lines().map(str::to_owned).collect();
+        let (before, _) = lines[4].rsplit_once(',').unwrap();
+        lines[4] = format!("{before},{slip}");
+        let report = run(&case.spec, &lines.join("\n"), folder.path());
+        assert_eq!(report.rows, 9);
+        assert!(is_same(&report.found[0].reading, &case.right, 1.0), "{slip}: {}", report.sentence);
+    }
+}
+
+/// Ten visits of one configuration tell nothing.
+#[test]
+fn equal_rows_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = case("ur5", &[Quaternion], &mut Random(5));
+    let (heading, rows) = case.data.split_once('\n').unwrap();
+    let row = rows.lines().next().unwrap();
+    let data = format!("{heading}\n{}", format!("{row}\n").repeat(10));
+    std::fs::write(folder.path().join("robot.toml"), &case.spec).unwrap();
+    std::fs::write(folder.path().join("rows.csv"), data).unwrap();
+    let machine = Machine::find(folder.path().join("robot.toml")).unwrap();
+    let refused = Doctor { machine, data: folder.path().join("rows.csv"), within: None }.run(&mut ());
+    assert!(refused.unwrap_err().to_string().contains("the 10 rows of this file are of one configuration"));
+}
+
 #[test]
 fn another_robot_is_said_to_be_another() {
     let folder = tempfile::tempdir().unwrap();
