@@ -9,6 +9,7 @@ use std::process::{Command, ExitCode, Output};
 
 use abbe::compensator::compensate;
 use abbe::{Class, Function, Manipulator, Pose, VariableKind};
+use abbe_codegen::print::{Fmi, Language};
 use abbe_codegen::spec::{MAGNITUDE, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         ("others", others as _),
         ("what_is_wrong_is_said", what_is_wrong_is_said as _),
         ("the_chapter_says_what_happens", the_chapter_says_what_happens as _),
+        ("several_machines_in_one_program", several_machines_in_one_program as _),
     ])
 }
 
@@ -35,7 +37,8 @@ const FIXED: &str = "[manipulator]\nname = \"fixed\"\nlength = \"m\"\ndescriptio
                      [inputs]\nheat = { value = \"1 K\", range = [\"0 K\", \"9 K\"], description = \"\\u0001 \\\"<\\n&\" }\n\
                      [[frame]]\nname = \"only\"\ntransform = \"Tz(1)\"\n[[source]]\nname = \"growth & <heat>\"\nclass = \"repeatable\"\n\
                      frame = \"only\"\ne_x = \"2e-5 m/K * heat\"\n\
-                     [[source]]\nname = \"growth / [heat]\"\nclass = \"repeatable\"\nframe = \"only\"\ne_z = \"1e-5 m/K * heat\"\n";
+                     [[source]]\nname = \"growth / [heat]\"\nclass = \"repeatable\"\nframe = \"only\"\ne_z = \"1e-5 m/K * heat\"\n\
+                     magnitude = { value = 2 }\n";
 
 fn shipped_robots(compiler: &str, versions: &[&str]) -> Result<(), Missing> {
     let python = found(compiler)?;
@@ -88,6 +91,42 @@ fn what_is_wrong_is_said() -> Result<(), Missing> {
     Ok(())
 }
 
+/// Names that begin with the machine's do not meet, of neither version.
+fn several_machines_in_one_program() -> Result<(), Missing> {
+    tool("cc", "")?;
+    let folder = tempfile::tempdir().unwrap();
+    let mut objects = Vec::new();
+    let mut main = "#include <stdio.h>\n".to_owned();
+    let mut calls = String::new();
+    for (name, fmi) in [("ur5", Fmi::Three), ("scara", Fmi::Three), ("stanford", Fmi::Two), ("wam", Fmi::Two)]
+    {
+        let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap();
+        let spec = Spec::parse(name, shipped.spec).unwrap();
+        let at = folder.path().join(name);
+        fs::create_dir(&at).unwrap();
+        for file in Language::Fmu(fmi).files(&spec) {
+            if let Some(source) = file.name.strip_prefix("sources/") {
+                fs::write(at.join(source), file.text).unwrap();
+            }
+        }
+        let fmi = fmi.name();
+        let prefix = format!("-DFMI{fmi}_FUNCTION_PREFIX={name}_");
+        for source in [format!("{name}.c"), format!("fmi-{fmi}.c")] {
+            let object = folder.path().join(format!("{name}-{source}.o"));
+            succeeds(Command::new("cc").args(["-c", &prefix, "-o"]).arg(&object).arg(at.join(source)));
+            objects.push(object);
+        }
+        let function = format!("{name}_fmi{fmi}GetVersion");
+        main += &format!("const char *{function}(void);\n");
+        calls += &format!("    puts({function}());\n");
+    }
+    let [source, program] = ["main.c", "main"].map(|name| folder.path().join(name));
+    fs::write(&source, format!("{main}int main(void)\n{{\n{calls}    return 0;\n}}\n")).unwrap();
+    succeeds(Command::new("cc").arg("-o").arg(&program).arg(&source).args(&objects).arg("-lm"));
+    assert_eq!(succeeds(&mut Command::new(&program)), "3.0\n3.0\n2.0\n2.0\n");
+    Ok(())
+}
+
 /// What `docs/fmu.md` does with Python prints what stands there.
 fn the_chapter_says_what_happens() -> Result<(), Missing> {
     let python = found("fmpy")?;
@@ -107,28 +146,29 @@ fn the_chapter_says_what_happens() -> Result<(), Missing> {
                 assert!(run.unwrap().status.success(), "{line}");
             }
             "sh" => {
-                for command in block.split("$ python ").skip(1) {
+                for command in block.split("$ ").skip(1) {
                     let (line, expected) = command.split_once('\n').unwrap();
-                    let printed = succeeds(in_folder(&python, &folder).args(line.split(' ')));
+                    let line = line.replace("python ", &format!("'{python}' "));
+                    let printed = succeeds(in_folder("sh", &python, &folder).args(["-c", &line]));
                     assert!(printed.contains(expected), "{line}: {printed}");
                     count += 1;
                 }
             }
             "python" => {
                 fs::write(folder.path().join("block.txt"), block).unwrap();
-                succeeds(in_folder(&python, &folder).args(["-m", "doctest", "block.txt"]));
+                succeeds(in_folder(&python, &python, &folder).args(["-m", "doctest", "block.txt"]));
                 count += 1;
             }
             _ => {}
         }
     }
-    assert_eq!(count, 3);
+    assert_eq!(count, 8);
     Ok(())
 }
 
-/// Python in a folder; CMake, which may be one of its packages, is found.
-fn in_folder(python: &str, folder: &TempDir) -> Command {
-    let mut command = Command::new(python);
+/// A program in a folder; CMake, which may be one of Python's packages, is found.
+fn in_folder(program: &str, python: &str, folder: &TempDir) -> Command {
+    let mut command = Command::new(program);
     let beside = Path::new(python).parent().unwrap_or(Path::new("")).to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let all = std::iter::once(beside).chain(std::env::split_paths(&path));
@@ -175,7 +215,7 @@ fn unit(folder: &TempDir, version: &str, machine: &str, name: &str) -> PathBuf {
 struct Row {
     q: Vec<f64>,
     u: Vec<f64>,
-    /// Of every enabled source, 0 of random ones.
+    /// Of every enabled source in units of that of the spec, 0 of random ones.
     magnitudes: Vec<f64>,
     s: Vec<f64>,
 }
@@ -212,7 +252,8 @@ fn assert_alike(python: &str, compiler: &str, version: &str, machine: &str, spec
     let folder = tempfile::tempdir().unwrap();
     let unit = unit(&folder, version, machine, &spec.name);
     let classes: Vec<Class> = spec.enabled_sources().map(|source| source.class).collect();
-    assert!(spec.enabled_sources().all(|source| source.magnitude.is_none()), "1 is what they are");
+    let own = spec.enabled_sources().map(|source| source.magnitude.map_or(1.0, |magnitude| magnitude.value));
+    let own: Vec<f64> = own.collect();
     let tunable = spec.with_magnitudes_as_inputs();
     let robot = Interpreter::new(spec);
     let rows = rows(&robot, &classes);
@@ -226,9 +267,9 @@ fn assert_alike(python: &str, compiler: &str, version: &str, machine: &str, spec
     let parameters = description.parameters.iter().map(|parameter| format!("s.{}", parameter.name));
     let names: Vec<String> = variables.chain(inputs).chain(magnitudes).chain(parameters).collect();
     let set = |row: &Row| -> Vec<f64> {
-        let repeatable =
-            row.magnitudes.iter().zip(&classes).filter(|(_, class)| **class == Class::Repeatable);
-        let magnitudes: Vec<f64> = repeatable.map(|(magnitude, _)| *magnitude).collect();
+        let all = row.magnitudes.iter().zip(&own).zip(&classes);
+        let repeatable = all.filter(|(_, class)| **class == Class::Repeatable);
+        let magnitudes: Vec<f64> = repeatable.map(|((magnitude, own), _)| magnitude * own).collect();
         [&row.q[..], &row.u, &magnitudes, &row.s].concat()
     };
     let given = json!({ "names": names, "rows": rows.iter().map(set).collect::<Vec<_>>() });

@@ -1,5 +1,7 @@
 """What a functional mock-up unit must not take: refuse.py UNIT. It has an input u.heat with a range."""
 
+import os
+import re
 import sys
 
 import fmpy
@@ -45,6 +47,13 @@ try:
     raise AssertionError("a description of another machine was taken")
 except Exception as exception:
     assert "instantiate" in str(exception), exception
+
+# Everything that FMPy's headers declare is there.
+header = os.path.join(os.path.dirname(fmpy.__file__), "c-code", f"fmi{description.fmiVersion[0]}FunctionTypes.h")
+with open(header) as file:
+    declared = re.findall(r"\b(fmi\d[A-Za-z0-9]+)TYPE *\(", file.read())
+library = instance(description.guid).dll
+assert len(declared) > 40 and all(hasattr(library, name) for name in declared)
 
 unit_ = begun()
 get, put = (unit_.getReal, unit_.setReal) if is_2 else (unit_.getFloat64, unit_.setFloat64)

@@ -1,6 +1,6 @@
 //! Magnitudes of sources that are given at run time.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::{Class, Input, Spec, as_identifier};
 use crate::expr::Dimension;
@@ -19,13 +19,16 @@ impl Spec {
         let names = names.chain(spec.parameters.iter().map(|parameter| &parameter.name));
         let names = names.chain(spec.inputs.iter().map(|input| &input.name));
         let mut taken: HashSet<String> = names.cloned().collect();
+        let mut numbers: HashMap<String, usize> = HashMap::new();
         let tunable = |source: &super::Source| source.enabled && source.class == Class::Repeatable;
         for source in spec.sources.iter_mut().filter(|source| tunable(source)) {
             let plain = format!("{MAGNITUDE}{}", as_identifier(&source.name));
-            let numbered = (2..).map(|number| format!("{plain}_{number}"));
-            let mut names = std::iter::once(plain.clone()).chain(numbered);
-            let name = names.find(|name| !taken.contains(name)).expect("there is always another number");
-            taken.insert(name.clone());
+            let mut name = plain.clone();
+            while !taken.insert(name.clone()) {
+                let number = numbers.entry(plain.clone()).or_insert(1);
+                *number += 1;
+                name = format!("{plain}_{number}");
+            }
             source.tuned_by = Some(spec.inputs.len());
             spec.inputs.push(Input {
                 name,
@@ -33,7 +36,7 @@ impl Spec {
                 dimension: Dimension::NONE,
                 unit: String::new(),
                 range: [f64::NEG_INFINITY, f64::INFINITY],
-                description: format!("What this source is multiplied by: {}", source.name),
+                description: format!("{}: what this source is multiplied by", source.name),
             });
         }
         spec

@@ -34,14 +34,18 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
     for array in ["q", "u", "s"] {
         writer.lines(&format!("const double *{array} = &values[AT_{}];", array.to_ascii_uppercase()));
     }
-    writer.lines(&format!("int status = {upper}_OK;"));
-    for (function, output) in OUTPUTS {
+    for (k, (function, output)) in OUTPUTS.into_iter().enumerate() {
         let signature = function.signature();
         let arguments: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
-        writer.open(&format!("if (status == {upper}_OK)"));
         let (arguments, output) = (arguments.join(", "), output.to_ascii_uppercase());
-        writer.lines(&format!("status = {name}_{}({arguments}, &values[AT_{output}]);", signature.name));
-        writer.close("}");
+        let call = format!("status = {name}_{}({arguments}, &values[AT_{output}]);", signature.name);
+        if k == 0 {
+            writer.lines(&format!("int {call}"));
+        } else {
+            writer.open(&format!("if (status == {upper}_OK)"));
+            writer.lines(&call);
+            writer.close("}");
+        }
     }
     if variables.corrected {
         let corrected = CORRECTED.to_ascii_uppercase();
