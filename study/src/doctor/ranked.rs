@@ -55,7 +55,7 @@ pub(super) fn ranked(mut candidates: Vec<Candidate>, within: Option<f64>) -> Ran
         one.fits(within) && found.first().is_some_and(|first| cost(one) < cost(first) && is_part(one, first))
     };
     let simpler = others.iter().find(is_simpler).cloned();
-    others.sort_by(|a, b| a.residual.both.total_cmp(&b.residual.both));
+    others.sort_by(|a, b| a.share(within).total_cmp(&b.share(within)));
     // Not the same with more and more changes.
     let mut shown: Vec<Candidate> = Vec::new();
     for candidate in others {

@@ -22,6 +22,9 @@ const LEVER: f64 = 0.3;
 pub(super) const WITHIN: f64 = 0.02;
 const MOST: f64 = 0.1;
 
+/// What leaves so many times what may be left is kept.
+const NEAR: f64 = 2.0;
+
 /// Of readings that do not fit, so many are kept.
 const KEPT: usize = 30;
 
@@ -39,9 +42,14 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
+    /// What is left, as a share of what may be left: units that make everything small are no better for it.
+    pub(super) fn share(&self, within: Option<f64>) -> f64 {
+        self.residual.both / limit(within, self.spread)
+    }
+
     /// Whether it leaves as little as is asked for, and no more of the angles.
     pub(super) fn fits(&self, within: Option<f64>) -> bool {
-        self.residual.both <= limit(within, self.spread)
+        self.share(within) <= 1.0
     }
 }
 
@@ -238,9 +246,6 @@ impl<'a> Search<'a> {
             };
             let left = squares(&predicted, &seen.poses, oriented);
             let residual = Residual::new(left, rows, oriented, lever, [numbers, fitted]);
-            if residual.both.is_nan() || residual.both > cut.max(2.0 * limit) {
-                continue;
-            }
             let turns = self.kinematics.kinds.contains(&VariableKind::Revolute);
             let slides = self.kinematics.kinds.contains(&VariableKind::Prismatic);
             let reading = Reading {
@@ -250,23 +255,22 @@ impl<'a> Search<'a> {
                 layout: seen.layout,
                 changes: [&changed[..], ends].concat(),
             };
-            candidates.push(Candidate { reading, residual, predicted, tool, spread: seen.spread });
+            let candidate = Candidate { reading, residual, predicted, tool, spread: seen.spread };
+            if candidate.share(self.within) <= cut.max(NEAR) {
+                candidates.push(candidate);
+            }
         }
     }
 
     /// Keeps those that may fit and the nearest of the others; what is farther than these is not needed.
     fn keep(&self, candidates: &mut Vec<Candidate>) -> f64 {
-        candidates.sort_by(|a, b| a.residual.both.total_cmp(&b.residual.both));
-        let mut others = 0;
-        candidates.retain(|candidate| {
-            let near = candidate.residual.both <= 2.0 * limit(self.within, candidate.spread);
-            others += usize::from(!near);
-            near || others <= KEPT
-        });
-        if others >= KEPT {
-            candidates.last().map_or(f64::INFINITY, |last| last.residual.both)
-        } else {
-            f64::INFINITY
+        let share = |candidate: &Candidate| candidate.share(self.within);
+        candidates.sort_by(|a, b| share(a).total_cmp(&share(b)));
+        let near = candidates.iter().take_while(|candidate| share(candidate) <= NEAR).count();
+        candidates.truncate(near + KEPT);
+        match candidates.len() {
+            all if all == near + KEPT => candidates.last().map_or(f64::INFINITY, share),
+            _ => f64::INFINITY,
         }
     }
 

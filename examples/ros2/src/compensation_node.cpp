@@ -1,0 +1,57 @@
+// Corrects every point of every trajectory on its way to the controller: ~/in to ~/out. A trajectory of which a point
+// cannot be corrected is not passed on.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <rclcpp/rclcpp.hpp>
+#include <trajectory_msgs/msg/joint_trajectory.hpp>
+
+#include "machine.hpp"
+
+using trajectory_msgs::msg::JointTrajectory;
+
+class CompensationNode : public rclcpp::Node {
+  public:
+    CompensationNode()
+        : Node("compensation"),
+          joints_(declare_parameter<std::vector<std::string>>("joints"), declare_parameter<std::vector<double>>("scales"))
+    {
+        if (!machine::self_test()) {
+            throw std::runtime_error("the compensator does not compute here what it should");
+        }
+        out_ = create_publisher<JointTrajectory>("~/out", 10);
+        in_ = create_subscription<JointTrajectory>(
+            "~/in", 10, [this](const JointTrajectory::SharedPtr trajectory) { pass_on(*trajectory); });
+    }
+
+  private:
+    void pass_on(JointTrajectory trajectory)
+    {
+        for (auto &point : trajectory.points) {
+            switch (joints_.correct(trajectory.joint_names, point.positions)) {
+                case machine::Status::corrected:
+                    break;
+                case machine::Status::best_so_far:
+                    RCLCPP_WARN(get_logger(), "a point is at a limit or near a singular pose: its correction is not complete");
+                    break;
+                case machine::Status::failed:
+                    RCLCPP_ERROR(get_logger(), "a point cannot be corrected: the trajectory is not passed on");
+                    return;
+            }
+        }
+        out_->publish(trajectory);
+    }
+
+    machine::Joints joints_;
+    rclcpp::Publisher<JointTrajectory>::SharedPtr out_;
+    rclcpp::Subscription<JointTrajectory>::SharedPtr in_;
+};
+
+int main(int argc, char **argv)
+{
+    rclcpp::init(argc, argv);
+    rclcpp::spin(std::make_shared<CompensationNode>());
+    rclcpp::shutdown();
+    return 0;
+}

@@ -1,0 +1,62 @@
+#include "machine.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+// The one place that knows which machine it is.
+#include "pps.h"
+
+namespace machine {
+
+int joints() { return PPS_VARIABLES; }
+
+bool self_test() { return pps_self_test() == 0; }
+
+Status correct(const std::vector<double> &q, std::vector<double> &drives)
+{
+    if (q.size() != PPS_VARIABLES) {
+        return Status::failed;
+    }
+    double corrected[PPS_VARIABLES];
+    double before[6];
+    double after[6];
+    // This machine has no inputs, such as a temperature.
+    const int status = pps_compensated(q.data(), pps_parameters, nullptr, corrected, before, after);
+    if (status != PPS_OK && status != PPS_NOT_CONVERGED) {
+        return Status::failed;
+    }
+    drives.assign(corrected, corrected + PPS_VARIABLES);
+    return status == PPS_OK ? Status::corrected : Status::best_so_far;
+}
+
+Joints::Joints(std::vector<std::string> names, std::vector<double> scales)
+    : names_(std::move(names)), scales_(std::move(scales))
+{
+    if (names_.size() != PPS_VARIABLES || scales_.size() != names_.size()) {
+        throw std::invalid_argument("a name and a scale for each joint of the spec are needed");
+    }
+}
+
+Status Joints::correct(const std::vector<std::string> &names, std::vector<double> &positions) const
+{
+    std::vector<std::size_t> places;
+    std::vector<double> q;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        const auto found = std::find(names.begin(), names.end(), names_[i]);
+        const auto place = static_cast<std::size_t>(found - names.begin());
+        if (found == names.end() || place >= positions.size()) {
+            return Status::failed;
+        }
+        places.push_back(place);
+        q.push_back(positions[place] * scales_[i]);
+    }
+    std::vector<double> drives;
+    const Status status = machine::correct(q, drives);
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+        positions[places[i]] = drives[i] / scales_[i];
+    }
+    return status;
+}
+
+}  // namespace machine
