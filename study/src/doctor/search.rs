@@ -191,6 +191,7 @@ impl<'a> Search<'a> {
         candidates: &mut Vec<Candidate>,
     ) {
         let predicted: Vec<Vec<Pose>> = nodes.iter().map(|rows| self.with_ends(rows, ends)).collect();
+        let of_machine = predicted.first().map_or(0.0, |poses| spread(poses));
         let zeros = self.zeros(joints);
         let forms: Vec<Form> = zeros.iter().map(|(_, form)| *form).collect();
         let free = [Change::BaseElsewhere, Change::ToolElsewhere].map(|change| ends.contains(&change));
@@ -256,7 +257,10 @@ impl<'a> Search<'a> {
                 changes: [&changed[..], ends].concat(),
             };
             let candidate = Candidate { reading, residual, predicted, tool, spread: seen.spread };
-            if candidate.share(self.within) <= cut.max(NEAR) {
+            let share = candidate.share(self.within);
+            // Nor is a unit that makes all that was seen far larger than the machine.
+            let is_one = || share <= cut && residual.both <= 2.0 * of_machine;
+            if share <= NEAR || is_one() {
                 candidates.push(candidate);
             }
         }
