@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use abbe_study::import::{Format, Import, ImportedFrame, Report};
+use abbe_study::number::counted;
 
 use crate::arguments;
 use crate::console::Console;
@@ -28,10 +29,6 @@ pub(crate) fn run(arguments: &arguments::Import) -> Result<Outcome, Failure> {
         None => report.spec,
     };
     Ok(Outcome::passed(text).beside(printed))
-}
-
-fn counted(count: usize, one: &str, more: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { more })
 }
 
 fn summary(report: &Report) -> String {

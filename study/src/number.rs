@@ -39,6 +39,11 @@ pub fn quantity(value: f64, unit: &str) -> String {
     format!("{} {unit}", short(value)).trim_end().to_owned()
 }
 
+/// How many there are of something: `1 row`, `3 rows`.
+pub fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
 /// How many decimals an error has in a table: tenths of a micrometre.
 pub fn error_decimals(length: LengthUnit) -> usize {
     match length {

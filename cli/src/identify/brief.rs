@@ -61,6 +61,9 @@ fn good(spec: &Spec, report: &Report) -> String {
     let line = format!(
         "±: one standard error of the mean. Standard deviations times {factor} hold with 95 %.{better}"
     );
+    if let Some(said) = report.on_known_rows() {
+        text += &format!("{}\n", wrapped(&(said + "."), 0));
+    }
     text += &format!("{}\n{}{}", wrapped(&line, 0), outside(report), instruments(report));
     text += &left(report);
     if let Some(order) = &report.order {

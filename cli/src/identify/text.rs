@@ -2,7 +2,7 @@
 
 use abbe_codegen::spec::Spec;
 use abbe_study::identify::{Gain, Kind, NotKnown, Parameter, Report, Sizes, shown_lines};
-use abbe_study::number::{self, digits, fixed};
+use abbe_study::number::{self, counted, digits, fixed};
 
 use super::alike;
 use abbe_report::text::{Table, wrapped};
@@ -185,12 +185,17 @@ pub(super) fn sizes(spec: &Spec, report: &Report) -> String {
 
 fn errors(spec: &Spec, report: &Report) -> String {
     let mut text = sizes(spec, report);
-    let line = if report.test.is_some() {
-        "Nothing of the test rows was used to find or to choose anything."
-    } else {
-        "On data it has not seen: the rows left out in turn; `--test FILE` judges on a file of its own."
+    let line = match &report.test {
+        Some(_) if report.test_rows_of_the_fit > 0 => {
+            report.on_known_rows().map_or(String::new(), |said| said + ".")
+        }
+        Some(_) => "Nothing of the test rows was used to find or to choose anything.".to_owned(),
+        None => {
+            "On data it has not seen: the rows left out in turn; `--test FILE` judges on a file of its own."
+                .to_owned()
+        }
     };
-    text += &format!("{line}\n{}\n", wrapped(&behind(report), 0));
+    text += &format!("{}\n{}\n", wrapped(&line, 0), wrapped(&behind(report), 0));
     text += &outside(report);
     text += &instruments(report);
     text += &left(report);
@@ -207,10 +212,12 @@ pub(super) fn outside(report: &Report) -> String {
     if let Some(outside) = &report.outside {
         let [there, here] = [outside.known_outside, outside.known_within].map(|value| digits(value, 2));
         let line = format!(
-            "{} test rows are outside the ranges of joints and inputs that were fitted: the place of the tool is known to {there} {} \
+            "{} outside the ranges of joints and inputs that were fitted: the place of the tool is known to {there} {} \
              there, to {here} {} at the rows that were fitted (one standard deviation, by what was found; errors that this \
              model has not grow unseen).",
-            outside.rows, report.length, report.length
+            counted(outside.rows, "test row is", "test rows are"),
+            report.length,
+            report.length
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }

@@ -40,6 +40,17 @@ fn what_they_show_is_what_is_printed() {
     assert!(run >= 4);
 }
 
+/// What the chapter says of the counts of its plan is what the plan says.
+#[test]
+fn counts_in_sentences_are_those_of_the_plan() {
+    let text = include_str!("../../../docs/from-measurements-to-a-spec.md");
+    let (_, plan) = text.split_once("They determine ").unwrap();
+    let numbers = plan.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse::<usize>().ok());
+    let [known, of] = numbers.take(2).collect::<Vec<_>>()[..] else { panic!("{plan}") };
+    let sentence = format!("\n{known} of {of}, before anything is measured: the other {} act", of - known);
+    assert!(plan.contains(&sentence), "{sentence}");
+}
+
 fn shown(block: &str, folder: &Path) {
     let mut lines = block.lines();
     let line = lines.next().and_then(|line| line.strip_prefix("$ abbe ")).expect("a command");

@@ -57,7 +57,10 @@ fn summary(spec: &Spec, report: &Report) -> String {
         cards.push((
             "Test rows",
             show(test.after.mean),
-            format!("{} rows, used for nothing else", test.rows),
+            match report.test_rows_of_the_fit {
+                0 => format!("{} rows, used for nothing else", test.rows),
+                known => format!("{} rows, {known} of them rows of the fit", test.rows),
+            },
         ));
     }
     cards.push((

@@ -7,6 +7,7 @@ use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 
+use super::doubt::doubt;
 use super::extended::extended;
 use super::magnitude::own_magnitudes;
 use super::readings::check_readings;
@@ -71,6 +72,7 @@ pub(super) fn choose(
     let mut setup = Setup::new(&interpreter, map, data, own.len() + carriers.len())?;
     check_readings(&setup, map, data)?;
     setup.come_near(data).map_err(|failure| explained(&failure, data))?;
+    doubt(&setup, map, data, notes).map_err(|failure| explained(&failure, data))?;
     let solved = solve(&setup, data, &own, &[], settings, notes)?;
 
     let fitted = solved.model.unknowns.len();

@@ -17,9 +17,11 @@ use super::candidates::{Family, Harmonics, candidates};
 use super::choose::{Chosen, choose};
 use super::counts::Counts;
 use super::derived::{Derived, derived, with_columns, with_inputs};
+use super::doubt::doubt;
 use super::extended::extended;
 use super::found::FoundModel;
 use super::instruments::{estimate, told};
+use super::known_rows::{known_rows, sentence};
 use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::meaning::{InNumbers, number_terms};
 use super::not_known::NotKnown;
@@ -78,6 +80,12 @@ impl Identify {
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
         let Self { machine, map, settings, .. } = self;
+        let known = test.as_deref().map_or(0, |test| known_rows(&data, test));
+        if let Some(said) = test.as_deref().and_then(|test| sentence(known, test.observations.len())) {
+            notes.warn(&format!(
+                "{said}; measure others, or give no test: rows of the fit are left out in turn"
+            ));
+        }
         let derived = derived(&machine.spec, map, &self.terms, data.observations.len());
         let spec = with_inputs(&machine.spec, &derived);
         let nominal = Interpreter::new(spec.clone());
@@ -98,13 +106,16 @@ impl Identify {
             check_readings(&setup, map, &data)?;
         }
         setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        if stages.is_empty() {
+            doubt(&setup, map, &data, notes).map_err(|failure| mistake::whole(&data.file, &failure))?;
+        }
         estimate(&mut setup, map, &data, settings.prior)
             .map_err(|failure| mistake::whole(&data.file, &failure))?;
         let mut solved = solve(&setup, &data, &own, &terms, settings, notes)?;
         let crossed = Crossed::new(std::mem::take(&mut solved.crossed), &solved, &chosen, &data);
         let test = test.map(|test| completed(test, false));
         let identified =
-            Identified { setup: &setup, solved: &solved, crossed, chosen: &chosen, derived: &derived };
+            Identified { setup: &setup, solved: &solved, crossed, chosen: &chosen, derived: &derived, known };
         finite(&data.file, report(self, &identified, &data, test.as_deref())?)
     }
 }
@@ -116,6 +127,8 @@ struct Identified<'a> {
     crossed: Crossed,
     chosen: &'a Chosen,
     derived: &'a [Derived],
+    /// How many rows of the test are rows of the fit.
+    known: usize,
 }
 
 /// How good it is on rows left out in turn, and how much better than constants alone, if richer terms were tried.
@@ -146,8 +159,14 @@ fn report(
     test: Option<&Data>,
 ) -> Result<Report, Diagnostics> {
     let Identify { machine, map, settings, .. } = job;
-    let Identified { setup, solved, crossed: Crossed { figures: crossed, gain: of_terms }, chosen, derived } =
-        *identified;
+    let Identified {
+        setup,
+        solved,
+        crossed: Crossed { figures: crossed, gain: of_terms },
+        chosen,
+        derived,
+        known,
+    } = *identified;
     let spec = &machine.spec;
     let Solved { model, fit, .. } = solved;
     let identifiable = &fit.identifiable;
@@ -226,6 +245,7 @@ fn report(
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
         test: test_sizes,
+        test_rows_of_the_fit: known,
         accepted,
         outside,
         cross_validation: CrossValidation {

@@ -2,7 +2,7 @@
 //!
 //! `setup` places the machine before the instrument, `instruments` says how good every one of several is, `aim` where they can
 //! be read; `readings` asks whether the data are read as they were meant, `reading`
-//! has other ways to read them. `solve`
+//! has other ways to read them, `doubt` says what no machine has, `known_rows` which test rows are none. `solve`
 //! fits and judges on the data alone, `gross` looks for gross errors; `magnitude` are sources of the spec that are fitted with
 //! the constants. `terms` are errors that richer models have, `candidates` those that are tried, `derived` the inputs that
 //! follow from the order of the rows; `choose` takes in what earns its place, `extended` is the spec that has it. `found` is the
@@ -15,11 +15,13 @@ mod candidates;
 mod choose;
 mod counts;
 mod derived;
+mod doubt;
 mod extended;
 mod found;
 mod gross;
 mod instruments;
 mod job;
+mod known_rows;
 mod magnitude;
 mod meaning;
 mod not_known;
@@ -65,6 +67,7 @@ pub use terms::{Angle, Basis, Place, Term, Wave};
 pub use written::WrittenSpec;
 
 pub(crate) use aim::{aimed, unaimed};
+pub(crate) use doubt::{doubt, too_large};
 pub(crate) use meaning::chain_errors;
 pub(crate) use readings::check_readings;
 pub(crate) use scale::scale_note;

@@ -1,15 +1,17 @@
 //! Whether the data are read as they were meant: units, signs, orders.
 
+use std::collections::BTreeMap;
+
 use abbe::identify::{Measurement, Model, Observation, Options, Station, Uncertainty, fit};
 use abbe_codegen::diagnostic::Diagnostics;
 
 use super::reading::{Change, orders, orientations, units};
-use super::setup::{Setup, registered};
+use super::setup::{Setup, registered, seen};
 use crate::data::{Data, Map};
 use crate::{mistake, number};
 
 /// The most rows that are looked at; and at which combinations of changes are told apart.
-const ROWS: usize = 150;
+pub(super) const ROWS: usize = 150;
 const FEW: usize = 24;
 /// The nominal machine misses no more of its arm: nobody has to ask.
 const NEAR: f64 = 2e-3;
@@ -17,6 +19,8 @@ const NEAR: f64 = 2e-3;
 const FAR: f64 = 2e-2;
 /// A combination of changes must come as near as this.
 const LIKELY: f64 = 1e-2;
+/// A reading that leaves more than this share of the spread of what was measured explains nothing.
+const SHARE: f64 = 0.1;
 /// How many combinations are fitted.
 const FITTED: usize = 12;
 /// The signs of no more joints are combined.
@@ -27,15 +31,14 @@ const SIGNS: usize = 8;
 pub(crate) fn check_readings(setup: &Setup, map: &Map, data: &Data) -> Result<Option<f64>, Diagnostics> {
     let rows = some(&data.observations, ROWS);
     let here = missed(setup, &rows);
-    if here.is_some_and(|here| here < NEAR * setup.arm) {
-        return Ok(here);
+    let rms = here.map(|here| here.rms);
+    if rms.is_some_and(|rms| rms < NEAR * setup.arm) {
+        return Ok(rms);
     }
-    let Some((there, changes)) = better(setup, map, &rows, here.unwrap_or(f64::INFINITY)) else {
-        return Ok(here);
-    };
+    let Some((there, changes)) = better(setup, map, &rows, here) else { return Ok(rms) };
     let unit = setup.description.length;
-    let there = number::length(there, unit);
-    let message = match here {
+    let there = number::length(there.rms, unit);
+    let message = match rms {
         Some(here) => format!(
             "read as the map says, the machine misses these data by {} (root mean square), base and tool fitted; read \
              otherwise, by {there}",
@@ -52,25 +55,33 @@ pub(crate) fn check_readings(setup: &Setup, map: &Map, data: &Data) -> Result<Op
 
 /// The reading that fits best, if one fits far better than the map's: a single change, or else a combination of units,
 /// reversed joints, swapped columns and orders of the orientation.
-fn better(setup: &Setup, map: &Map, rows: &[Observation], here: f64) -> Option<(f64, Vec<Change>)> {
-    let best = |readings: Vec<Vec<Change>>, limit: f64| {
+fn better(
+    setup: &Setup,
+    map: &Map,
+    rows: &[Observation],
+    here: Option<Missed>,
+) -> Option<(Missed, Vec<Change>)> {
+    let limit = here.map_or(SHARE, |here| SHARE.min(here.share / 5.0));
+    let best = |readings: Vec<Vec<Change>>, far: f64| {
         let fitted = readings.into_iter().filter_map(|changes| {
             let there = missed(setup, &read(rows, &changes, setup, map))?;
-            (there < limit).then_some((there, changes))
+            (there.share < limit && there.rms < far).then_some((there, changes))
         });
         // Of several that fit about as well the one with the fewest changes.
-        let rank = |(there, changes): &(f64, Vec<Change>)| there * (1.0 + 0.2 * size(changes) as f64);
+        let rank =
+            |(there, changes): &(Missed, Vec<Change>)| there.share * (1.0 + 0.2 * size(changes) as f64);
         fitted.min_by(|a, b| rank(a).total_cmp(&rank(b)))
     };
     let reversed = (0..setup.description.variables.len()).map(|i| Change::Reversed(vec![i]));
     let singles =
         units(setup).into_iter().flatten().chain(reversed).chain(orders(setup)).chain(orientations(map));
-    let single = best(singles.map(|change| vec![change]).collect(), here / 5.0);
-    if single.as_ref().is_some_and(|(there, _)| *there < LIKELY * setup.arm) || here < FAR * setup.arm {
+    let single = best(singles.map(|change| vec![change]).collect(), f64::INFINITY);
+    let is_near = |here: Missed| here.rms < FAR * setup.arm && here.share < SHARE;
+    if single.as_ref().is_some_and(|(there, _)| there.rms < LIKELY * setup.arm) || here.is_some_and(is_near) {
         return single;
     }
-    let combined = best(combinations(setup, map, rows), (here / 5.0).min(LIKELY * setup.arm));
-    combined.or(single.filter(|_| here.is_finite()))
+    let combined = best(combinations(setup, map, rows), LIKELY * setup.arm);
+    combined.or(single.filter(|_| here.is_some()))
 }
 
 /// Combinations of changes by which the machine comes nearest the positions, its tool where the map says; each with every
@@ -110,7 +121,7 @@ fn size(changes: &[Change]) -> usize {
 }
 
 /// No more rows than these, from everywhere.
-fn some(rows: &[Observation], count: usize) -> Vec<Observation> {
+pub(super) fn some(rows: &[Observation], count: usize) -> Vec<Observation> {
     rows.iter().step_by(rows.len().div_ceil(count).max(1)).cloned().collect()
 }
 
@@ -120,17 +131,50 @@ fn read(rows: &[Observation], changes: &[Change], setup: &Setup, map: &Map) -> V
     rows.iter().map(read).collect()
 }
 
-/// By how much the nominal machine misses the points that were measured, its stations in closed form: root mean square.
+/// By how much a machine misses what was measured.
+#[derive(Clone, Copy)]
+struct Missed {
+    /// The root mean square of a point: the length unit.
+    rms: f64,
+    /// The same as a share of how far the points are spread: what a unit brings together to one point, any chain comes near.
+    share: f64,
+}
+
+impl Missed {
+    fn new(model: &Model, rows: &[Observation], x: &[f64]) -> Option<Self> {
+        let rms = model.figures(rows, x).ok()?.rms;
+        Some(Self { rms, share: rms / spread(model, rows) }).filter(|missed| missed.share.is_finite())
+    }
+}
+
+/// How far the points that were measured are from their mean, those of each target and station: root mean square.
+fn spread(model: &Model, rows: &[Observation]) -> f64 {
+    let mut all: BTreeMap<(u32, Option<usize>), Vec<[f64; 3]>> = BTreeMap::new();
+    for row in rows {
+        seen(model, row, |target, point| all.entry((row.station, target)).or_default().push(point));
+    }
+    let about_mean = |points: &Vec<[f64; 3]>| {
+        let square = |axis: usize| {
+            let mean = points.iter().map(|point| point[axis]).sum::<f64>() / points.len() as f64;
+            points.iter().map(|point| (point[axis] - mean).powi(2)).sum::<f64>()
+        };
+        square(0) + square(1) + square(2)
+    };
+    let count = all.values().map(Vec::len).sum::<usize>();
+    (all.values().map(about_mean).sum::<f64>() / count as f64).sqrt()
+}
+
+/// How far the nominal machine is from the points that were measured, its stations in closed form: as a share of their spread.
 fn aligned(setup: &Setup, rows: &[Observation]) -> Option<f64> {
     let mut model = setup.ideal.clone();
     for i in 0..model.stations.len() {
         model.stations[i].pose = registered(&model, rows, i).ok()??;
     }
-    model.figures(rows, &[]).ok().map(|figures| figures.rms)
+    Missed::new(&model, rows, &[]).map(|missed| missed.share)
 }
 
-/// By how much the nominal machine misses, base and tool fitted: root mean square of a point. None if no fit is found.
-fn missed(setup: &Setup, rows: &[Observation]) -> Option<f64> {
+/// By how much the nominal machine misses, base and tool fitted. None if no fit is found.
+fn missed(setup: &Setup, rows: &[Observation]) -> Option<Missed> {
     // Poses as four points: one number says how well position and orientation fit.
     let reach = setup.arm / 4.0;
     let corners = [[0.0; 3], [reach, 0.0, 0.0], [0.0, reach, 0.0], [0.0, 0.0, reach]];
@@ -154,5 +198,5 @@ fn missed(setup: &Setup, rows: &[Observation]) -> Option<f64> {
     }
     let model = model.with(model.base_and_tool(false));
     let found = fit(&model, &rows, &Options::default()).ok()?;
-    model.figures(&rows, &found.x).ok().map(|figures| figures.rms)
+    Missed::new(&model, &rows, &found.x)
 }

@@ -66,6 +66,8 @@ pub struct Report {
     pub fit: Compared,
     /// How good it is on the test data.
     pub test: Option<Compared>,
+    /// How many of the test rows are rows of the fit, digit by digit: by them nothing is judged.
+    pub test_rows_of_the_fit: usize,
     /// Test rows outside the ranges of joints and inputs that were fitted; none if there are no such rows.
     pub outside: Option<Outside>,
     /// How good it is on rows left out in turn.

@@ -318,7 +318,7 @@ pub(super) fn displaced(model: &Model, x: &[f64], of: impl Fn(Component) -> Unkn
 }
 
 /// Every point that was measured with its target, none for the position of a pose.
-fn seen(model: &Model, observation: &Observation, mut take: impl FnMut(Option<usize>, [f64; 3])) {
+pub(super) fn seen(model: &Model, observation: &Observation, mut take: impl FnMut(Option<usize>, [f64; 3])) {
     if let Measurement::Pose(measured) = &observation.measured {
         take(None, measured.position());
     }

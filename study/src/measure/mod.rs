@@ -19,8 +19,8 @@ use serde::Serialize;
 
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::extrapolated::{Extrapolated, extrapolated};
-use crate::identify::{Order, Setup, Sizes, check_readings};
-use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake, number};
+use crate::identify::{Order, Setup, Sizes, check_readings, too_large};
+use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake};
 
 pub use errors::RowError;
 use errors::{Errors, Visit};
@@ -160,27 +160,6 @@ fn visited_again(rows: &[Observation]) -> Vec<bool> {
     again
 }
 
-/// Errors of more than this share of the arm are none of a machine.
-const LARGE: f64 = 1e-2;
-
-/// What is to be said of errors that are too large for a machine; `fitted` is what is left with base and tool fitted.
-fn far(rms: f64, fitted: Option<f64>, setup: &Setup) -> String {
-    let length = |value| number::length(value, setup.description.length);
-    let share = number::percent(rms, setup.arm);
-    let said = format!("these errors are {} (root mean square), {share} of the arm:", length(rms));
-    match fitted {
-        Some(left) if left < rms / 5.0 => format!(
-            "{said} with base and tool fitted {} are left. Where does the instrument stand (`base = \"unknown\"` in the map finds \
-             it), and where does the target sit?",
-            length(left)
-        ),
-        _ => format!(
-            "{said} neither another place of base and tool nor another reading (units, signs, orders of columns) that was tried brings \
-             the machine near them. Are they measurements of this machine?"
-        ),
-    }
-}
-
 impl Measure {
     /// Compares every row with the ideal machine and with the predicted one.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
@@ -211,8 +190,8 @@ impl Measure {
         let places = rows.iter().map(|row| (&row.q[..], &row.u[..]));
         let extrapolated = extrapolated(&machine.spec, &interpreter, "rows", places, notes);
         let Figures { rms, configurations, standard_error, .. } = seen.norms;
-        if rms > LARGE * setup.arm {
-            notes.warn(&far(rms, fitted, &setup));
+        if let Some(said) = too_large(rms, fitted, &setup) {
+            notes.warn(&said);
         }
         let Explained { left_mean: mean, left_rms: rms, left_p95: p95, left_max: max, .. } = seen.explained;
         let accepted = accept.judge("these rows", &Sizes { mean, standard_error: None, rms, max, p95 });
