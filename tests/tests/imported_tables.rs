@@ -242,6 +242,34 @@ tool:    t = (0, -0.1, 0), RPY/xyz = (-1.57, 0, -1.57) deg
     }
 }
 
+/// Of a table that is refused nothing is said but what is wrong with it.
+#[test]
+fn rows_with_two_variables_are_no_rows_without() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("table.csv");
+    std::fs::write(&file, "theta,d,a,alpha\nq1,d1,0,90\n").unwrap();
+    let format = Format::Table { convention: DhConvention::Standard, units: IN_MM };
+    let mut heard = Heard::default();
+    let refused = Import { file, format, round_angles: false }.run(&mut heard).unwrap_err().to_string();
+    assert!(refused.contains("this row has two variables"), "{refused}");
+    assert!(heard.0.is_empty(), "{:?}", heard.0);
+}
+
+/// Spreadsheets write a tab for every cell, empty ones at the end as well; a row that ends before is refused.
+#[test]
+fn empty_cells_at_the_end_are_cells() {
+    let table = "theta\td\ta\talpha\tlower\tupper\r\nq1\t400\t25\t90\t\t\r\nq2\t0\t560\t0\t-90\t90\r\n";
+    assert_eq!(imported(table, DhConvention::Standard, IN_MM, true).report.frames.len(), 2);
+    for short in ["q1\t400\t25\t90\t\r", "q1\t400\t25\r", "q1\r"] {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("table.tsv");
+        std::fs::write(&file, table.replacen("q1\t400\t25\t90\t\t\r", short, 1)).unwrap();
+        let format = Format::Table { convention: DhConvention::Standard, units: IN_MM };
+        let refused = Import { file, format, round_angles: false }.run(&mut ()).unwrap_err().to_string();
+        assert!(refused.contains("the heading 6") && refused.contains("it ends here"), "{refused}");
+    }
+}
+
 /// Tables with letters changed, left out and doubled are read or refused with a way out; nothing else happens.
 #[test]
 fn damaged_tables() {

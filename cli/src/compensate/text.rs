@@ -6,7 +6,7 @@ use abbe::{Class, Description, VariableKind};
 
 use abbe_report::text::{Table, wrapped};
 use abbe_study::compensate::{Report, Size, Told};
-use abbe_study::number::{error_decimals, fixed, length, short};
+use abbe_study::number::{counted, error_decimals, fixed, length, short};
 
 pub(super) fn text(description: &Description, report: &Report, out: Option<&Path>) -> String {
     let mut parts = vec![format!("{}: compensated\n\n", description.title)];
@@ -87,7 +87,8 @@ fn done(description: &Description, report: &Report) -> String {
     let tolerance = length(report.tolerance, description.length);
     let mut text = format!(
         "{} of {} rows are compensated: no more than {tolerance}{turn} is left at the tool point.",
-        report.compensated, report.told.rows
+        report.compensated,
+        report.asked()
     );
     text = wrapped(&text, 0) + "\n";
     let Told { failed, reasons, far, farthest, .. } = &report.told;
@@ -99,10 +100,12 @@ fn done(description: &Description, report: &Report) -> String {
     }
     if let Some((line, turn)) = farthest {
         let sentence = format!(
-            "In {far} rows a joint turns by more than {}° from its command (line {line}: by {:.0}°): look at them before they are \
-             sent.",
+            "In {} a joint turns by more than {}° from its command (line {line}: by {:.0}°): look at {} before {} sent.",
+            counted(*far, "row", "rows"),
             Told::FAR,
-            turn.to_degrees()
+            turn.to_degrees(),
+            if *far == 1 { "it" } else { "them" },
+            if *far == 1 { "it is" } else { "they are" }
         );
         text += &(wrapped(&sentence, 0) + "\n");
     }

@@ -87,5 +87,12 @@ pub(crate) fn note(message: &str) {
 }
 
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-    Failure::of(path.display(), format!("cannot write this: {error}"))
+    let help = match error.kind() {
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "name another folder, or make this one writable"
+        }
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "name another folder, or make room in this one",
+        _ => "name another file or folder",
+    };
+    Failure::of(path.display(), format!("cannot write this: {error}")).help(help)
 }

@@ -111,7 +111,7 @@ impl Outputs {
                 let message = "this file was not written by abbe, or was changed since";
                 Err(Failure::of(path.display(), message).help(help))
             }
-            Err(error) => Err(cannot_write(path, &error)),
+            Err(error) => Err(cannot_write(path, &error).help(help)),
         }
     }
 

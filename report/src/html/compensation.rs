@@ -55,7 +55,7 @@ fn sizes(spec: &Spec, report: &Report) -> String {
          <th>largest turn (mrad)</th></tr></thead>\n<tbody>{rows}</tbody></table>\n<p>{} of {} rows are compensated: no more than {} is left \
          at the tool point.</p>\n",
         report.compensated,
-        report.rows.len(),
+        report.asked(),
         number::length(report.tolerance, spec.length),
         unit = report.length
     )

@@ -247,7 +247,12 @@ pub fn check_poses(map: &Map) -> Result<(), Diagnostics> {
 impl Report {
     /// Whether every row is compensated.
     pub fn complete(&self) -> bool {
-        self.compensated == self.told.rows + self.unusable.len()
+        self.compensated == self.asked()
+    }
+
+    /// How many rows were to be compensated, those that cannot be used among them.
+    pub fn asked(&self) -> usize {
+        self.told.rows + self.unusable.len()
     }
 
     /// The corrected commands in the columns and units of the data, and what they leave.

@@ -15,7 +15,7 @@ use serde::Serialize;
 use super::InF0;
 use super::reason::reason;
 use crate::data::{Data, Unusable};
-use crate::number::{Named, of_variable};
+use crate::number::{Named, length, of_variable};
 use crate::{Notes, mistake};
 
 /// The norms of ΔX.
@@ -226,6 +226,15 @@ fn unreached(description: &Description, reason: &ReachError) -> String {
             let variable = &description.variables[*variable];
             let value = of_variable(*value, variable.kind, description.length);
             format!("not even the ideal tool gets there: {} would have to be {value}", variable.name)
+        }
+        ReachError::OutOfReach { residual, turn } => {
+            let away = length(*residual, description.length);
+            let turned = if *turn > 0.0 {
+                format!(" and {} turned", of_variable(*turn, VariableKind::Revolute, description.length))
+            } else {
+                String::new()
+            };
+            format!("not even the ideal tool gets there: out of reach, at best {away} away{turned}")
         }
         reason => format!("not even the ideal tool gets there: {reason}"),
     }

@@ -4,6 +4,9 @@ use std::io::Read;
 
 use csv::{ReaderBuilder, Trim};
 
+/// What can stand between cells.
+pub(super) const SEPARATORS: [u8; 3] = [b'\t', b';', b','];
+
 /// How many records are looked at.
 const LOOKED_AT: usize = 200;
 
@@ -19,10 +22,13 @@ pub(super) struct Dialect {
 impl Dialect {
     /// Of a file's text. The first record has the names of the columns: whatever it has most of outside of quotes stands
     /// between them. Decimals have a comma if a cell is a number with a comma and none is one with a point.
-    pub(super) fn detect(bytes: &[u8]) -> Self {
+    ///
+    /// What stands between cells may be stated.
+    pub(super) fn detect(bytes: &[u8], stated: Option<u8>) -> Self {
         let counts = separators(bytes);
         // Of equals the last is taken.
-        let delimiter = [b'\t', b';', b','].into_iter().max_by_key(|byte| counts[usize::from(*byte)]);
+        let most = || SEPARATORS.into_iter().max_by_key(|byte| counts[usize::from(*byte)]);
+        let delimiter = stated.or_else(most);
         let plain = Self { delimiter: delimiter.unwrap_or(b','), decimal_comma: false };
         let records =
             plain.reader(bytes).into_records().take(LOOKED_AT).filter_map(Result::ok).collect::<Vec<_>>();
@@ -35,13 +41,23 @@ impl Dialect {
     }
 
     pub(super) fn reader<R: Read>(&self, bytes: R) -> csv::Reader<R> {
+        self.builder().from_reader(bytes)
+    }
+
+    /// The same, the heading being a record as all others.
+    pub(super) fn all_records<R: Read>(&self, bytes: R) -> csv::Reader<R> {
+        self.builder().has_headers(false).from_reader(bytes)
+    }
+
+    fn builder(&self) -> ReaderBuilder {
         let mut builder = ReaderBuilder::new();
+        builder.trim(Trim::All).comment(Some(b'#')).flexible(true).delimiter(self.delimiter);
         builder
-            .trim(Trim::All)
-            .comment(Some(b'#'))
-            .flexible(true)
-            .delimiter(self.delimiter)
-            .from_reader(bytes)
+    }
+
+    /// The same decimals between other cells.
+    pub(super) fn separated(self, delimiter: u8) -> Self {
+        Self { delimiter, ..self }
     }
 
     /// The number in a cell.
@@ -114,7 +130,11 @@ mod tests {
             ("\"a;b;c\",\"d\n;;\"\"e\"\n1.5,2\n", b',', false),
             ("5\" rail;x;y, z\n1;2;3\n", b';', false),
         ] {
-            assert_eq!(Dialect::detect(text.as_bytes()), Dialect { delimiter, decimal_comma }, "{text:?}");
+            assert_eq!(
+                Dialect::detect(text.as_bytes(), None),
+                Dialect { delimiter, decimal_comma },
+                "{text:?}"
+            );
         }
         let comma = Dialect { delimiter: b';', decimal_comma: true };
         assert_eq!(

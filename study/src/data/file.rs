@@ -8,6 +8,7 @@ use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostics;
 
+use super::above::{above_heading, stated_separator};
 use super::dialect::Dialect;
 use super::record::Record;
 use crate::lines::{Lines, Watched};
@@ -47,7 +48,11 @@ impl File {
         if let Some(found) = not_text(&head).or_else(|| other_text(&head)) {
             return Err(unfit(&name, &found));
         }
-        let dialect = Dialect::detect(&head);
+        let stated = stated_separator(&mut head);
+        let dialect = Dialect::detect(&head, stated);
+        if let Some(found) = above_heading(&head, dialect) {
+            return Err(unfit(&name, &found));
+        }
         let (watched, lines) = Watched::new(Cursor::new(head).chain(input));
         let mut reader = dialect.reader(watched);
         let heading = reader.headers().map_err(|error| unreadable(&name, &error))?;

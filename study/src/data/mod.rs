@@ -2,6 +2,7 @@
 //!
 //! `docs/reference/map.md` has every key.
 
+mod above;
 mod column;
 mod configurations;
 mod date;

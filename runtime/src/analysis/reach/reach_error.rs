@@ -32,10 +32,10 @@ impl fmt::Display for ReachError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfReach { residual, turn: 0.0 } => {
-                write!(f, "out of reach: at best {residual:.6} away")
+                write!(f, "out of reach: at best {residual:.6} length units away")
             }
             Self::OutOfReach { residual, turn } => {
-                write!(f, "out of reach: at best {residual:.6} away and {turn:.6} rad turned")
+                write!(f, "out of reach: at best {residual:.6} length units away and {turn:.6} rad turned")
             }
             Self::OutsideLimits { variable, value, limits: [lower, upper] } => write!(
                 f,

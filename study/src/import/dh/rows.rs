@@ -85,7 +85,8 @@ pub(super) fn joints(
         document.mistake(mistake.help("`kind` says `revolute` or `prismatic` where a joint is"));
     }
     let named = joints.iter().flat_map(|joint| &joint.moved).any(|moved| moved.prismatic);
-    if cells.columns.get(Meaning::Kind).is_none() && !named {
+    // Of rows that are not read nothing is said but what is wrong.
+    if document.found.is_empty() && cells.columns.get(Meaning::Kind).is_none() && !named {
         notes.note("no column says which joints slide, and no `d` has a variable: all rows were read as joints that turn");
     }
     joints

@@ -7,6 +7,7 @@ use abbe_codegen::document::Document;
 use abbe_codegen::spec::DhConvention;
 
 use super::columns::Meaning;
+use crate::number::counted;
 
 /// The most rows of a table.
 const MOST_ROWS: usize = 1000;
@@ -71,7 +72,15 @@ impl Text {
             document.mistake(Diagnostic::new(line, message).help("one row for each joint, from base to tip"));
             return None;
         }
+        let columns = heading.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
         for row in &rows {
+            if let Some(last) = row.last().filter(|_| row.len() < columns) {
+                let cells = counted(row.len(), "cell", "cells");
+                let message = format!("this row has {cells}, the heading {columns}");
+                let help = "a row has a cell for every column, `0` where a number is zero, nothing where there is none";
+                document.mistake(Diagnostic::new(last.clone(), message).label("it ends here").help(help));
+                return None;
+            }
             let beyond = row.get(heading.len()..).unwrap_or_default();
             if let Some(cell) = beyond.iter().find(|cell| !cell.is_empty()) {
                 let message = format!("this row has {} cells, the heading {}", row.len(), heading.len());
@@ -127,7 +136,9 @@ fn lines(text: &str) -> impl Iterator<Item = Span> {
         start += line.len();
         // Of some programs a text begins with a mark that is no part of it.
         let mark = if line.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-        begin + mark..begin + line.trim_end().len().max(mark)
+        // A tab at its end is a cell.
+        let inner = line.trim_end_matches(|c: char| c != '\t' && c.is_whitespace());
+        begin + mark..begin + inner.len().max(mark)
     })
 }
 

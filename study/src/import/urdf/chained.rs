@@ -66,10 +66,11 @@ pub(super) fn chain(
     let Builder { variables, frames, masses, waiting, beside, .. } = builder;
     if frames.is_empty() {
         let message = format!("nothing moves between `{}` and `{}`", names[base], names[tip]);
-        document.mistake(
-            Diagnostic::new(tree.link(tip).span.clone(), message)
-                .help("name a tip behind a joint that moves, or leave out `--fold`"),
-        );
+        let help = match way.is_empty() {
+            true => "name a tip behind a joint that moves",
+            false => "name a tip behind a joint that moves, or leave out `--fold`",
+        };
+        document.mistake(Diagnostic::new(tree.link(tip).span.clone(), message).help(help));
         return None;
     }
     if robot.meshes > 0 {
