@@ -50,16 +50,16 @@ int main(void)
     volatile unsigned *const control = (volatile unsigned *)0xE000E010U;
     volatile unsigned *const reload = (volatile unsigned *)0xE000E014U;
     volatile unsigned *const value = (volatile unsigned *)0xE000E018U;
-    double q[NAME(VARIABLES)];
-    double corrected[NAME(VARIABLES)];
-    double before[6];
-    double after[6];
+    REAL q[NAME(VARIABLES)];
+    REAL corrected[NAME(VARIABLES)];
+    REAL before[6];
+    REAL after[6];
     const int wrong = CALL(self_test)();
     print("self-test ");
     print(wrong == 0 ? "passed" : "FAILED");
     for (int j = 0; j < NAME(VARIABLES); j++) {
-        const double *const limits = CALL(limits)[j];
-        q[j] = limits[0] + (0.3 + 0.05 * j) * (limits[1] - limits[0]);
+        const REAL *const limits = CALL(limits)[j];
+        q[j] = limits[0] + (REAL)(6 + j) / (REAL)20 * (limits[1] - limits[0]);
     }
     *reload = 0xFFFFFFU;
     *value = 0U;

@@ -40,9 +40,18 @@ pub(crate) fn run(arguments: &Generate) -> Result<Outcome, Failure> {
     Ok(Outcome::passed(String::new()))
 }
 
-/// The language, and of a functional mock-up unit the version that is asked for.
+/// The language, of C with what it computes in, and of a functional mock-up unit with the version that is asked for.
 fn language(arguments: &Generate) -> Result<Language, Failure> {
-    match (arguments.lang, arguments.fmi) {
+    let language = match (arguments.lang, arguments.real) {
+        (language, None) => language,
+        (Language::C(_), Some(real)) => Language::C(real),
+        (language, Some(real)) => {
+            let message = format!("{} has no type of numbers to choose", language.name());
+            let help = format!("`--lang c --real {}`, or leave `--real` out", real.name());
+            return Err(Failure::of("--real", message).help(help));
+        }
+    };
+    match (language, arguments.fmi) {
         (Language::Fmu(_), Some(fmi)) => Ok(Language::Fmu(fmi)),
         (_, Some(_)) => Err(Failure::of("--fmi", "only a functional mock-up unit has a version of FMI")
             .help("ask for one: `--lang fmu`; or leave `--fmi` out")),

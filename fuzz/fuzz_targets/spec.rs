@@ -3,14 +3,17 @@
 
 mod told;
 
-use abbe_codegen::print::Language;
+use abbe_codegen::print::{Language, Real};
 use abbe_codegen::spec::Spec;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     match Spec::parse("fuzzed.toml", text) {
-        Ok(spec) => Language::ALL.into_iter().for_each(|language| drop(language.files(&spec))),
+        Ok(spec) => {
+            let all = Language::ALL.into_iter().chain([Language::C(Real::Float)]);
+            all.for_each(|language| drop((language.lost(&spec), language.files(&spec))));
+        }
         Err(refused) => told::told(&refused),
     }
 });

@@ -15,7 +15,7 @@ use abbe_study::analyze::parts::{Part, Question, Shard, Written};
 use abbe_study::analyze::{self, Analyze};
 use abbe_study::check::Check;
 use abbe_study::data::{Data, Map};
-use abbe_study::generate::{Generate, Language};
+use abbe_study::generate::{Generate, Language, Real};
 use abbe_study::identify::{Family, Identify, Prior, Settings};
 use abbe_study::measure::Measure;
 use abbe_study::monitor::{self, Checks, Monitor};
@@ -353,9 +353,9 @@ impl Machine {
     }
 
     /// The closed form as source code: `language` is "rust", "c", "js", "python" or "matlab". The same spec gives the same text; the header and
-    /// the source of C stand in it one after the other.
-    #[pyo3(signature = (language="rust"))]
-    fn generate(&self, py: Python<'_>, language: &str) -> PyResult<String> {
+    /// the source of C stand in it one after the other; it computes in `real`, "double" if nothing is said, or "float".
+    #[pyo3(signature = (language="rust", *, real=None))]
+    fn generate(&self, py: Python<'_>, language: &str, real: Option<&str>) -> PyResult<String> {
         let mut texts = Language::ALL.into_iter().filter(|known| !matches!(known, Language::Fmu(_)));
         let known = texts.find(|known| known.name() == language);
         let language = known.ok_or_else(|| {
@@ -363,6 +363,15 @@ impl Machine {
                 "language={language:?}: \"rust\", \"c\", \"js\", \"python\" or \"matlab\""
             ))
         })?;
+        let known = real.map(|real| (real, Real::ALL.into_iter().find(|known| known.name() == real)));
+        let language = match (language, known) {
+            (language, None) => language,
+            (Language::C(_), Some((_, Some(real)))) => Language::C(real),
+            (_, Some((real, _))) => {
+                let message = format!("real={real:?}: \"double\" or \"float\", with language=\"c\"");
+                return Err(PyValueError::new_err(message));
+            }
+        };
         let job = Generate { machine: self.machine.clone(), language };
         let files = run(py, None, None, |notes| job.run(notes))?.0;
         Ok(files.into_iter().map(|file| file.text).collect())

@@ -46,6 +46,7 @@ def test_the_same_as_the_command():
     assert changed.to_json() + "\n" == printed("analyze", "pps", "--set", "x=25mm", "--disable", "assembly", "--json")
     assert json.loads(printed("check", "scara", "--json")) == abbe.load("scara").check().to_dict()
     assert printed("generate", "scara", "--lang", "rust") == abbe.load("scara").generate()
+    assert "int scara_pose(const float *ABBE_RESTRICT q" in abbe.load("scara").generate("c", real="float")
 
 
 def test_report(tmp_path):
@@ -169,6 +170,8 @@ def test_mistakes_of_jobs(tmp_path):
         lambda: ur5.monitor(["a"], "b", false_alarm=1),
         lambda: ur5.monitor("a", "b"),
         lambda: ur5.generate("cobol"),
+        lambda: ur5.generate("rust", real="float"),
+        lambda: ur5.generate("c", real="half"),
         lambda: ur5.inverse(np.zeros((3, 3))),
         lambda: ur5.inverse([np.nan, 0, 0]),
         lambda: ur5.inverse([1, 0, 0], [1, 2]),

@@ -3,11 +3,12 @@
 use std::io::{Cursor, Write};
 
 use abbe_codegen::diagnostic::Diagnostics;
-pub use abbe_codegen::print::{Fmi, Language, SourceFile};
+pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
 use zip::write::SimpleFileOptions;
 use zip::{DateTime, ZipWriter};
 
 use crate::machine::Machine;
+use crate::mistake;
 use crate::notes::Notes;
 
 /// What is the code of this manipulator?
@@ -20,9 +21,18 @@ pub struct Generate {
 }
 
 impl Generate {
-    /// The files: one, or several that belong together. The same spec gives the same bytes.
+    /// The files: one, or several that belong together. The same spec gives the same bytes. An error if the language's numbers
+    /// cannot hold one of the manipulator's.
     pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>, Diagnostics> {
-        Ok(self.language.files(&self.machine.spec))
+        let spec = &self.machine.spec;
+        match self.language.lost(spec) {
+            None => Ok(self.language.files(spec)),
+            Some(number) => Err(mistake::with_help(
+                &spec.file,
+                format!("it has the number {number:e}, which single precision cannot hold"),
+                "leave `--real float` out; or is the unit of a quantity not the one that was meant?",
+            )),
+        }
     }
 }
 

@@ -71,6 +71,18 @@ fn usage() {
     refused(&["check"], &["Usage: abbe check"]);
     refused(&["generate", "pps", "--lang", "fortran"], &["invalid value 'fortran'", "rust"]);
     refused(&["generate", "pps", "--lang", "c"], &["c is written as 2 files", "--out DIR"]);
+    refused(
+        &["generate", "pps", "--real", "float"],
+        &["rust has no type of numbers", "--lang c --real float"],
+    );
+    refused(
+        &["generate", "pps", "--lang", "js", "--real", "double"],
+        &["js has no type of numbers", "leave"],
+    );
+    refused(
+        &["generate", "pps", "--lang", "c", "--real", "half"],
+        &["invalid value 'half'", "double, float"],
+    );
     refused(&["analyze", "pps", "--outt", "x"], &["--out"]);
 }
 

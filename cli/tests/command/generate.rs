@@ -74,3 +74,32 @@ fn a_functional_mock_up_unit_is_an_archive() {
     let refused = abbe(&["generate", "pps", "--lang", "c", "--fmi", "2", "--out", "pps"]);
     assert!(refused.status == 2 && refused.stderr.contains("`--lang fmu`"), "{}", refused.stderr);
 }
+
+/// In single precision nothing is in double precision, and what single precision does not have is refused.
+#[test]
+fn c_in_single_precision() {
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("controller");
+    let asked = ["--lang", "c", "--real", "float", "--out", out.to_str().unwrap()];
+    prints(&[&["generate", "pps"][..], &asked].concat());
+    for file in ["pps.h", "pps.c"] {
+        let text = fs::read_to_string(out.join(file)).unwrap();
+        assert!(text.contains("const float *") && !text.contains("double "), "{file}");
+    }
+    let spec =
+        prints(&["generate", "pps", "--lang", "c", "--real", "double", "--out", out.to_str().unwrap()]);
+    assert_eq!(spec, "");
+    assert!(fs::read_to_string(out.join("pps.h")).unwrap().contains("const double *"));
+    for (number, told) in [("1e39", "1e39"), ("2e-50", "2e-50")] {
+        let text = format!(
+            "[manipulator]\nname = \"tiny\"\nlength = \"m\"\n[[frame]]\nname = \"a\"\n\
+             variable = {{ name = \"q\", kind = \"revolute\", limits = [-1, 1] }}\n\
+             transform = \"Rz(q) Tx({number})\"\n"
+        );
+        let spec = write(folder.path(), "tiny.toml", &text);
+        let run = abbe(&[&["generate", spec.to_str().unwrap()][..], &asked].concat());
+        assert!(run.status == 2 && run.stderr.contains(told), "{}", run.stderr);
+        assert!(run.stderr.contains("single precision"), "{}", run.stderr);
+    }
+    assert!(!out.join("tiny.c").exists());
+}

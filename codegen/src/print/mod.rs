@@ -22,6 +22,7 @@ mod statement;
 mod statements;
 mod text;
 
+pub use c::Real;
 pub use fmu::Fmi;
 
 use crate::chain::Model;
@@ -33,8 +34,8 @@ use crate::spec::Spec;
 pub enum Language {
     /// A module for the crate `abbe`.
     Rust,
-    /// A header and a source in C99.
-    C,
+    /// A header and a source in C99, and what they compute in.
+    C(Real),
     /// An ES module of pure functions.
     JavaScript,
     /// A module of functions on arrays of NumPy.
@@ -55,19 +56,33 @@ pub struct SourceFile {
 }
 
 impl Language {
-    /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Rust, Self::C, Self::JavaScript, Self::Python, Self::Matlab, Self::Fmu(Fmi::Three)];
+    /// All of them; C and the unit as they are without being asked for something else.
+    pub const ALL: [Self; 6] = [
+        Self::Rust,
+        Self::C(Real::Double),
+        Self::JavaScript,
+        Self::Python,
+        Self::Matlab,
+        Self::Fmu(Fmi::Three),
+    ];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rust => "rust",
-            Self::C => "c",
+            Self::C(_) => "c",
             Self::JavaScript => "js",
             Self::Python => "python",
             Self::Matlab => "matlab",
             Self::Fmu(_) => "fmu",
+        }
+    }
+
+    /// A number of the manipulator that the code could not hold.
+    pub fn lost(self, spec: &Spec) -> Option<f64> {
+        match self {
+            Self::C(real @ Real::Float) => c::lost(spec, &Routines::new(spec, &Model::new(spec)), real),
+            _ => None,
         }
     }
 
@@ -81,7 +96,7 @@ impl Language {
             |extension: &str, text| vec![SourceFile { name: format!("{}.{extension}", spec.name), text }];
         match self {
             Self::Rust => one("rs", rust::module(spec, &model, &routines)),
-            Self::C => c::files(spec, &model, &routines),
+            Self::C(real) => c::files(spec, &model, &routines, real),
             Self::JavaScript => one("js", javascript::module(spec, &routines)),
             Self::Python => one("py", python::module(spec, &routines)),
             Self::Matlab => vec![matlab::class(spec, &routines)],

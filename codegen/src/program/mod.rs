@@ -9,12 +9,14 @@ mod fuse;
 mod loops;
 mod order;
 mod outputs;
+mod rounding;
 mod routine;
 mod routines;
 mod straight_line;
 
 pub use count::Operations;
 pub use outputs::{results, straight_line};
+pub use rounding::Rounded;
 pub use routine::{Array, Block, Place, Repeated, Role, Routine, Row, Stage, Sums, Table};
 pub use routines::Routines;
 pub use straight_line::{Action, Operand, Program, Step};

@@ -116,6 +116,14 @@ impl Routines {
         self.sums.iter().enumerate().filter(move |(index, _)| is_used(*index)).map(|(_, sums)| sums)
     }
 
+    /// The programs of all routines.
+    pub fn programs(&self) -> impl Iterator<Item = &Program> {
+        self.stages().filter_map(|stage| match stage {
+            Stage::Block(block) => Some(&block.program),
+            _ => None,
+        })
+    }
+
     fn stages(&self) -> impl Iterator<Item = &Stage> {
         self.list.iter().flat_map(|routine| &routine.stages)
     }

@@ -7,7 +7,7 @@ use abbe::analysis::sampling::{halton, nominal_inputs, nominal_parameters};
 use abbe::identify::{Criterion, Loss};
 use abbe::{Manipulator, real_pose};
 use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::print::Language;
+use abbe_codegen::print::{Language, Real};
 use abbe_interpreter::Interpreter;
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
@@ -38,7 +38,7 @@ fn notes() -> Impatient {
 
 /// All that is asked of a spec: its code, its errors at home, over a few samples, and, if asked, its laws.
 pub(crate) fn of_spec(machine: Machine, with_laws: bool) -> Result<(), Diagnostics> {
-    for language in Language::ALL {
+    for language in Language::ALL.into_iter().chain([Language::C(Real::Float)]) {
         assert!(language.files(&machine.spec).iter().all(|file| !file.text.is_empty()));
     }
     Jacobian { machine: machine.clone(), q: None }.run(&mut notes())?;

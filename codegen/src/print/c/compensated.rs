@@ -2,11 +2,12 @@
 
 use abbe::VariableKind;
 
-use super::operators::number;
+use super::real::Real;
+use super::shortest::Solver;
 use crate::print::layout::Writer;
 use crate::spec::Spec;
 
-pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
+pub(super) fn declaration(writer: &mut Writer, spec: &Spec, real: Real) {
     if spec.variables.is_empty() {
         return;
     }
@@ -34,36 +35,49 @@ pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
          were needed, at a limit or near a singular pose; `corrected` is the best that was seen."
     ));
     writer.lines(" */");
-    writer.lines(&format!("{};", head(name, "ABBE_RESTRICT")));
+    writer.lines(&format!("{};", head(name, real, "ABBE_RESTRICT")));
 }
 
-fn head(name: &str, restrict: &str) -> String {
+fn head(name: &str, real: Real, restrict: &str) -> String {
     format!(
-        "int {name}_compensated(const double *{restrict} q, const double *{restrict} s, const double *{restrict} u, \
-         double *{restrict} corrected, double *{restrict} before, double *{restrict} after)"
+        "int {name}_compensated(const {real} *{restrict} q, const {real} *{restrict} s, const {real} *{restrict} u, \
+         {real} *{restrict} corrected, {real} *{restrict} before, {real} *{restrict} after)"
     )
 }
 
-pub(super) fn definition(writer: &mut Writer, spec: &Spec) {
+pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
     if spec.variables.is_empty() {
         return;
     }
     let metre = 1.0 / spec.length.in_metres();
     let units = spec.variables.iter().map(|variable| match variable.kind {
-        VariableKind::Revolute => "1.0".to_owned(),
-        VariableKind::Prismatic => number(metre),
+        VariableKind::Revolute => real.number(1.0),
+        VariableKind::Prismatic => real.number(metre),
     });
     writer.blank();
     writer.lines("/* One rad or one metre in the unit of each variable. */");
     let units: Vec<String> = units.collect();
-    writer.braces(&format!("static const double UNITS[{}] = ", units.len()), &units, ";");
-    let text = TEXT
-        .replace("SHORTEST", if units.len() > 6 { BY_ROWS } else { BY_COLUMNS })
-        .replace("HEAD", &head(&spec.name, "restrict"))
-        .replace("NAME", &spec.name)
-        .replace("UPPER", &spec.name.to_ascii_uppercase())
-        .replace("COUNT", &units.len().to_string())
-        .replace("METRE", &number(1.0 / metre));
+    writer.braces(&format!("static const {real} UNITS[{}] = ", units.len()), &units, ";");
+    let more_than_six = units.len() > 6;
+    let Solver { texts, damping, rest, tiny } = Solver::of(real);
+    let [before, shortest] = [texts[0], texts[if more_than_six { 2 } else { 1 }]];
+    let written = TEXT.replace("SHORTEST", &[before, shortest].concat());
+    let placed = [
+        ("FULL", units.len().max(6).to_string()),
+        ("LONG", (6 + units.len()).to_string()),
+        ("RANK", units.len().min(6).to_string()),
+        ("COUNT", units.len().to_string()),
+        ("METRE", real.number(1.0 / metre)),
+        ("DAMPING", real.number(damping)),
+        ("STILL", real.number(rest)),
+        ("TINY", real.number(tiny)),
+        ("NAME", spec.name.clone()),
+        ("UPPER", spec.name.to_ascii_uppercase()),
+    ];
+    let (before, after) = written.split_once("HEAD").unwrap_or((&written, ""));
+    let [before, after] = [before, after]
+        .map(|text| placed.iter().fold(real.text(text), |text, (what, value)| text.replace(what, value)));
+    let text = [before, head(&spec.name, real, "restrict"), after].concat();
     writer.blank();
     writer.lines(text.trim_end());
 }
@@ -100,7 +114,7 @@ static void deviation(const double *ideal, const double *real, double *rows)
     v[2] = turn[1][0] - turn[0][1];
     const double twice_sine = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const double angle = atan2(twice_sine, turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
-    const double scale = (twice_sine < 1e-150) ? 0.5 : angle / twice_sine;
+    const double scale = (twice_sine < TINY) ? 0.5 : angle / twice_sine;
     for (int i = 0; i < 3; i++) {
         rows[3 + i] = v[i] * scale;
     }
@@ -120,29 +134,6 @@ static double cost(const double *rows)
     double weighted[6];
     weigh(rows, 1.0, weighted);
     return dot(weighted, weighted, 6);
-}
-
-/* (M + lambda) x = b by Cholesky, for M positive semidefinite; b becomes x. */
-static void solve(double m[6][6], double *b)
-{
-    for (int i = 0; i < 6; i++) {
-        for (int j = 0; j <= i; j++) {
-            const double rest = m[i][j] - dot(m[i], m[j], j);
-            if (i == j) {
-                m[i][j] = sqrt(((rest > 0.0) ? rest : 0.0) + 1e-14);
-            } else {
-                m[i][j] = rest / m[j][j];
-            }
-        }
-        b[i] = (b[i] - dot(m[i], b, i)) / m[i][i];
-    }
-    for (int i = 5; i >= 0; i--) {
-        double known = 0.0;
-        for (int j = i + 1; j < 6; j++) {
-            known += m[j][i] * b[j];
-        }
-        b[i] = (b[i] - known) / m[i][i];
-    }
 }
 
 SHORTEST
@@ -244,48 +235,6 @@ HEAD
             }
         }
     }
-    return (moved <= 1e-7) ? UPPER_OK : UPPER_NOT_CONVERGED;
-}
-";
-
-/// Of six joints or fewer.
-const BY_COLUMNS: &str = "\
-/* The shortest step, (J^T J + lambda)^-1 J^T b. */
-static void shortest(double columns[COUNT][6], const double *b, double *step)
-{
-    double m[6][6] = { { 0.0 } };
-    double x[6] = { 0.0 };
-    for (int i = 0; i < COUNT; i++) {
-        x[i] = dot(columns[i], b, 6);
-        for (int j = 0; j <= i; j++) {
-            m[i][j] = dot(columns[i], columns[j], 6);
-        }
-    }
-    solve(m, x);
-    for (int k = 0; k < COUNT; k++) {
-        step[k] = x[k];
-    }
-}
-";
-
-/// Of more joints.
-const BY_ROWS: &str = "\
-/* The shortest step, J^T (J J^T + lambda)^-1 b. */
-static void shortest(double columns[COUNT][6], const double *b, double *step)
-{
-    double m[6][6] = { { 0.0 } };
-    double x[6];
-    for (int i = 0; i < 6; i++) {
-        x[i] = b[i];
-        for (int j = 0; j < 6; j++) {
-            for (int k = 0; k < COUNT; k++) {
-                m[i][j] += columns[k][i] * columns[k][j];
-            }
-        }
-    }
-    solve(m, x);
-    for (int k = 0; k < COUNT; k++) {
-        step[k] = dot(columns[k], x, 6);
-    }
+    return (moved <= STILL) ? UPPER_OK : UPPER_NOT_CONVERGED;
 }
 ";

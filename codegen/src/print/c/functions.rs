@@ -1,6 +1,7 @@
 //! Routines as functions.
 
-use super::operators::{C, number};
+use super::operators::C;
+use super::real::Real;
 use crate::print::expression::Value;
 use crate::print::flat::{Flat, filled};
 use crate::print::header::operations;
@@ -12,10 +13,10 @@ use crate::program::{Place, Role, Routine, Routines, Row};
 use crate::spec::Spec;
 
 /// The head of a function without its end: `int pps_pose(const double *restrict q, …)`.
-pub(super) fn head(prefix: &str, routine: &Routine, restrict: &str) -> String {
+pub(super) fn head(prefix: &str, routine: &Routine, real: Real, restrict: &str) -> String {
     let outside = routine.arrays.iter().filter_map(|array| match array.role {
-        Role::Argument => Some(format!("const double *{restrict} {}", array.name)),
-        Role::Result => Some(format!("double *{restrict} {}", array.name)),
+        Role::Argument => Some(format!("const {real} *{restrict} {}", array.name)),
+        Role::Result => Some(format!("{real} *{restrict} {}", array.name)),
         Role::Margin | Role::Zeros => None,
     });
     let arguments = outside.collect::<Vec<_>>().join(", ");
@@ -60,16 +61,17 @@ pub(super) fn documentation(writer: &mut Writer, routines: &Routines, routine: &
 }
 
 /// One function.
-pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {
-    let Statements { list, used, .. } = Statements::new(spec, &routines.description, routine, &C(spec));
+pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine, real: Real) {
+    let Statements { list, used, .. } =
+        Statements::new(spec, &routines.description, routine, &C { spec, real });
     let prefix = &routines.description.name;
     writer.blank();
     if routine.function.is_none() {
         comment(writer, routine.documentation);
     }
-    writer.lines(&head(prefix, routine, "restrict"));
+    writer.lines(&head(prefix, routine, real, "restrict"));
     writer.open_alone();
-    let mut printer = Printer { writer, flat: Flat { routines, routine }, prefix };
+    let mut printer = Printer { writer, flat: Flat { routines, routine }, prefix, real };
     printer.begin(&used, !list.is_empty());
     list.iter().for_each(|statement| printer.statement(statement));
     let margin = list.iter().find_map(|statement| match statement {
@@ -92,6 +94,7 @@ struct Printer<'p> {
     writer: &'p mut Writer,
     flat: Flat<'p>,
     prefix: &'p str,
+    real: Real,
 }
 
 impl Printer<'_> {
@@ -133,14 +136,14 @@ impl Printer<'_> {
 
     /// Whether the results are there.
     fn end(&mut self, margin: Option<&str>) {
-        let Flat { routine, .. } = self.flat;
+        let (Flat { routine, .. }, real) = (self.flat, self.real);
         if routine.function.is_none() {
             return;
         }
         let upper = self.upper();
         if let Some(margin) = margin {
-            self.writer.lines(&format!("const double margin = {margin};"));
-            self.writer.open(&format!("if (!(margin >= {}))", number(abbe::MINIMUM_MARGIN)));
+            self.writer.lines(&format!("const {real} margin = {margin};"));
+            self.writer.open(&format!("if (!(margin >= {}))", real.number(abbe::MINIMUM_MARGIN)));
             self.writer
                 .lines(&format!("return (isnan(margin) != 0) ? {upper}_NOT_FINITE : {upper}_SINGULAR;"));
             self.writer.close("}");
@@ -161,26 +164,27 @@ impl Printer<'_> {
     /// Zeros for an array.
     fn clear(&mut self, array: usize) {
         self.writer.open(&format!("for (int k = 0; k < {}; k++)", self.flat.len(array)));
-        self.writer.lines(&format!("{}[k] = 0.0;", self.name(array)));
+        self.writer.lines(&format!("{}[k] = {};", self.name(array), self.real.number(0.0)));
         self.writer.close("}");
     }
 
     fn statement(&mut self, statement: &Statement) {
+        let real = self.real;
         match statement {
             Statement::Unpack { names, from } => {
                 let named = names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?)));
                 for (k, name) in named {
-                    self.writer.lines(&format!("const double {name} = {};", self.place(*from, 0, k)));
+                    self.writer.lines(&format!("const {real} {name} = {};", self.place(*from, 0, k)));
                 }
             }
             Statement::Comment(text) => {
                 self.writer.lines(&format!("/* {} */", harmless(text)));
             }
-            Statement::Let { name, value } => self.writer.lines(&format!("const double {name} = {value};")),
+            Statement::Let { name, value } => self.writer.lines(&format!("const {real} {name} = {value};")),
             Statement::SinCos(pairs) => {
                 for ([sine, cosine], angle) in pairs {
-                    self.writer.lines(&format!("double {sine};"));
-                    self.writer.lines(&format!("double {cosine};"));
+                    self.writer.lines(&format!("{real} {sine};"));
+                    self.writer.lines(&format!("{real} {cosine};"));
                     self.writer.lines(&format!("sin_cos({}, &{sine}, &{cosine});", angle.text));
                 }
             }
@@ -198,7 +202,7 @@ impl Printer<'_> {
             Statement::Assign { to, values, fresh: true, .. } => {
                 let values: Vec<&str> = values.iter().map(|value| value.text.as_str()).collect();
                 let name = self.name(to.array);
-                self.writer.braces(&format!("double {name}[{}] = ", values.len()), &values, ";");
+                self.writer.braces(&format!("{real} {name}[{}] = ", values.len()), &values, ";");
             }
             Statement::Assign { to, index, values, fresh: false } => {
                 // What was declared began as zeros.
@@ -244,13 +248,16 @@ impl Printer<'_> {
     /// An array of its own begins, a result is cleared.
     fn declare(&mut self, array: usize) {
         match self.flat.routine.arrays[array].role {
-            Role::Zeros => {
-                let (name, len) = (self.name(array), self.flat.len(array));
-                self.writer.lines(&format!("double {name}[{len}] = {{ 0.0 }};"));
-            }
+            Role::Zeros => self.zeros(array),
             _ if self.has_zeros(array) => self.clear(array),
             _ => {}
         }
+    }
+
+    /// An array of its own.
+    fn zeros(&mut self, array: usize) {
+        let (real, name, len) = (self.real, self.name(array), self.flat.len(array));
+        self.writer.lines(&format!("{real} {name}[{len}] = {{ {} }};", real.number(0.0)));
     }
 
     /// Whether a result has entries that are not written.
@@ -280,8 +287,7 @@ impl Printer<'_> {
     fn call(&mut self, routine: &str, arrays: &[usize], fresh: &[usize]) {
         let callee = self.flat.routines.named(routine);
         for array in fresh.iter().filter(|array| self.flat.routine.arrays[**array].role == Role::Zeros) {
-            let (name, len) = (self.name(*array), self.flat.len(*array));
-            self.writer.lines(&format!("double {name}[{len}] = {{ 0.0 }};"));
+            self.zeros(*array);
         }
         let given = arrays.iter().zip(&callee.arrays).filter(|(_, array)| array.role != Role::Margin);
         let given: Vec<String> = given.map(|(array, _)| self.name(*array).to_owned()).collect();

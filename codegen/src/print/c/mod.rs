@@ -6,11 +6,13 @@
 mod compensated;
 mod functions;
 mod operators;
+mod real;
 mod self_test;
+mod shortest;
 mod support;
 
 use self::functions::{comment, documentation, function, head};
-pub(super) use self::operators::number;
+pub use self::real::Real;
 use self::support::{IS_FINITE, Support};
 use super::SourceFile;
 use super::header::header;
@@ -18,20 +20,44 @@ use super::layout::Writer;
 use super::text::escaped;
 use crate::chain::Model;
 use crate::expr::Table;
-use crate::program::{Routines, Sums};
+use crate::program::{Operand, Routines, Sums};
 use crate::spec::Spec;
 
 /// The header and the source of a manipulator.
-pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines) -> Vec<SourceFile> {
+pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {
     let name = &spec.name;
     vec![
-        SourceFile { name: format!("{name}.h"), text: declarations(spec, routines) },
-        SourceFile { name: format!("{name}.c"), text: definitions(spec, model, routines) },
+        SourceFile { name: format!("{name}.h"), text: declarations(spec, routines, real) },
+        SourceFile { name: format!("{name}.c"), text: definitions(spec, model, routines, real) },
     ]
 }
 
+/// The first number of the source that the type does not have.
+pub(super) fn lost(spec: &Spec, routines: &Routines, real: Real) -> Option<f64> {
+    let programs = routines.programs().flat_map(|program| {
+        let operands = program.steps.iter().flat_map(|step| step.action.operands());
+        operands.chain(program.outputs.iter().copied()).filter_map(|operand| match operand {
+            Operand::Constant(value) => Some(value),
+            _ => None,
+        })
+    });
+    let sums = routines.used_sums().flat_map(|sums| {
+        sums.constants.iter().copied().chain(sums.factors.iter().map(|(.., factor)| *factor))
+    });
+    let variables = spec.variables.iter().flat_map(|v| v.limits.into_iter().chain([v.home]));
+    let parameters = spec.parameters.iter().map(|parameter| parameter.value);
+    let inputs = spec.inputs.iter().flat_map(|input| input.range.into_iter().chain([input.value]));
+    let tables = spec.tables.iter().flat_map(|table| {
+        let lookup = table.lookup();
+        let pieces = lookup.pieces.iter().flatten();
+        pieces.chain(lookup.knots).chain([&lookup.first, &lookup.scale]).copied().collect::<Vec<f64>>()
+    });
+    let mut all = programs.chain(sums).chain(variables).chain(parameters).chain(inputs).chain(tables);
+    all.find(|value| !real.has(*value))
+}
+
 /// The header.
-fn declarations(spec: &Spec, routines: &Routines) -> String {
+fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     let upper = spec.name.to_ascii_uppercase();
     let mut writer = Writer::new(" *");
     writer.lines("/**");
@@ -42,6 +68,10 @@ fn declarations(spec: &Spec, routines: &Routines) -> String {
          function allocates, keeps anything or reads anything else; arrays that are filled must not overlap others. \
          Every function returns 0 if its results can be used.",
     );
+    if real == Real::Float {
+        writer.documentation_line("");
+        writer.documentation(SINGLE);
+    }
     writer.lines(" */");
     writer.lines(&format!("#ifndef {upper}_H\n#define {upper}_H\n\n{BEGIN}"));
     writer.blank();
@@ -65,24 +95,24 @@ fn declarations(spec: &Spec, routines: &Routines) -> String {
     );
     counts(&mut writer, &upper, routines);
     indices(&mut writer, &upper, routines);
-    values(&mut writer, spec, "extern ", false);
+    values(&mut writer, spec, real, "extern ", false);
     for routine in routines.list.iter().filter(|routine| routine.function.is_some()) {
         writer.blank();
         documentation(&mut writer, routines, routine);
-        writer.lines(&format!("{};", head(&spec.name, routine, "ABBE_RESTRICT")));
+        writer.lines(&format!("{};", head(&spec.name, routine, real, "ABBE_RESTRICT")));
     }
-    compensated::declaration(&mut writer, spec);
+    compensated::declaration(&mut writer, spec, real);
     self_test::declaration(&mut writer, spec);
     writer.lines(END);
     writer.finish()
 }
 
 /// The source.
-fn definitions(spec: &Spec, model: &Model, routines: &Routines) -> String {
+fn definitions(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> String {
     let mut writer = Writer::new(" *");
     comment(&mut writer, &format!("The functions that {}.h declares and describes. Do not edit.", spec.name));
     writer.lines(&format!("#include \"{}.h\"\n\n#include <math.h>", spec.name));
-    values(&mut writer, spec, "", true);
+    values(&mut writer, spec, real, "", true);
     for table in routines.used_tables() {
         writer.blank();
         comment(&mut writer, table.documentation);
@@ -90,24 +120,29 @@ fn definitions(spec: &Spec, model: &Model, routines: &Routines) -> String {
             table.rows.iter().map(|[first, second]| format!("{{ {first}, {second} }}")).collect();
         writer.braces(&format!("static const int {}[{}][2] = ", table.name, rows.len()), &rows, ";");
     }
-    routines.used_sums().for_each(|sums| sums_of_terms(&mut writer, sums));
+    routines.used_sums().for_each(|sums| sums_of_terms(&mut writer, sums, real));
     writer.blank();
-    writer.lines(IS_FINITE.trim_end());
+    writer.lines(real.text(IS_FINITE).trim_end());
     for support in Support::used(routines) {
         writer.blank();
-        writer.lines(support.text().trim_end());
+        writer.lines(support.text(real).trim_end());
     }
-    spec.tables.iter().for_each(|table| lookup_table(&mut writer, table));
-    ranges(&mut writer, spec);
+    spec.tables.iter().for_each(|table| lookup_table(&mut writer, table, real));
+    ranges(&mut writer, spec, real);
     let (functions, helpers): (Vec<_>, Vec<_>) =
         routines.list.iter().partition(|routine| routine.function.is_some());
     for routine in helpers.into_iter().chain(functions) {
-        function(&mut writer, spec, routines, routine);
+        function(&mut writer, spec, routines, routine, real);
     }
-    compensated::definition(&mut writer, spec);
-    self_test::definition(&mut writer, spec, model);
+    compensated::definition(&mut writer, spec, real);
+    self_test::definition(&mut writer, spec, model, real);
     writer.finish()
 }
+
+/// The figures are measured: a test of `abbe` holds them against the manipulators that are shipped.
+const SINGLE: &str = "In single precision. Over 1000 configurations of every manipulator that is shipped, what differs \
+     from double precision was at most 1.6e-7 of the length of the arm in positions and 3.2e-7 of its largest number in `J_e`; \
+     corrected commands that came to rest brought the tool to within 3.2e-7 of that length and 8.7e-7 rad.";
 
 const BEGIN: &str = "\
 #ifdef __cplusplus
@@ -140,11 +175,11 @@ fn enumeration(writer: &mut Writer, documentation: &str, entries: &[(String, &st
 }
 
 /// What is summed. There are no empty arrays in C.
-fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums) {
+fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums, real: Real) {
     if !constants.is_empty() {
         writer.blank();
         comment(writer, "What is constant in each entry.");
-        numbers(writer, &format!("static const double {name}_CONSTANTS"), constants);
+        numbers(writer, &format!("{name}_CONSTANTS"), constants, real);
     }
     if !factors.is_empty() {
         writer.blank();
@@ -153,7 +188,7 @@ fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums) 
             factors.iter().map(|(entry, term, _)| format!("{{ {entry}, {term} }}")).collect();
         writer.braces(&format!("static const int {name}_TERMS[{}][2] = ", rows.len()), &rows, ";");
         let factors: Vec<f64> = factors.iter().map(|(.., factor)| *factor).collect();
-        numbers(writer, &format!("static const double {name}_FACTORS"), &factors);
+        numbers(writer, &format!("{name}_FACTORS"), &factors, real);
     }
 }
 
@@ -194,14 +229,15 @@ fn indices(writer: &mut Writer, upper: &str, routines: &Routines) {
 }
 
 /// Limits, homes, nominal values and ranges; declared, or with their numbers.
-fn values(writer: &mut Writer, spec: &Spec, before: &str, with_numbers: bool) {
+fn values(writer: &mut Writer, spec: &Spec, real: Real, before: &str, with_numbers: bool) {
+    let number = |value: f64| real.number(value);
     let mut one = |what: &str, name: &str, pairs: bool, values: Vec<f64>| {
         if values.is_empty() {
             return;
         }
         let count = if pairs { values.len() / 2 } else { values.len() };
         let size = if pairs { format!("[{count}][2]") } else { format!("[{count}]") };
-        let head = format!("{before}const double {}_{name}{size}", spec.name);
+        let head = format!("{before}const {real} {}_{name}{size}", spec.name);
         writer.blank();
         if !with_numbers {
             writer.lines(&format!("/** {what} */"));
@@ -231,20 +267,20 @@ fn values(writer: &mut Writer, spec: &Spec, before: &str, with_numbers: bool) {
     one("Lower and upper ends of the inputs.", "ranges", true, ranges);
 }
 
-fn numbers(writer: &mut Writer, head: &str, values: &[f64]) {
-    let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
-    writer.braces(&format!("{head}[{}] = ", values.len()), &entries, ";");
+fn numbers(writer: &mut Writer, name: &str, values: &[f64], real: Real) {
+    let entries: Vec<String> = values.iter().map(|value| real.number(*value)).collect();
+    writer.braces(&format!("static const {real} {name}[{}] = ", values.len()), &entries, ";");
 }
 
 /// Whether inputs are where they may be.
-fn ranges(writer: &mut Writer, spec: &Spec) {
+fn ranges(writer: &mut Writer, spec: &Spec, real: Real) {
     let count = spec.inputs.len();
     if count == 0 {
         return;
     }
     writer.blank();
     writer.lines("/* 1 if every input is within its range, else 0. */");
-    writer.lines("static int inputs_are_in_range(const double *u)");
+    writer.lines(&format!("static int inputs_are_in_range(const {real} *u)"));
     writer.open_alone();
     writer.lines("int inside = 1;");
     writer.open(&format!("for (int k = 0; k < {count}; k++)"));
@@ -257,7 +293,8 @@ fn ranges(writer: &mut Writer, spec: &Spec) {
 }
 
 /// A function given by points.
-fn lookup_table(writer: &mut Writer, table: &Table) {
+fn lookup_table(writer: &mut Writer, table: &Table, real: Real) {
+    let number = |value: f64| real.number(value);
     let (name, lookup) = (table.constant_name(), table.lookup());
     let even = lookup.starts.is_empty();
     writer.blank();
@@ -265,15 +302,15 @@ fn lookup_table(writer: &mut Writer, table: &Table) {
     if !even {
         let starts: Vec<String> = lookup.starts.iter().map(u32::to_string).collect();
         writer.braces(&format!("static const int {name}_STARTS[{}] = ", starts.len()), &starts, ";");
-        numbers(writer, &format!("static const double {name}_KNOTS"), lookup.knots);
+        numbers(writer, &format!("{name}_KNOTS"), lookup.knots, real);
     }
     let row = |piece: &[f64; 4]| format!("{{ {} }}", piece.map(number).join(", "));
     let rows: Vec<String> = lookup.pieces.iter().map(row).collect();
-    writer.braces(&format!("static const double {name}_PIECES[{}][4] = ", rows.len()), &rows, ";");
+    writer.braces(&format!("static const {real} {name}_PIECES[{}][4] = ", rows.len()), &rows, ";");
     let buckets = if even { lookup.pieces.len() } else { lookup.starts.len() } - 2;
     let or_null = |what: &str| if even { "0".to_owned() } else { format!("{name}_{what}") };
     writer.open(&format!("static const lookup_table {name} ="));
-    writer.lines(&format!("{}, {},", number(lookup.first), number(lookup.scale)));
+    writer.lines(&format!("{}, {},", number(lookup.first), number(real.scale(table, buckets))));
     // The first of the strides that lead to a piece: they are halved.
     let stride = if lookup.steps == 0 { 0 } else { 1 << (lookup.steps - 1) };
     writer.lines(&format!("{buckets}, {stride},"));

@@ -4,30 +4,34 @@ use std::borrow::Cow;
 
 use abbe::Function;
 
+use super::real::Real;
 use crate::expr::{Function as Operator, Lookup};
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 use crate::spec::Spec;
 
 /// With the spec, whose name and tables stand in the file.
-pub(super) struct C<'s>(pub(super) &'s Spec);
+pub(super) struct C<'s> {
+    pub(super) spec: &'s Spec,
+    pub(super) real: Real,
+}
 
-const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imaginary abs acos acosh alignas alignof and and_eq asin \
-         asinh asm atan atan2 atanh auto bitand bitor bool break case catch cbrt ceil char class compl concept const \
-         const_cast constexpr continue copysign cos cosh cosine decltype default delete do double dynamic_cast else enum \
-         erf erfc exp exp2 explicit export expm1 extern fabs false fdim float floor fma fmax fmin fmod for friend frexp \
+const WORDS: &str = "HUGE_VAL HUGE_VALF INFINITY NAN NULL _Bool _Complex _Imaginary abs acos acosf acosh alignas alignof and and_eq asin \
+         asinf asinh asm atan atan2 atan2f atanf atanh auto bitand bitor bool break case catch cbrt ceil char class compl concept const \
+         const_cast constexpr continue copysign cos cosf cosh cosine decltype default delete do double dynamic_cast else enum \
+         erf erfc exp exp2 expf explicit export expm1 extern fabs fabsf false fdim float floor fma fmax fmin fmod for friend frexp \
          goto greater hypot i if ilogb inline inputs_are_in_range int is_finite isfinite isinf isnan j j0 j1 jn k ldexp least lgamma llrint \
-         llround log log10 log1p log2 logb long look_up lrint lround margin modf mutable namespace nan nearbyint new \
-         nextafter nexttoward noexcept not not_eq nullptr operator or or_eq pow private protected public real register \
+         llround log log10 log1p log2 logb logf long look_up lrint lround margin modf mutable namespace nan nearbyint new \
+         nextafter nexttoward noexcept not not_eq nullptr operator or or_eq pow powf private protected public real register \
          reinterpret_cast remainder remquo requires restrict return rint round scalbln scalbn short side sign signbit sine cosine \
-         signed sin sin_cos sinh sizeof sqrt static static_assert static_cast status struct switch tan tanh template \
+         signed sin sin_cos sinf sinh sizeof sqrt sqrtf static static_assert static_cast status struct switch tan tanf tanh template \
          tgamma this thread_local throw true trunc try typedef typeid typename union unsigned using virtual void \
          volatile wchar_t while xor xor_eq y0 y1 yn";
 
 impl Syntax for C<'_> {
     /// The words of C and C++, what `math.h` has, and what stands in the file: functions, values and status codes.
     fn reserved(&self) -> Cow<'static, str> {
-        let (name, upper) = (&self.0.name, self.0.name.to_ascii_uppercase());
+        let (name, upper) = (&self.spec.name, self.spec.name.to_ascii_uppercase());
         let own = Function::ALL.map(|function| format!(" {name}_{}", function.name())).concat();
         let values = ["limits", "home", "parameters", "inputs", "ranges"]
             .map(|what| format!(" {name}_{what}"))
@@ -38,39 +42,33 @@ impl Syntax for C<'_> {
     }
 
     fn number(&self, value: f64) -> Expression {
-        Expression::number(number(value), value)
+        Expression::number(self.real.number(value), value)
     }
 
     fn zero_and_one(&self) -> [&'static str; 2] {
-        ["0.0", "1.0"]
+        match self.real {
+            Real::Double => ["0.0", "1.0"],
+            Real::Float => ["0.0f", "1.0f"],
+        }
     }
 
     fn action(&self, action: Action, operands: &[Expression]) -> Expression {
-        let call = |name: &str| Expression::call(name, operands);
+        let own = |name: &str| Expression::call(name, operands);
+        let call = |name: &str| own(&self.real.function(name));
         arithmetic(action, operands).unwrap_or_else(|called| match called {
             Called::Power => call("pow"),
             Called::Atan2 => call("atan2"),
-            Called::Least => call("least"),
-            Called::Greatest => call("greater"),
+            Called::Least => own("least"),
+            Called::Greatest => own("greater"),
             Called::Function(Operator::Abs) => call("fabs"),
-            Called::Function(Operator::Sin) => call("sine"),
-            Called::Function(Operator::Cos) => call("cosine"),
+            Called::Function(Operator::Sin) => own("sine"),
+            Called::Function(Operator::Cos) => own("cosine"),
+            Called::Function(function @ (Operator::Sign | Operator::Side)) => own(function.name()),
             Called::Function(function) => call(function.name()),
             Called::Lookup(Lookup { table, order }) => {
-                let (name, x) = (self.0.tables[usize::from(table)].constant_name(), &operands[0].text);
+                let (name, x) = (self.spec.tables[usize::from(table)].constant_name(), &operands[0].text);
                 Expression::new(format!("look_up(&{name}, {order}, {x})"), Binding::Atom)
             }
         })
     }
-}
-
-/// A number with the digits that give it back exactly.
-pub(in crate::print) fn number(value: f64) -> String {
-    if value.is_nan() {
-        return "(double)NAN".to_owned();
-    }
-    if value.is_infinite() {
-        return if value > 0.0 { "HUGE_VAL" } else { "-HUGE_VAL" }.to_owned();
-    }
-    format!("{value:?}")
 }

@@ -3,19 +3,20 @@
 use abbe::Function;
 use abbe::function::Array;
 
-use super::operators::number;
+use super::real::Real;
 use crate::chain::Model;
 use crate::expr::Symbol;
 use crate::print::layout::Writer;
-use crate::program::results;
+use crate::program::{Rounded, results, straight_line};
 use crate::spec::Spec;
 
 pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.blank();
     writer.lines("/**");
     writer.documentation(
-        "Evaluates every function that has a value at one configuration, and holds a weighted sum of its results against \
-         that of the generator, to 1e-9 of its size: run it once on the target.",
+        "Evaluates every function that has a value at one configuration, and holds weighted sums of its results against \
+         those of the generator, as closely as the rounding of every single operation lets them be: run it once on the \
+         target.",
     );
     writer.documentation_line("");
     writer.documentation("@return 0, or which function is wrong, counted from 1 in the order of this file.");
@@ -23,24 +24,27 @@ pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.lines(&format!("int {}_self_test(void);", spec.name));
 }
 
-pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model) {
+pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model, real: Real) {
     writer.blank();
-    writer.lines(SUMS_TO.trim_end());
+    writer.lines(real.text(SUMS_TO).trim_end());
     writer.blank();
     writer.lines(&format!("int {}_self_test(void)", spec.name));
     writer.open_alone();
-    let given = where_most_has_a_value(spec, model);
+    let given = where_most_has_a_value(spec, model, real);
     for (name, values) in &given {
-        let entries: Vec<String> = values.iter().map(|value| number(*value)).collect();
+        let entries: Vec<String> = values.iter().map(|value| real.number(*value)).collect();
         // An array has one number at least.
-        let (len, zero) = (entries.len().max(1), ["0.0".to_owned()]);
+        let (len, zero) = (entries.len().max(1), [real.number(0.0)]);
         let entries = if entries.is_empty() { &zero[..] } else { &entries[..] };
-        writer.braces(&format!("const double given_{name}[{len}] = "), entries, ";");
+        writer.braces(&format!("const {real} given_{name}[{len}] = "), entries, ";");
     }
     for (index, function) in Function::ALL.into_iter().enumerate() {
-        match values(&given, model, function) {
-            Some(arrays) => one(writer, spec, function, index + 1, &arrays),
-            None => writer.lines(&format!("/* `{}` has no value here. */", function.name())),
+        let known = |sum: &Rounded| sum.value.is_finite() && sum.bound.is_finite();
+        match values(&given, model, function).map(|values| sums(&given, model, function, &values, real)) {
+            Some(sums) if sums.iter().all(|(_, sum)| known(sum)) => {
+                one(writer, spec, function, index + 1, &sums, real);
+            }
+            _ => writer.lines(&format!("/* `{}` has no value here. */", function.name())),
         }
     }
     // What no function takes.
@@ -53,10 +57,10 @@ pub(super) fn definition(writer: &mut Writer, spec: &Spec, model: &Model) {
 type Given = [(&'static str, Vec<f64>); 6];
 
 /// Of a few configurations the first at which as many functions as possible have values.
-fn where_most_has_a_value(spec: &Spec, model: &Model) -> Given {
+fn where_most_has_a_value(spec: &Spec, model: &Model, real: Real) -> Given {
     let count =
         |given: &Given| Function::ALL.into_iter().filter(|f| values(given, model, *f).is_some()).count();
-    let tried = (0..16).map(|start| given(spec, start));
+    let tried = (0..16).map(|start| given(spec, start, real));
     let mut best: Option<(usize, Given)> = None;
     for given in tried {
         let found = count(&given);
@@ -67,20 +71,12 @@ fn where_most_has_a_value(spec: &Spec, model: &Model) -> Given {
             break;
         }
     }
-    best.map_or_else(|| given(spec, 0), |(_, given)| given)
+    best.map_or_else(|| given(spec, 0, real), |(_, given)| given)
 }
 
 /// What a function gives, array by array; nothing near a singularity of Euler angles, or if a number is not finite.
 fn values(given: &Given, model: &Model, function: Function) -> Option<Vec<Vec<f64>>> {
-    let symbol = |symbol: Symbol| match symbol {
-        Symbol::Variable(k) => given[0].1[k],
-        Symbol::Parameter(k) => given[1].1[k],
-        Symbol::Input(k) => given[2].1[k],
-        Symbol::Error(k) if function == Function::Covariance => given[4].1[k],
-        Symbol::Error(k) => given[3].1[k],
-        Symbol::Magnitude(k) => given[5].1[k],
-        Symbol::Local(_) => f64::NAN,
-    };
+    let symbol = |symbol| value_of(given, function, symbol);
     let (arrays, margin) = results(function, model);
     let margin = margin.map_or(1.0, |node| model.graph.evaluate(&[node], symbol)[0]);
     let arrays: Vec<Vec<f64>> = arrays.iter().map(|nodes| model.graph.evaluate(nodes, symbol)).collect();
@@ -88,15 +84,63 @@ fn values(given: &Given, model: &Model, function: Function) -> Option<Vec<Vec<f6
     (margin >= 0.1 && margin.is_finite() && all_finite).then_some(arrays)
 }
 
+fn value_of(given: &Given, function: Function, symbol: Symbol) -> f64 {
+    match symbol {
+        Symbol::Variable(k) => given[0].1[k],
+        Symbol::Parameter(k) => given[1].1[k],
+        Symbol::Input(k) => given[2].1[k],
+        Symbol::Error(k) if function == Function::Covariance => given[4].1[k],
+        Symbol::Error(k) => given[3].1[k],
+        Symbol::Magnitude(k) => given[5].1[k],
+        Symbol::Local(_) => f64::NAN,
+    }
+}
+
+/// How many numbers each array holds, and their sum times 1 to 7 in turn: its value, and how far rounding can take it from
+/// that, in the function's operations and in those of the sum. The generator's own numbers are rounded as doubles are.
+fn sums(
+    given: &Given,
+    model: &Model,
+    function: Function,
+    arrays: &[Vec<f64>],
+    real: Real,
+) -> Vec<(usize, Rounded)> {
+    let units = [real, Real::Double].map(Real::unit_roundoff);
+    let program = straight_line(function, model);
+    let [mut here, mut there] = units.map(|unit| {
+        program.rounded(model.graph.tables(), |symbol| value_of(given, function, symbol), unit).into_iter()
+    });
+    let sum = |numbers: &mut dyn Iterator<Item = Rounded>, unit| {
+        let weighted =
+            numbers.enumerate().map(|(k, number)| Rounded::exact((k % 7 + 1) as f64, unit) * number);
+        weighted.fold(Rounded::exact(0.0, unit), |sum, term| sum + term)
+    };
+    let one = |array: &Vec<f64>| {
+        let mut here = sum(&mut here.by_ref().take(array.len()), units[0]);
+        let there = sum(&mut there.by_ref().take(array.len()), units[1]);
+        // What is expected is rounded, too.
+        here.bound += there.bound + units[0] * there.value.abs();
+        (array.len(), here)
+    };
+    arrays.iter().map(one).collect()
+}
+
 /// One function: the weighted sums of what it gives, and what they must be.
-fn one(writer: &mut Writer, spec: &Spec, function: Function, count: usize, arrays: &[Vec<f64>]) {
+fn one(
+    writer: &mut Writer,
+    spec: &Spec,
+    function: Function,
+    count: usize,
+    sums: &[(usize, Rounded)],
+    real: Real,
+) {
     let signature = function.signature();
     writer.open_alone();
-    for (array, values) in signature.results.iter().zip(arrays) {
+    for (array, (len, _)) in signature.results.iter().zip(sums) {
         // An array has one number at least.
-        match values.len() {
-            0 => writer.lines(&format!("double {}[1] = {{ 0.0 }};", array.name)),
-            len => writer.lines(&format!("double {}[{len}];", array.name)),
+        match len {
+            0 => writer.lines(&format!("{real} {}[1] = {{ {} }};", array.name, real.number(0.0))),
+            len => writer.lines(&format!("{real} {}[{len}];", array.name)),
         }
     }
     let given = signature.arguments.iter().map(|array| format!("given_{}", array.name));
@@ -105,12 +149,11 @@ fn one(writer: &mut Writer, spec: &Spec, function: Function, count: usize, array
     let (upper, call) = (spec.name.to_ascii_uppercase(), names.join(", "));
     writer
         .lines(&format!("int is_right = ({}_{}({call}) == {upper}_OK) ? 1 : 0;", spec.name, signature.name));
-    let sum = |(array, values): (&Array, &Vec<f64>)| {
-        let weighted = values.iter().enumerate().map(|(k, value)| (k % 7 + 1) as f64 * value);
-        let sum: f64 = weighted.sum();
-        format!("is_right *= sums_to({}, {}, {});", array.name, values.len(), number(sum))
+    let sum = |(array, (len, sum)): (&Array, &(usize, Rounded))| {
+        let [value, bound] = [sum.value, upwards(sum.bound)].map(|value| real.number(value));
+        format!("is_right *= sums_to({}, {len}, {value}, {bound});", array.name)
     };
-    let some = signature.results.iter().zip(arrays).filter(|(_, values)| !values.is_empty());
+    let some = signature.results.iter().zip(sums).filter(|(_, (len, _))| *len > 0);
     some.map(sum).for_each(|line| writer.lines(&line));
     writer.open("if (is_right == 0)");
     writer.lines(&format!("return {count};"));
@@ -118,8 +161,14 @@ fn one(writer: &mut Writer, spec: &Spec, function: Function, count: usize, array
     writer.close("}");
 }
 
+/// With two digits, the last one rounded up.
+fn upwards(bound: f64) -> f64 {
+    let text = format!("{:.1e}", bound * 1.05);
+    text.parse().unwrap_or(bound)
+}
+
 /// Numbers for every argument; another `start` gives others.
-fn given(spec: &Spec, start: usize) -> Given {
+fn given(spec: &Spec, start: usize, real: Real) -> Given {
     let share = |k: usize| 0.1 + 0.8 * ((start + k + 1) as f64 * 0.618_033_988_749_894_9).fract();
     let between = |k: usize, [lower, upper]: [f64; 2], otherwise: f64| {
         let value = lower + share(k) * (upper - lower);
@@ -128,27 +177,25 @@ fn given(spec: &Spec, start: usize) -> Given {
     let variables = spec.variables.iter().enumerate();
     let inputs = spec.inputs.iter().enumerate();
     let errors = 6 * spec.frames.len();
-    [
+    let given: Given = [
         ("q", variables.map(|(k, variable)| between(k, variable.limits, variable.home)).collect()),
         ("s", spec.parameters.iter().map(|parameter| parameter.value).collect()),
         ("u", inputs.map(|(k, input)| between(k, input.range, input.value)).collect()),
         ("errors", (0..errors).map(|k| 1e-3 * (share(k) - 0.5)).collect()),
         ("variances", (0..errors).map(|k| 1e-6 * share(k)).collect()),
         ("magnitudes", (0..spec.enabled_sources().count()).map(|k| 2.0 * share(k) - 1.0).collect()),
-    ]
+    ];
+    given.map(|(name, values)| (name, values.into_iter().map(|value| real.nearest(value)).collect()))
 }
 
 const SUMS_TO: &str = "\
-/* 1 if the sum of the numbers times 1 to 7 in turn is as expected, but for 1e-9 of its size, else 0. */
-static int sums_to(const double *numbers, int count, double expected)
+/* 1 if the sum of the numbers times 1 to 7 in turn is as expected, but for what rounding can do, else 0. */
+static int sums_to(const double *numbers, int count, double expected, double rounding)
 {
     double sum = 0.0;
-    double size = 0.0;
     for (int k = 0; k < count; k++) {
-        const double weighted = (double)(k % 7 + 1) * numbers[k];
-        sum += weighted;
-        size += fabs(weighted);
+        sum += (double)(k % 7 + 1) * numbers[k];
     }
-    return (fabs(sum - expected) <= 1e-9 * size) ? 1 : 0;
+    return (fabs(sum - expected) <= rounding) ? 1 : 0;
 }
 ";

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use super::real::Real;
 use crate::expr::Function;
-use crate::program::{Action, Routines, Stage};
+use crate::program::{Action, Routines};
 
 /// A static function, in the order in which they are written.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,11 +22,7 @@ pub(super) enum Support {
 impl Support {
     /// Those that the routines use.
     pub(super) fn used(routines: &Routines) -> BTreeSet<Self> {
-        let programs =
-            routines.list.iter().flat_map(|routine| &routine.stages).filter_map(|stage| match stage {
-                Stage::Block(block) => Some(&block.program),
-                _ => None,
-            });
+        let programs = routines.programs();
         let actions = programs.flat_map(|program| program.steps.iter().map(|step| step.action));
         let mut used: BTreeSet<Self> = actions.filter_map(Self::of).collect();
         if used.contains(&Self::Sine) || used.contains(&Self::Cosine) {
@@ -49,8 +46,9 @@ impl Support {
     }
 
     /// Its source.
-    pub(super) fn text(self) -> &'static str {
-        match self {
+    pub(super) fn text(self, real: Real) -> String {
+        let text = match self {
+            Self::SinCos if real == Real::Float => return SIN_COS_FLOAT.to_owned(),
             Self::SinCos => SIN_COS,
             Self::Sine => SINE,
             Self::Cosine => COSINE,
@@ -59,7 +57,8 @@ impl Support {
             Self::Sign => SIGN,
             Self::Side => SIDE,
             Self::LookUp => LOOK_UP,
-        }
+        };
+        real.text(text).replace("ROUND", &real.rounder())
     }
 }
 
@@ -116,6 +115,50 @@ static void sin_cos(double x, double *sine, double *cosine)
     c = z * c + 1.0;
     if ((quadrant & 1U) != 0U) {
         const double other = s;
+        s = c;
+        c = other;
+    }
+    *sine = ((quadrant & 2U) != 0U) ? -s : s;
+    *cosine = ((quadrant & 2U) != 0U) ? -c : c;
+}
+";
+
+/// In single precision. π/2 is taken off in four parts: 12 bits, 12 more, 12 more, and the rest; times an n below 2¹² the first
+/// three are exact, and so are the first two differences. `S` and `C` of degree 2 are minimax (Remez, then rounded one after
+/// the other from the lowest power on, each time anew for the rest): a test holds them against the best there are.
+const SIN_COS_FLOAT: &str = "\
+/* Sine and cosine, below 2.4 units in the last place and the same on every machine where |x| <= 6e3: x is a number of
+ * quarter turns and a rest (Cody and Waite), whose sine and cosine are minimax polynomials. Beyond, and at 0, those of
+ * math.h. Needs rounding to nearest, and no contraction of a * b + c. */
+static void sin_cos(float x, float *sine, float *cosine)
+{
+    const float round = 12582912.0f;
+    if (!(fabsf(x) <= 6e3f) || !(fabsf(x) > 0.0f)) {
+        *sine = sinf(x);
+        *cosine = cosf(x);
+        return;
+    }
+    const float rounded = x * 0.63661975f + round;
+    const float turns = rounded - round;
+    const unsigned quadrant = (unsigned)(int)turns & 3U;
+    float r = x - turns * 1.5703125f;
+    r = r - turns * 0.0004837513f;
+    r = r - turns * 7.5495336e-8f;
+    r = r - turns * 2.563344e-12f;
+    const float z = r * r;
+    if ((quadrant & 1U) != 0U) {
+        r = -r;
+    }
+    float s = -0.00019518292f;
+    s = z * s + 0.008332189f;
+    s = z * s + -0.16666655f;
+    s = (r * z) * s + r;
+    float c = z * 2.4432327e-5f + -0.001388731f;
+    c = z * c + 0.041666646f;
+    c = z * c + -0.5f;
+    c = z * c + 1.0f;
+    if ((quadrant & 1U) != 0U) {
+        const float other = s;
         s = c;
         c = other;
     }
@@ -192,7 +235,7 @@ typedef struct {
 /* The derivative of that order of a table at x; the table itself if of order 0. */
 static double look_up(const lookup_table *table, int order, double x)
 {
-    const double round = 6755399441055744.0;
+    const double round = ROUND;
     const double u = (x - table->first) * table->scale;
     double bucket = u - 0.5;
     if (isnan(u) != 0) {

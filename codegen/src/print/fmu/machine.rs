@@ -1,7 +1,7 @@
 //! `fmi-machine.h`: where numbers stand, where they begin, and which functions fill the outputs.
 
 use super::variables::{CORRECTED, OUTPUTS, Variables};
-use crate::print::c::number;
+use crate::print::c::Real;
 use crate::print::layout::Writer;
 use crate::spec::Spec;
 
@@ -25,7 +25,7 @@ pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String 
     writer.blank();
     writer.lines("/* Where they begin; outputs are computed. */");
     let starts: Vec<String> =
-        variables.list.iter().map(|variable| number(variable.start.unwrap_or(0.0))).collect();
+        variables.list.iter().map(|variable| Real::Double.number(variable.start.unwrap_or(0.0))).collect();
     writer.braces("static const double START[VALUES] = ", &starts, ";");
     writer.blank();
     writer.lines("/* Fills the outputs; why they cannot be had, or null. */");

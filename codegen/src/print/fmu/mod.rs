@@ -13,7 +13,7 @@ mod xml;
 use sha2::{Digest, Sha256};
 
 use self::variables::Variables;
-use super::{SourceFile, c};
+use super::{Real, SourceFile, c};
 use crate::chain::Model;
 use crate::program::Routines;
 use crate::spec::Spec;
@@ -52,7 +52,7 @@ impl Fmi {
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, fmi: Fmi) -> Vec<SourceFile> {
     let variables = Variables::new(spec);
     let token = token(spec, fmi);
-    let mut sources = c::files(spec, model, routines);
+    let mut sources = c::files(spec, model, routines, Real::Double);
     let compiled = [format!("{}.c", spec.name), fmi.source().0.to_owned()];
     let file = |name: &str, text: String| SourceFile { name: name.to_owned(), text };
     sources.push(file("fmi-machine.h", machine::header(spec, &variables, &token)));

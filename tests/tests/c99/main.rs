@@ -7,7 +7,7 @@ use std::process::{Command, ExitCode};
 
 use abbe::compensator::compensate;
 use abbe::{Function, Manipulator, Orientation, Pose, VariableKind};
-use abbe_codegen::print::Language;
+use abbe_codegen::print::{Language, Real};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
@@ -16,18 +16,10 @@ use abbe_tests::languages::{NAMES, arguments, configurations};
 use abbe_tests::needs::{Missing, run, tool};
 use abbe_tests::specs;
 
-/// How it is compiled. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
-const STRICT: [&str; 9] = [
-    "-std=c99",
-    "-Wall",
-    "-Wextra",
-    "-Wpedantic",
-    "-Wconversion",
-    "-Wdouble-promotion",
-    "-Werror",
-    "-O1",
-    "-ffp-contract=off",
-];
+use crate::program::{called, succeeds, write};
+
+mod program;
+mod single;
 
 fn main() -> ExitCode {
     run([
@@ -36,6 +28,10 @@ fn main() -> ExitCode {
         ("tables_and_functions", tables_and_functions as _),
         ("names_that_mean_something", names_that_mean_something as _),
         ("headers_are_those_of_cpp_too", headers_are_those_of_cpp_too as _),
+        ("single_precision_is_as_close_as_the_chapter_says", single::shipped_robots as _),
+        ("single_precision_of_long_chains_and_tables", single::long_chains_and_tables as _),
+        ("single_precision_of_sines", single::sines as _),
+        ("self_tests_pass_and_fail", single::self_tests as _),
         ("departures_from_misra_are_listed", departures_from_misra_are_listed as _),
     ])
 }
@@ -44,7 +40,7 @@ fn shipped_robots() -> Result<(), Missing> {
     tool("cc", "")?;
     for shipped in SHIPPED {
         let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
-        let source = Language::C.files(&spec).remove(1).text;
+        let source = Language::C(Real::Double).files(&spec).remove(1).text;
         assert_eq!(source.matches("int is_right = ").count(), Function::ALL.len(), "{}", spec.name);
         assert_equal(spec, 1000);
     }
@@ -74,7 +70,7 @@ fn headers_are_those_of_cpp_too() -> Result<(), Missing> {
     tool("c++", "")?;
     let folder = tempfile::tempdir().unwrap();
     let spec = Spec::parse("names.toml", NAMES).unwrap();
-    write(folder.path(), &spec);
+    write(folder.path(), &spec, Real::Float);
     let source = folder.path().join("main.cpp");
     fs::write(&source, format!("#include \"{0}.h\"\nint main() {{ return {0}_self_test(); }}\n", spec.name))
         .unwrap();
@@ -100,9 +96,11 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
     });
     let long = Spec::parse("long.toml", &long_chain()).unwrap();
     let measured = Spec::read(specs::path("measured")).unwrap();
-    for spec in specs.into_iter().chain([long, measured]) {
+    for (spec, real) in
+        specs.into_iter().chain([long, measured]).flat_map(|spec| Real::ALL.map(|real| (spec.clone(), real)))
+    {
         let folder = tempfile::tempdir().unwrap();
-        write(folder.path(), &spec);
+        write(folder.path(), &spec, real);
         let source = folder.path().join(format!("{}.c", spec.name));
         let checked = Command::new("cppcheck")
             .args(["--std=c99", "--addon=misra", "--enable=warning,style,performance,portability"])
@@ -127,11 +125,10 @@ fn departures_from_misra_are_listed() -> Result<(), Missing> {
 fn assert_equal(spec: Spec, count: usize) {
     let name = spec.name.clone();
     let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), &spec);
+    write(folder.path(), &spec, Real::Double);
     let robot = Interpreter::new(spec);
     let given = configurations(&robot, count);
-    let found = called(folder.path(), &robot, &given.concat());
-    let mut found = found.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap()));
+    let mut found = called(&["cc"], folder.path(), &robot, Real::Double, &given).into_iter();
     assert_eq!(found.next(), Some(0.0), "{name}: the self-test");
     let euler = robot.description().orientation == Orientation::EulerYzx;
     for given in &given {
@@ -190,71 +187,4 @@ fn arguments_of_step(robot: &Interpreter, given: &[f64]) -> [Vec<f64>; 3] {
     let (q, rest) = all.split_at(description.variables.len());
     let (s, u) = rest.split_at(description.parameters.len());
     [q.to_vec(), s.to_vec(), u.to_vec()]
-}
-
-fn write(folder: &Path, spec: &Spec) {
-    for file in Language::C.files(spec) {
-        fs::write(folder.join(file.name), file.text).unwrap();
-    }
-}
-
-/// The numbers of the self-test, then of every function at every configuration, each after its status.
-fn called(folder: &Path, robot: &Interpreter, given: &[f64]) -> Vec<u8> {
-    let [source, program, input] = ["main.c", "program", "input"].map(|name| folder.join(name));
-    fs::write(&source, caller(robot)).unwrap();
-    fs::write(&input, given.iter().flat_map(|value| value.to_ne_bytes()).collect::<Vec<u8>>()).unwrap();
-    let own = folder.join(format!("{}.c", robot.description().name));
-    succeeds(Command::new("cc").args(STRICT).arg("-o").arg(&program).args([&own, &source]).arg("-lm"));
-    succeeds(Command::new(&program).stdin(fs::File::open(&input).unwrap()))
-}
-
-fn succeeds(command: &mut Command) -> Vec<u8> {
-    let run = command.output().unwrap();
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    run.stdout
-}
-
-/// A program that reads configurations and writes what the functions give.
-fn caller(robot: &Interpreter) -> String {
-    let description = robot.description();
-    let (name, errors) = (&description.name, 6 * description.frames.len());
-    let sizes = [
-        ("q", description.variables.len()),
-        ("s", description.parameters.len()),
-        ("u", description.inputs.len()),
-        ("errors", errors),
-        ("variances", errors),
-        ("magnitudes", description.sources.len()),
-    ];
-    let count: usize = sizes.iter().map(|(_, size)| size).sum();
-    let mut first = 0;
-    let given = sizes.map(|(name, size)| {
-        first += size;
-        format!("    const double *{name} = given + {}; (void){name};\n", first - size)
-    });
-    let call = |function: Function| {
-        let signature = function.signature();
-        let arrays = signature.results.iter().map(|array| (array.name, array.len(description)));
-        let declared = arrays.clone().map(|(name, len)| format!("double {name}[{}]; ", len.max(1)));
-        let names = signature.arguments.iter().chain(signature.results).map(|array| array.name);
-        let written = arrays.map(|(name, len)| format!("put({name}, {len}); "));
-        format!(
-            "    {{ {}status = {name}_{}({}); put(&status, 1); {}}}\n",
-            declared.collect::<String>(),
-            signature.name,
-            names.collect::<Vec<_>>().join(", "),
-            written.collect::<String>()
-        )
-    };
-    let variables = description.variables.len();
-    format!(
-        "#include \"{name}.h\"\n#include <stdio.h>\n\
-         static void put(const double *numbers, int count) {{ fwrite(numbers, sizeof(double), (size_t)count, stdout); }}\n\
-         int main(void)\n{{\n    double given[{count}];\n    double status = {name}_self_test();\n    put(&status, 1);\n    \
-         while (fread(given, sizeof(double), {count}, stdin) == {count}) {{\n{}{}    \
-         {{ double corrected[{variables}]; double before[6]; double after[6]; status = {name}_compensated(q, s, u, corrected, before, after); \
-         put(&status, 1); put(corrected, {variables}); put(before, 6); put(after, 6); }}\n    }}\n    return 0;\n}}\n",
-        given.concat(),
-        Function::ALL.map(call).concat(),
-    )
 }

@@ -1,0 +1,184 @@
+//! The numbers that generated C computes in.
+
+use std::fmt;
+
+use crate::expr::Table;
+
+/// A type of numbers: what it is called, how its numbers are written, and which functions of `math.h` take it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Real {
+    /// `double`: 53 binary digits, the same bits as the Rust code.
+    #[default]
+    Double,
+    /// `float`: 24 binary digits, and nothing that is computed in more.
+    Float,
+}
+
+/// The functions of `math.h` that [`Real::text`] finds in a text.
+const FUNCTIONS: [&str; 5] = ["atan2", "cos", "fabs", "sin", "sqrt"];
+
+impl Real {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Double, Self::Float];
+
+    /// Its name in C, and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Double => "double",
+            Self::Float => "float",
+        }
+    }
+
+    /// The nearest number that it has.
+    pub fn nearest(self, value: f64) -> f64 {
+        match self {
+            Self::Double => value,
+            Self::Float => f64::from(value as f32),
+        }
+    }
+
+    /// Whether it has a number: not if it is too large, or so small that nothing of it would be left.
+    pub(super) fn has(self, value: f64) -> bool {
+        let nearest = self.nearest(value);
+        nearest.is_finite() == value.is_finite() && (nearest == 0.0) == (value == 0.0)
+    }
+
+    /// By which share of a number rounding changes it at most.
+    pub(super) fn unit_roundoff(self) -> f64 {
+        self.epsilon() / 2.0
+    }
+
+    /// Buckets per unit of a table's x, with its last x still within the last bucket.
+    pub(super) fn scale(self, table: &Table, buckets: usize) -> f64 {
+        let scale = table.lookup().scale;
+        match self {
+            Self::Double => scale,
+            Self::Float => {
+                let [first, last] = table.ends().map(|x| x as f32);
+                let (width, count) = (last - first, buckets as f32);
+                let mut scale = (scale as f32).min(count / width);
+                while width.is_finite() && width * scale >= count {
+                    scale = scale.next_down();
+                }
+                f64::from(scale)
+            }
+        }
+    }
+
+    /// A number with the fewest digits that give it back exactly.
+    pub(in crate::print) fn number(self, value: f64) -> String {
+        let suffix = self.suffix();
+        match self {
+            _ if value.is_nan() => format!("({self})NAN"),
+            _ if value.is_infinite() && value > 0.0 => format!("HUGE_VAL{}", suffix.to_ascii_uppercase()),
+            _ if value.is_infinite() => format!("-HUGE_VAL{}", suffix.to_ascii_uppercase()),
+            Self::Double => format!("{value:?}"),
+            Self::Float => format!("{:?}{suffix}", value as f32),
+        }
+    }
+
+    /// A function of `math.h`.
+    pub(super) fn function(self, name: &str) -> String {
+        format!("{name}{}", self.suffix())
+    }
+
+    /// What rounds to the nearest integer when it is added and subtracted again: 1.5 times the distance from which on there
+    /// are whole numbers only.
+    pub(super) fn rounder(self) -> String {
+        self.number(1.5 / self.epsilon())
+    }
+
+    /// A text that is written for `double`, told for this type: its name, numbers and functions. Comments stay as they are.
+    pub(super) fn text(self, text: &str) -> String {
+        let mut told = String::with_capacity(text.len());
+        for (k, part) in text.split("/*").enumerate() {
+            let code = match part.split_once("*/") {
+                Some((comment, code)) if k > 0 => {
+                    told.extend(["/*", comment, "*/"]);
+                    code
+                }
+                _ => part,
+            };
+            words(code).for_each(|word| told += &self.word(word));
+        }
+        told
+    }
+
+    fn word(self, word: &str) -> String {
+        let is_real = word.starts_with(|c: char| c.is_ascii_digit()) && word.contains(['.', 'e']);
+        match word {
+            "double" => self.name().to_owned(),
+            "HUGE_VAL" => self.number(f64::INFINITY),
+            _ if FUNCTIONS.contains(&word) => self.function(word),
+            _ if is_real => word.parse().map_or_else(|_| word.to_owned(), |value| self.number(value)),
+            _ => word.to_owned(),
+        }
+    }
+
+    fn suffix(self) -> &'static str {
+        match self {
+            Self::Double => "",
+            Self::Float => "f",
+        }
+    }
+
+    fn epsilon(self) -> f64 {
+        match self {
+            Self::Double => f64::EPSILON,
+            Self::Float => f64::from(f32::EPSILON),
+        }
+    }
+}
+
+impl fmt::Display for Real {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Names and numbers of a piece of C, and what is between them.
+fn words(code: &str) -> impl Iterator<Item = &str> {
+    let mut rest = code;
+    std::iter::from_fn(move || {
+        let first = rest.chars().next()?;
+        let is_number = first.is_ascii_digit();
+        let mut before = first;
+        let mut belongs = |c: char| {
+            let is_sign = is_number && matches!(c, '+' | '-') && before == 'e';
+            before = c;
+            c.is_ascii_alphanumeric() || c == '_' || is_number && c == '.' || is_sign
+        };
+        let len = match first.is_ascii_alphanumeric() || first == '_' {
+            true => rest.find(|c| !belongs(c)).unwrap_or(rest.len()),
+            false => first.len_utf8(),
+        };
+        let (word, others) = rest.split_at(len);
+        rest = others;
+        Some(word)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Real;
+
+    #[test]
+    fn numbers_have_the_fewest_digits_that_give_them_back() {
+        assert_eq!(Real::Float.number(0.1), "0.1f");
+        assert_eq!(Real::Float.number(std::f64::consts::PI), "3.1415927f");
+        assert_eq!(Real::Float.number(1e-7), "1e-7f");
+        assert_eq!(Real::Float.number(-2000.0), "-2000.0f");
+        assert_eq!(Real::Double.number(0.1), "0.1");
+        assert_eq!(Real::Float.number(f64::NEG_INFINITY), "-HUGE_VALF");
+        assert_eq!([Real::Double.rounder(), Real::Float.rounder()], ["6755399441055744.0", "12582912.0f"]);
+    }
+
+    #[test]
+    fn a_text_is_told_in_single_precision() {
+        let text = "/* sqrt(2.0) */ const double x1 = sqrt(y - 1e-3) + 2.0 * a[1U]; /* double */ int k = 10;";
+        let told =
+            "/* sqrt(2.0) */ const float x1 = sqrtf(y - 0.001f) + 2.0f * a[1U]; /* double */ int k = 10;";
+        assert_eq!(Real::Float.text(text), told);
+        assert_eq!(Real::Double.text("x = 6755399441055744.0;"), "x = 6755399441055744.0;");
+    }
+}

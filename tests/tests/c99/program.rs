@@ -1,0 +1,107 @@
+//! A program around generated C.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use abbe::{Function, Manipulator};
+use abbe_codegen::print::{Language, Real};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+
+/// How it is compiled. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
+pub(crate) const STRICT: [&str; 9] = [
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wconversion",
+    "-Wdouble-promotion",
+    "-Werror",
+    "-O1",
+    "-ffp-contract=off",
+];
+
+pub(crate) fn write(folder: &Path, spec: &Spec, real: Real) {
+    for file in Language::C(real).files(spec) {
+        fs::write(folder.join(file.name), file.text).unwrap();
+    }
+}
+
+/// The numbers of the self-test, then of every function and of corrected commands at every configuration, each after its status.
+pub(crate) fn called(
+    compiler: &[&str],
+    folder: &Path,
+    robot: &Interpreter,
+    real: Real,
+    given: &[Vec<f64>],
+) -> Vec<f64> {
+    let [source, program, input] = ["main.c", "program", "input"].map(|name| folder.join(name));
+    fs::write(&source, caller(robot, real)).unwrap();
+    let given = given.iter().flatten().flat_map(|value| value.to_ne_bytes());
+    fs::write(&input, given.collect::<Vec<u8>>()).unwrap();
+    let own = folder.join(format!("{}.c", robot.description().name));
+    compiled(compiler, &program, &[&own, &source]);
+    let bytes = succeeds(Command::new(&program).stdin(fs::File::open(&input).unwrap()));
+    bytes.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap())).collect()
+}
+
+/// What a compiler, with options after those that are always given, makes of sources.
+pub(crate) fn compiled(compiler: &[&str], program: &Path, sources: &[&Path]) {
+    let mut command = Command::new(compiler[0]);
+    command.args(STRICT).args(&compiler[1..]).arg("-o").arg(program).args(sources).arg("-lm");
+    succeeds(&mut command);
+}
+
+pub(crate) fn succeeds(command: &mut Command) -> Vec<u8> {
+    let run = command.output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    run.stdout
+}
+
+/// A program that reads configurations and writes what the functions give.
+fn caller(robot: &Interpreter, real: Real) -> String {
+    let description = robot.description();
+    let (name, errors) = (&description.name, 6 * description.frames.len());
+    let sizes = [
+        ("q", description.variables.len()),
+        ("s", description.parameters.len()),
+        ("u", description.inputs.len()),
+        ("errors", errors),
+        ("variances", errors),
+        ("magnitudes", description.sources.len()),
+    ];
+    let count: usize = sizes.iter().map(|(_, size)| size).sum();
+    let mut first = 0;
+    let given = sizes.map(|(name, size)| {
+        first += size;
+        format!("    const {real} *{name} = given + {}; (void){name};\n", first - size)
+    });
+    let call = |function: Function| {
+        let signature = function.signature();
+        let arrays = signature.results.iter().map(|array| (array.name, array.len(description)));
+        let declared = arrays.clone().map(|(name, len)| format!("{real} {name}[{}]; ", len.max(1)));
+        let names = signature.arguments.iter().chain(signature.results).map(|array| array.name);
+        let written = arrays.map(|(name, len)| format!("put({name}, {len}); "));
+        format!(
+            "    {{ {}status = {name}_{}({}); put_one(status); {}}}\n",
+            declared.collect::<String>(),
+            signature.name,
+            names.collect::<Vec<_>>().join(", "),
+            written.collect::<String>()
+        )
+    };
+    let variables = description.variables.len();
+    format!(
+        "#include \"{name}.h\"\n#include <stdio.h>\n\
+         static void put_one(double number) {{ fwrite(&number, sizeof number, 1, stdout); }}\n\
+         static void put(const {real} *numbers, int count) {{ for (int k = 0; k < count; k++) {{ put_one((double)numbers[k]); }} }}\n\
+         int main(void)\n{{\n    double read[{count}];\n    {real} given[{count}];\n    int status = {name}_self_test();\n    put_one(status);\n    \
+         while (fread(read, sizeof(double), {count}, stdin) == {count}) {{\n    \
+         for (int k = 0; k < {count}; k++) {{ given[k] = ({real})read[k]; }}\n{}{}    \
+         {{ {real} corrected[{variables}]; {real} before[6]; {real} after[6]; status = {name}_compensated(q, s, u, corrected, before, after); \
+         put_one(status); put(corrected, {variables}); put(before, 6); put(after, 6); }}\n    }}\n    return 0;\n}}\n",
+        given.concat(),
+        Function::ALL.map(call).concat(),
+    )
+}
