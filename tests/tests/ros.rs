@@ -7,7 +7,7 @@ use std::process::{Command, ExitCode};
 
 use abbe::analysis::sampling;
 use abbe::{Function, Manipulator};
-use abbe_codegen::print::Language;
+use abbe_codegen::print::{Language, Real};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
@@ -40,7 +40,7 @@ fn a_trajectory_is_corrected() -> Result<(), Missing> {
     let at = |name: &str| folder.path().join(name);
     let shipped = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();
     let spec = Spec::parse("pps.toml", shipped.spec).unwrap();
-    for file in Language::C.files(&spec) {
+    for file in Language::C(Real::Double).files(&spec) {
         fs::write(at(&file.name), file.text).unwrap();
     }
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/ros2");
