@@ -84,7 +84,8 @@ fn c_in_single_precision() {
     prints(&[&["generate", "pps"][..], &asked].concat());
     for file in ["pps.h", "pps.c"] {
         let text = fs::read_to_string(out.join(file)).unwrap();
-        assert!(text.contains("const float *") && !text.contains("double "), "{file}");
+        let double = ["double *", "const double ", "    double "].iter().any(|what| text.contains(what));
+        assert!(text.contains("const float *") && !double, "{file}");
     }
     let spec =
         prints(&["generate", "pps", "--lang", "c", "--real", "double", "--out", out.to_str().unwrap()]);
