@@ -30,4 +30,5 @@ mod readme;
 mod report;
 mod running;
 mod study;
+mod ways_out;
 mod workshop;
