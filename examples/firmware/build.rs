@@ -1,0 +1,12 @@
+//! The positioner that is shipped, as a module. For specs of your own in a folder one line does: `abbe_codegen::compile("specs")`.
+
+use std::path::Path;
+
+fn main() {
+    let spec = Path::new("../../manipulators/specs/pps.toml");
+    println!("cargo:rerun-if-changed={}", spec.display());
+    let spec = abbe_codegen::spec::Spec::read(spec).expect("the spec is right");
+    let out = std::env::var_os("OUT_DIR").expect("cargo says where to write");
+    std::fs::write(Path::new(&out).join("pps.rs"), abbe_codegen::print::rust(&spec))
+        .expect("it can be written");
+}

@@ -1,0 +1,76 @@
+//! The controller on a host: two seconds at 1 kHz along a path, against the machine's model.
+
+use std::f64::consts::TAU;
+use std::time::{Duration, Instant};
+
+use abbe::compensator::norms;
+use abbe::{Orientation, deviation};
+use firmware::pps::{self, DESCRIPTION, Inputs, Parameters};
+use firmware::{Controller, Fault, Joints};
+
+const PERIOD: Duration = Duration::from_millis(1);
+const CYCLES: u32 = 2000;
+
+/// Where the path is after a share of it: every variable swings through 60 % of its travel, each at a pace of its own.
+fn command(share: f64) -> Joints {
+    std::array::from_fn(|j| {
+        let [lower, upper] = DESCRIPTION.variables[j].limits;
+        (lower + upper) / 2.0 + 0.3 * (upper - lower) * (TAU * share * (j + 1) as f64).sin()
+    })
+}
+
+/// How far the tool is from where it should be for a command, mm, if the drives are sent there.
+fn off(command: &Joints, drives: &Joints) -> Result<f64, abbe::Error> {
+    let ideal = pps::pose(command, &Parameters::NOMINAL)?;
+    let real = pps::real_pose(drives, &Parameters::NOMINAL, &Inputs::NOMINAL)?;
+    Ok(norms(&deviation(Orientation::RotationVector, &ideal, &real)).0)
+}
+
+fn main() -> Result<(), Fault> {
+    let mut controller = Controller::new(Parameters::NOMINAL, Inputs::NOMINAL, command(0.0));
+    let (mut without, mut with, mut slowest) = (0.0_f64, 0.0_f64, Duration::ZERO);
+    let begin = Instant::now();
+    for cycle in 0..CYCLES {
+        let command = command(f64::from(cycle) / f64::from(CYCLES));
+        let started = Instant::now();
+        let drives = controller.cycle(&command)?;
+        slowest = slowest.max(started.elapsed());
+        without = without.max(off(&command, &command).map_err(Fault::Model)?);
+        with = with.max(off(&command, &drives).map_err(Fault::Model)?);
+        std::thread::sleep((begin + PERIOD * (cycle + 1)).saturating_duration_since(Instant::now()));
+    }
+    println!("{CYCLES} cycles of {PERIOD:?}, the slowest correction took {slowest:?}");
+    println!("the tool was off by up to {without:.3} mm without correction, {with:.0e} mm with it");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tool_is_where_it_should_be() {
+        let mut controller = Controller::new(Parameters::NOMINAL, Inputs::NOMINAL, command(0.0));
+        for cycle in 0..200 {
+            let command = command(f64::from(cycle) / 200.0);
+            let drives = controller.cycle(&command).unwrap();
+            let [without, with] = [&command, &drives].map(|drives| off(&command, drives).unwrap());
+            assert!(without > 1.0 && with < 1e-6, "{without} mm became {with} mm");
+            assert_eq!(controller.drives(), &drives);
+        }
+    }
+
+    #[test]
+    fn a_fault_holds_the_drives() {
+        let mut controller = Controller::new(Parameters::NOMINAL, Inputs::NOMINAL, command(0.0));
+        let drives = controller.cycle(&command(0.1)).unwrap();
+        let mut wrong = command(0.1);
+        wrong[2] = f64::NAN;
+        assert!(matches!(controller.cycle(&wrong), Err(Fault::Model(_))));
+        // A whole millimetre of sag for every newton: no such machine is built.
+        let soft = Parameters { arm_EI: Parameters::NOMINAL.arm_EI / 100.0, ..Parameters::NOMINAL };
+        let mut soft = Controller::new(soft, Inputs::NOMINAL, drives);
+        assert!(matches!(soft.cycle(&command(0.1)), Err(Fault::TooFar(_))));
+        assert_eq!([controller.drives(), soft.drives()], [&drives; 2]);
+    }
+}
