@@ -20,7 +20,7 @@ const IDLE: Duration = Duration::from_micros(100);
 #[cfg(feature = "parallel")]
 const AHEAD: usize = 8;
 
-/// Makes blocks 0 to `count` − 1 and takes them in order, each as soon as it and all before it are made; ends with the first
+/// Makes blocks 0 to `count` − 1, the first first, and takes them in order, each as soon as it and all before it are made; ends with the first
 /// that fails.
 ///
 /// What is taken is the same for any number of threads; only so many blocks are held. With the feature `parallel` the
@@ -69,14 +69,14 @@ fn in_parallel<T: Send, E: Send>(
     let ahead = AHEAD * rayon::current_num_threads();
     let failed = &AtomicBool::new(false);
     let (sender, receiver) = mpsc::channel();
-    rayon::in_place_scope(|scope| {
+    rayon::in_place_scope_fifo(|scope| {
         let mut begun = 0;
         // Blocks from the next one to be taken on.
         let mut ready: VecDeque<Option<Result<T, E>>> = VecDeque::with_capacity(ahead);
         for block in 0..count {
             while begun < count.min(block + ahead) {
                 let (number, sender) = (begun, sender.clone());
-                scope.spawn(move |_| {
+                scope.spawn_fifo(move |_| {
                     let mut delivery = Delivery { sender, made: (number, None) };
                     if !failed.load(Ordering::Relaxed) {
                         delivery.made.1 = Some(make(number));
