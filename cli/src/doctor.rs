@@ -51,12 +51,12 @@ fn text(report: &Report) -> String {
     let Report { rows, joints, seen, found, simpler, others, sentence, of_spec, length, .. } = report;
     let mut text =
         format!("{sentence}\n\nRead as joints: {}.\nRead as seen: {}.\n", joints.join(", "), seen.join(", "));
-    if let Some(Finding { words, residual, .. }) = simpler {
+    if let Some(Finding { words, residual, both, .. }) = simpler {
         let _ = writeln!(
             text,
             "\nWith less changed {} {length} are left, more than noise, but perhaps errors of this machine: {words}.\nIf its errors may be as large, say so: `--within \"{} {length}\"`.",
             digits(*residual, 3),
-            digits(1.5 * residual, 2)
+            digits(1.2 * both, 2)
         );
     }
     if found.len() > 1 {

@@ -204,3 +204,37 @@ fn instruments_are_measured_each_in_its_unit() {
     assert_eq!(csv.lines().count(), 41);
     assert!(fs::read_to_string(out.join("report.html")).unwrap().contains("tracker_z (mm)"));
 }
+
+/// What a map calls the zero of a joint is added after unit and sign when rows are read, and taken off when they are written.
+#[test]
+fn a_zero_and_a_rotation_vector_are_read_as_they_are_written() {
+    let folder = tempdir().unwrap();
+    let joints = |second: &str| {
+        let others = ["q1", "q3", "q4", "q5", "q6"]
+            .map(|name| format!("{name} = {{ column = \"{name}\", unit = \"deg\" }}\n"));
+        format!(
+            "[data]\nuncertainty = \"0.02 mm\"\nangle_uncertainty = \"0.1 mrad\"\n[joints]\n{}q2 = {second}\n[pose]\nposition = [\"x\", \"y\", \"z\"]\nunit = \"mm\"\n\
+             rotation_vector = {{ columns = [\"rx\", \"ry\", \"rz\"], unit = \"rad\" }}\n",
+            others.concat()
+        )
+    };
+    let plain = write(folder.path(), "plain.toml", &joints("{ column = \"q2\", unit = \"deg\" }"));
+    let zero = "{ column = \"q2\", unit = \"deg\", sign = -1, zero = \"-90 deg\" }";
+    let other = write(folder.path(), "other.toml", &joints(zero));
+    let rows =
+        |map: &Path| prints(&["simulate", "ur5", "--map", path(map), "--samples", "20", "--noise", "0"]);
+    let second = |text: &str| -> Vec<f64> {
+        let place = text.lines().next().unwrap().split(',').position(|name| name == "q2").unwrap();
+        text.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap()).collect()
+    };
+    let (as_spec, as_map) = (rows(&plain), rows(&other));
+    for (q, column) in second(&as_spec).into_iter().zip(second(&as_map)) {
+        assert!((-column - 90.0 - q).abs() < 1e-6, "{column} is {q}");
+    }
+    let data = write(folder.path(), "data.csv", &as_map);
+    let report = json(&["measure", "ur5", path(&data), "--map", path(&other), "--json"]);
+    let errors = report["errors"].as_array().unwrap();
+    let norm = errors.iter().find(|error| error["name"] == "norm").unwrap();
+    // The spec's random sources stay: tenths of a millimetre. A zero that is not undone is decimetres.
+    assert!(norm["rms"].as_f64().unwrap() < 1.0, "{norm}");
+}

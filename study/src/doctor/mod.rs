@@ -56,6 +56,9 @@ pub struct Finding {
     pub residual: f64,
     /// The root mean square of what is left of orientations, in rad; none if there are none.
     pub angle: Option<f64>,
+    /// What is held against `within`, in the spec's length unit: both together, angles at a lever of three tenths of how far the
+    /// positions spread, and more by what fitted numbers take away.
+    pub both: f64,
 }
 
 /// What the rows are.
@@ -122,6 +125,7 @@ impl Doctor {
             reading: candidate.reading.clone(),
             residual: candidate.residual.position,
             angle: candidate.residual.angle,
+            both: candidate.residual.both,
         };
         let (map, of_spec) = match found.first() {
             Some(first) => {

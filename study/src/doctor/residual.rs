@@ -52,8 +52,8 @@ impl Residual {
         }
     }
 
-    /// Whether this is more than noise makes of what leaves so little: the ratio of the two variances is beyond one that chance
-    /// has once in a million.
+    /// Whether this is more than noise makes of what leaves so little, by an F-test of their variances. A rule: angles are
+    /// taken for as noisy as positions, and the best of many readings is best by chance, too.
     pub(super) fn is_beyond(&self, other: &Self) -> bool {
         let squares = |residual: &Self| residual.both.powi(2) * residual.freedom;
         let (own, least) = (squares(self), squares(other));

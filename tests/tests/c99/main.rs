@@ -16,7 +16,7 @@ use abbe_tests::languages::{NAMES, arguments, configurations};
 use abbe_tests::needs::{Missing, run, tool};
 use abbe_tests::specs;
 
-use crate::program::{called, succeeds, write};
+use crate::program::{STRICT, called, succeeds, write};
 
 mod program;
 mod single;
@@ -32,6 +32,7 @@ fn main() -> ExitCode {
         ("single_precision_of_long_chains_and_tables", single::long_chains_and_tables as _),
         ("single_precision_of_sines", single::sines as _),
         ("self_tests_pass_and_fail", single::self_tests as _),
+        ("the_code_of_the_chapter_compiles", the_code_of_the_chapter_compiles as _),
         ("departures_from_misra_are_listed", departures_from_misra_are_listed as _),
     ])
 }
@@ -77,6 +78,27 @@ fn headers_are_those_of_cpp_too() -> Result<(), Missing> {
     let object = folder.path().join("main.o");
     let flags = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-c", "-o"];
     succeeds(Command::new("c++").args(flags).arg(&object).arg(&source));
+    Ok(())
+}
+
+fn the_code_of_the_chapter_compiles() -> Result<(), Missing> {
+    tool("cc", "")?;
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/in-a-controller.md");
+    let page = fs::read_to_string(page).unwrap();
+    let (_, block) = page.split_once("```c\n").unwrap();
+    let (code, _) = block.split_once("```").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let shipped = SHIPPED.iter().find(|shipped| shipped.name == "pps").unwrap();
+    write(folder.path(), &Spec::parse("pps.toml", shipped.spec).unwrap(), Real::Double);
+    let source = folder.path().join("controller.c");
+    fs::write(&source, code).unwrap();
+    succeeds(
+        Command::new("cc")
+            .args(STRICT)
+            .args(["-c", "-o"])
+            .arg(folder.path().join("controller.o"))
+            .arg(&source),
+    );
     Ok(())
 }
 

@@ -152,6 +152,34 @@ fn another_tool_stands_in_the_map() {
     }
 }
 
+/// A machine with a zero that is off by little: that is found, and whoever says that errors may be as large gets the spec.
+#[test]
+fn what_less_changed_leaves_is_said_and_can_be_accepted() {
+    let folder = tempfile::tempdir().unwrap();
+    for layout in [Position, Matrix] {
+        let case = case("ur5", &[layout], &mut Random(21));
+        let spec = case.spec.clone();
+        let shifted: String = case
+            .data
+            .lines()
+            .enumerate()
+            .map(|(i, line)| match line.split_once(',') {
+                // The first column is the first joint, in rad.
+                Some((q, rest)) if i > 0 => format!("{},{rest}\n", q.parse::<f64>().unwrap() + 0.004),
+                _ => format!("{line}\n"),
+            })
+            .collect();
+        let report = run(&spec, &shifted, folder.path());
+        assert!(!report.found[0].reading.changes.is_empty(), "{}", report.sentence);
+        let simpler = report.simpler.unwrap();
+        assert!(simpler.reading.changes.is_empty() && simpler.both > report.found[0].both);
+        let machine = Machine::find(folder.path().join("robot.toml")).unwrap();
+        let within = Some(1.2 * simpler.both);
+        let asked = Doctor { machine, data: folder.path().join("rows.csv"), within }.run(&mut ()).unwrap();
+        assert_eq!(asked.found[0].reading, simpler.reading, "{}", asked.sentence);
+    }
+}
+
 /// Nothing is invented of few rows, of a robot with a slide either.
 #[test]
 fn few_rows_of_what_is_as_in_the_spec_are_as_in_the_spec() {
