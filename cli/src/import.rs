@@ -1,9 +1,7 @@
 //! `abbe import`: robots that are described in other formats, as specs.
 
-use std::fmt::Write;
-
-use abbe_study::import::{Format, Import, ImportedFrame, Report};
-use abbe_study::number::counted;
+use abbe_report::text;
+use abbe_study::import::{Format, Import};
 
 use crate::arguments;
 use crate::console::Console;
@@ -25,36 +23,8 @@ pub(crate) fn run(arguments: &arguments::Import) -> Result<Outcome, Failure> {
     let printed = outputs.finish(wanted.map(|file| file.fill(&report.spec)).transpose()?)?;
     let text = match out {
         _ if arguments.json => json(&report)?,
-        Some(_) => summary(&report),
+        Some(_) => text::imported(&report),
         None => report.spec,
     };
     Ok(Outcome::passed(text).beside(printed))
-}
-
-fn summary(report: &Report) -> String {
-    let Report { manipulator, base, tip, frames, loads, largest_difference, configurations, length, .. } =
-        report;
-    let moving = frames.iter().filter(|frame| frame.variable.is_some()).count();
-    let mut text = format!(
-        "{manipulator}: from {base} to {tip}, {}, {moving} of them moved, {} as loads\n\n",
-        counted(frames.len(), "frame", "frames"),
-        counted(*loads, "mass", "masses")
-    );
-    let width = frames.iter().map(|frame| frame.joint.chars().count()).max().unwrap_or_default();
-    for ImportedFrame { joint, link, variable, follows } in frames {
-        let variable = match variable {
-            None => "fixed".to_owned(),
-            Some(name) if *follows => format!("follows {name}"),
-            Some(name) => name.clone(),
-        };
-        let _ = match link {
-            Some(link) => writeln!(text, "  {joint:width$}  {variable:width$}  carries {link}"),
-            None => writeln!(text, "  {joint:width$}  {variable}"),
-        };
-    }
-    let _ = writeln!(
-        text,
-        "\nThe poses of the spec are those of the file: at {configurations} configurations they differ by {largest_difference:.1e} {length} or rad at most."
-    );
-    text
 }

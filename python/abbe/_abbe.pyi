@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._fields import Figure
 
-__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__version__", "_part", "_restore", "load", "merge", "shipped"]
+__all__ = ["Commands", "Machine", "Part", "Report", "SpecError", "Table", "__version__", "_part", "_restore", "import_dh", "import_urdf", "load", "merge", "shipped"]
 
 __version__: str
 
@@ -157,6 +157,18 @@ class Machine:
         since: str | None = None,
         false_alarm: int = 365,
     ) -> Report: ...
+    def doctor(self, data: _Measured | _Joints, seen: ArrayLike | None = None, *, within: _Length | None = None) -> Report: ...
+    def export(
+        self,
+        to: str,
+        *,
+        urdf: _Path | None = None,
+        base: str | None = None,
+        tip: str | None = None,
+        nodes: int | None = None,
+        samples: int = 1000,
+        seed: int = 0,
+    ) -> Report: ...
     def generate(self, language: str = "rust", *, real: str | None = None) -> str: ...
     def __reduce__(self) -> tuple[Any, tuple[str, str | None, list[tuple[str, str]]]]: ...
 
@@ -176,6 +188,7 @@ class Report:
     def to_dict(self) -> dict[str, Any]: ...
     def to_json(self) -> str: ...
     def report(self, folder: _Path, *, overwrite: bool = False) -> list[str]: ...
+    def load(self) -> Machine: ...
     def figures(self) -> dict[str, Figure]: ...
     def figure(self, name: str) -> Figure: ...
     def tables(self) -> list[str]: ...
@@ -207,6 +220,23 @@ class Table:
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
     def _repr_html_(self) -> str: ...
 
+def import_dh(
+    table: _Path | Mapping[str, ArrayLike] | Any | None = None,
+    *,
+    convention: str,
+    text: str | None = None,
+    units: str | None = None,
+    round_angles: bool = False,
+) -> Report: ...
+def import_urdf(
+    file: _Path | None = None,
+    *,
+    text: str | None = None,
+    base: str | None = None,
+    tip: str | None = None,
+    fold: bool = False,
+    round_angles: bool = False,
+) -> Report: ...
 def load(spec: str | PathLike[str] | None = None, *, text: str | None = None) -> Machine: ...
 def merge(
     parts: Iterable[Part | _Path], *, threads: int | None = None, progress: _Progress | None = None

@@ -1,6 +1,8 @@
 """What users give as numbers, made into arrays of double numbers. Imported when it is first needed: NumPy takes its time."""
 
+import io
 from collections.abc import Mapping
+from csv import writer
 from numbers import Real
 
 import numpy as np
@@ -18,15 +20,43 @@ def numbers(value, what, names):
 
 
 def columns(value, what, wanted):
-    """Of a table the columns `wanted`, as arrays of double numbers (NaN where there is nothing) or lists of texts, and the names of the others."""
+    """Of a table the columns `wanted`, or all, as arrays of double numbers (NaN where there is nothing) or lists of texts, and the names of the others."""
     names = _columns(value)
     if names is None:
         raise TypeError(
             f"`{what}` must be the path of a CSV file, or a table: a dict of arrays, a frame of pandas or polars, a table of pyarrow;"
             f" it is of type {type(value).__name__}"
         )
-    found = [(str(name), _cells(value[name], name, what)) for name in names if name in wanted]
-    return found, [str(name) for name in names if name not in wanted]
+    found = [(str(name), _cells(value[name], name, what)) for name in names if wanted is None or name in wanted]
+    return found, [str(name) for name in names if wanted is not None and name not in wanted]
+
+
+def beside(joints, seen, names):
+    """A table of joints, a column for each of `names`, and of what was seen at them."""
+    joints, seen = numbers(joints, "data", names), _real(seen, "seen")
+    if joints.ndim != 2 or joints.shape[1] != len(names):
+        raise ValueError(f"`data` has shape {joints.shape}: beside `seen` it has a row of joints for each, (m, {len(names)})")
+    if seen.ndim not in (2, 3) or len(seen) != len(joints):
+        raise ValueError(f"`seen` has shape {seen.shape}: give a row for each of `data`, ({len(joints)}, 3) or more, or ({len(joints)}, 4, 4)")
+    seen = seen.reshape(len(seen), -1)
+    return dict(zip(names, joints.T)) | {f"seen_{k + 1}": column for k, column in enumerate(seen.T)}
+
+
+def csv(value, what):
+    """A table as CSV text."""
+    found = [(name, cells if isinstance(cells, list) else [_text(cell) for cell in cells.tolist()]) for name, cells in columns(value, what, None)[0]]
+    lengths = {len(cells) for _, cells in found}
+    if len(lengths) > 1:
+        raise ValueError(f"the columns of `{what}` have different lengths: {', '.join(map(str, sorted(lengths)))}")
+    names, cells = zip(*found) if found else ((), ())
+    written = io.StringIO()
+    writer(written, lineterminator="\n").writerows([names, *zip(*cells)])
+    return written.getvalue()
+
+
+def _text(number):
+    """The shortest text of a number; of none, nothing."""
+    return "" if number != number else repr(number)
 
 
 def _cells(column, name, what):

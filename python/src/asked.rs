@@ -218,7 +218,7 @@ impl Machine {
         let nominal = self.machine.spec.hash == self.unchanged.spec.hash
             && self.changes().is_ok_and(|changes| changes.is_empty());
         let text = self.text();
-        Ok(Report::new("identify", &report, notes)?.with_pages(move || {
+        Ok(Report::new("identify", &report, notes)?.with_spec("found.toml").with_pages(move || {
             let Identify { machine, map, .. } = &job;
             let test = unseen.iter().map(|test| ("test", test.source()));
             let files = [("measurements", measured.source())].into_iter().chain(test);

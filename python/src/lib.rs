@@ -1,6 +1,7 @@
 //! The Python package `abbe`: what `abbe-study` and `abbe-interpreter` do, for NumPy arrays.
 //!
-//! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `commands` single commands. `functions`
+//! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `doctor` and `exchange` those
+//! that take and give what is of others, `commands` single commands. `functions`
 //! evaluates: `layout` says where numbers go, `arrays` reads what users give, `measured` what they measured, `batch` runs over many
 //! configurations. `job` runs a job beside Python, `report` is what it found, `table` what Arrow reads of it, `part` a part of an
 //! analysis; `failure` makes exceptions of mistakes.
@@ -9,7 +10,9 @@ mod arrays;
 mod asked;
 mod batch;
 mod commands;
+mod doctor;
 mod evaluated;
+mod exchange;
 mod failure;
 mod functions;
 mod job;
@@ -27,6 +30,8 @@ mod _abbe {
 
     #[pymodule_export]
     use super::commands::Commands;
+    #[pymodule_export]
+    use super::exchange::{import_dh, import_urdf};
     #[pymodule_export]
     use super::failure::SpecError;
     #[pymodule_export]

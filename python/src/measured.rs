@@ -15,7 +15,7 @@ use crate::machine::Machine;
 pub(crate) enum Measured {
     /// In a file.
     File(PathBuf),
-    /// In memory: those columns that the map names.
+    /// In memory: those columns that are read.
     Table(Columns),
 }
 
@@ -25,9 +25,18 @@ impl Measured {
         if let Ok(file) = value.extract() {
             return Ok(Self::File(file));
         }
+        Self::table(what, value, Some(map.columns()))
+    }
+
+    /// The same where no map says which columns are read.
+    pub(crate) fn all(what: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        value.extract().map_or_else(|_| Self::table(what, value, None), |file| Ok(Self::File(file)))
+    }
+
+    fn table(what: &str, value: &Bound<'_, PyAny>, wanted: Option<Vec<&str>>) -> PyResult<Self> {
         let py = value.py();
         let read = py.import("abbe._arrays")?.getattr("columns")?;
-        let read = read.call1((value, what, map.columns()))?;
+        let read = read.call1((value, what, wanted))?;
         let (columns, others): (Vec<(String, Bound<'_, PyAny>)>, Vec<String>) = read.extract()?;
         let columns = columns.into_iter().map(|(name, cells)| Ok((name, cells_of(&cells)?)));
         let columns = Columns::new(what, columns.collect::<PyResult<_>>()?, others);

@@ -15,6 +15,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::failure::{guarded, spec_error};
+use crate::machine::{Machine, restore};
 use crate::table::Table;
 
 /// Files of a report: their names and texts.
@@ -34,6 +35,8 @@ pub(crate) struct Report {
     pages: Option<Make<Pages>>,
     figures: Option<Make<Vec<Picture>>>,
     rows: Option<data::Table>,
+    /// Which of its pages is a spec.
+    spec: Option<String>,
     fields: PyOnceLock<Py<PyAny>>,
 }
 
@@ -42,13 +45,18 @@ impl Report {
     pub(crate) fn new(kind: &'static str, report: &impl Serialize, notes: Vec<String>) -> PyResult<Self> {
         let json =
             serde_json::to_string(report).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        let (text, html, pages, figures, rows) = (None, None, None, None, None);
-        Ok(Self { kind, json, text, html, notes, pages, figures, rows, fields: PyOnceLock::new() })
+        let (text, html, pages, figures, rows, spec) = (None, None, None, None, None, None);
+        Ok(Self { kind, json, text, html, notes, pages, figures, rows, spec, fields: PyOnceLock::new() })
     }
 
     /// With a text, and tables for notebooks.
     pub(crate) fn shown(self, text: String, html: String) -> Self {
         Self { text: Some(text), html: Some(html), ..self }
+    }
+
+    /// With a text.
+    pub(crate) fn printed(self, text: String) -> Self {
+        Self { text: Some(text), ..self }
     }
 
     /// With files.
@@ -57,6 +65,11 @@ impl Report {
         pages: impl Fn() -> Result<Pages, Diagnostics> + Send + Sync + 'static,
     ) -> Self {
         Self { pages: Some(Box::new(pages)), ..self }
+    }
+
+    /// One of its pages is a spec.
+    pub(crate) fn with_spec(self, page: &str) -> Self {
+        Self { spec: Some(page.to_owned()), ..self }
     }
 
     /// With figures.
@@ -132,6 +145,15 @@ impl Report {
         Ok(pages.into_iter().map(|(name, _)| name).collect())
     }
 
+    /// The manipulator that was imported, or identified, as `abbe.load` gives it; ValueError if the report is of neither.
+    fn load(&self, py: Python<'_>) -> PyResult<Machine> {
+        let pages = self.pages(py)?;
+        match pages.into_iter().find(|(name, _)| self.spec.as_ref() == Some(name)) {
+            Some((name, text)) => restore(py, &name, Some(text), Vec::new()),
+            None => Err(PyValueError::new_err(format!("a report of {} has no spec", self.kind))),
+        }
+    }
+
     /// The figures by their names: notebooks show them, `.svg` is the picture, `.plots` what Plotly draws.
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
@@ -188,7 +210,7 @@ impl Report {
     }
 
     fn __dir__(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        let own = ["figure", "figures", "notes", "report", "table", "tables", "to_dict", "to_json"]
+        let own = ["figure", "figures", "load", "notes", "report", "table", "tables", "to_dict", "to_json"]
             .map(str::to_owned);
         let fields: Vec<String> = self.fields(py)?.call_method0("__dir__")?.extract()?;
         Ok(own.into_iter().chain(fields).collect())

@@ -1,6 +1,6 @@
 //! Which files a question rests on: whoever writes its answer must not write over them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::check::Check;
 use crate::compensate::Compensate;
@@ -107,10 +107,11 @@ impl Reads for Compensate {
     }
 }
 
-impl Reads for Doctor {
+impl Reads for Doctor<'_> {
     fn files(&self) -> Vec<PathBuf> {
         let Self { machine, data, within: _ } = self;
-        [machine.files(), vec![data.clone()]].concat()
+        let data = data.file().map(Path::to_owned).into_iter().collect();
+        [machine.files(), data].concat()
     }
 }
 

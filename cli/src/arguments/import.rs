@@ -1,6 +1,5 @@
 use std::path::PathBuf;
 
-use abbe::LengthUnit;
 use abbe_codegen::spec::DhConvention;
 use abbe_study::import::Units;
 use clap::{Args, ValueEnum, ValueHint};
@@ -33,7 +32,7 @@ pub(crate) struct Import {
     #[arg(long, value_name = "CONVENTION")]
     pub(crate) dh: Option<Convention>,
     /// The units of the table where its heading does not say them, as `mm,deg` or `m,rad`
-    #[arg(long, value_name = "UNITS", requires = "dh", value_parser = units)]
+    #[arg(long, value_name = "UNITS", requires = "dh")]
     pub(crate) units: Option<Units>,
     /// Write angles that are multiples of 45° but for rounding in the file (up to 1e-5 rad) as such
     #[arg(long)]
@@ -62,19 +61,4 @@ impl From<Convention> for DhConvention {
             Convention::Modified => Self::Modified,
         }
     }
-}
-
-/// `mm,deg`, in either order; or one of them.
-fn units(text: &str) -> Result<Units, String> {
-    let mut units = Units::default();
-    for unit in text.split(',').map(str::trim) {
-        match unit {
-            "m" if units.length.is_none() => units.length = Some(LengthUnit::Metre),
-            "mm" if units.length.is_none() => units.length = Some(LengthUnit::Millimetre),
-            "deg" if units.degrees.is_none() => units.degrees = Some(true),
-            "rad" if units.degrees.is_none() => units.degrees = Some(false),
-            _ => return Err("give one of m and mm, and one of deg and rad, as in `mm,deg`".to_owned()),
-        }
-    }
-    Ok(units)
 }

@@ -1,13 +1,11 @@
-//! A file of numbers of which nobody has said what they are.
-
-use std::path::Path;
+//! Rows of numbers of which nobody has said what they are.
 
 use abbe_codegen::diagnostic::Diagnostics;
 
-use super::file::File;
+use super::source::{Opened, Source};
 use crate::mistake;
 
-/// The cells of a file.
+/// The cells of a file or a table.
 pub(crate) struct Numbers {
     /// The names of the columns.
     pub(crate) heading: Vec<String>,
@@ -17,22 +15,22 @@ pub(crate) struct Numbers {
     pub(crate) slips: Vec<Option<(u64, String)>>,
 }
 
-/// All rows of a file.
-pub(crate) fn numbers(path: &Path) -> Result<Numbers, Diagnostics> {
-    let file = File::open(path)?;
-    let heading = file.heading.to_vec();
-    if heading.iter().any(|name| name.parse::<f64>().is_ok()) {
+/// All rows.
+pub(crate) fn numbers(source: Source<'_>) -> Result<Numbers, Diagnostics> {
+    let Opened { heading, records, .. } = source.open()?;
+    let heading = heading.to_vec();
+    if source.file().is_some() && heading.iter().any(|name| name.parse::<f64>().is_ok()) {
         let message = "the first line of this file has numbers";
         let help = "give it a heading: a name for each column, such as q1, …, x, y, z, a, b, c";
-        return Err(mistake::with_help(path.display(), message, help));
+        return Err(mistake::with_help(source.name(), message, help));
     }
     let (mut rows, mut slips) = (Vec::new(), vec![None; heading.len()]);
-    for record in file.records() {
+    for record in records {
         let record = record?;
         if let Some(reason) = record.too_long() {
             let message = format!("line {}: {reason}", record.line);
             return Err(mistake::with_help(
-                path.display(),
+                source.name(),
                 message,
                 "one row of numbers in every line below the heading",
             ));

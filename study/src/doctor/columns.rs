@@ -1,14 +1,12 @@
-//! The numbers of a file: joints, and what was seen.
-
-use std::path::Path;
+//! The numbers of a file or a table: joints, and what was seen.
 
 use abbe_codegen::diagnostic::{Diagnostics, listed};
 use abbe_codegen::spec::Spec;
 
-use crate::data::{Numbers, numbers};
+use crate::data::{Numbers, Source, numbers};
 use crate::{Notes, mistake};
 
-/// The rows of a file.
+/// The rows of a file or a table.
 pub(super) struct Columns {
     /// The names of the columns of joints.
     pub(super) joint_names: Vec<String>,
@@ -28,13 +26,13 @@ const LEAST: usize = 4;
 impl Columns {
     /// The columns that are named as the variables of the spec are the joints; if not all are there, the first ones.
     pub(super) fn read(
-        file: &Path,
+        source: Source<'_>,
         spec: &Spec,
         most: usize,
         notes: &mut dyn Notes,
     ) -> Result<Self, Diagnostics> {
-        let Numbers { heading, rows, slips } = numbers(file)?;
-        let fail = |message: String, help: &str| Err(mistake::with_help(file.display(), message, help));
+        let Numbers { heading, rows, slips } = numbers(source)?;
+        let fail = |message: String, help: &str| Err(mistake::with_help(source.name(), message, help));
         // A cell that is no number among numbers is a slip in its row; among texts it is a text.
         let is_number = |place: usize| {
             let numbers = rows.iter().filter(|row| !row[place].is_nan()).count();
@@ -42,6 +40,7 @@ impl Columns {
         };
         let (numeric, texts): (Vec<usize>, Vec<usize>) =
             (0..heading.len()).partition(|place| is_number(*place));
+        let what = if source.file().is_some() { "file" } else { "table" };
         let count = spec.variables.len();
         if numeric.len() < count + 3 {
             let columns = match numeric.len() {
@@ -49,7 +48,7 @@ impl Columns {
                 count => format!("{count} columns"),
             };
             let message = format!(
-                "this file has {columns} of numbers; {count} joints and a position are {}",
+                "this {what} has {columns} of numbers; {count} joints and a position are {}",
                 count + 3
             );
             let help = "first the joints, then x, y, z, then the orientation if there is one; between cells stand commas, semicolons or tabs";
@@ -67,7 +66,8 @@ impl Columns {
                 1 => String::new(),
                 count => format!("; {count} rows are like this"),
             };
-            notes.warn(&format!("a row that is not whole is not read: line {line}: {reason}{others}"));
+            let place = if source.file().is_some() { "line" } else { "row" };
+            notes.warn(&format!("a row that is not whole is not read: {place} {line}: {reason}{others}"));
         }
         let named: Option<Vec<usize>> = spec
             .variables
@@ -89,12 +89,12 @@ impl Columns {
         if configurations < LEAST {
             let message = match at.len() {
                 rows if rows == configurations => {
-                    format!("this file has {rows} whole rows below its heading")
+                    format!("this {what} has {rows} whole rows below its heading")
                 }
                 rows if configurations == 1 => {
-                    format!("the {rows} rows of this file are of one configuration")
+                    format!("the {rows} rows of this {what} are of one configuration")
                 }
-                rows => format!("the {rows} rows of this file are of {configurations} configurations"),
+                rows => format!("the {rows} rows of this {what} are of {configurations} configurations"),
             };
             return fail(message, "give four at least, better ten, at configurations far from each other");
         }

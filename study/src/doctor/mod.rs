@@ -18,8 +18,6 @@ mod words;
 mod written;
 mod zeros;
 
-use std::path::PathBuf;
-
 use abbe_codegen::diagnostic::Diagnostics;
 use serde::Serialize;
 
@@ -29,6 +27,7 @@ use self::kinematics::Kinematics;
 use self::ranked::Ranked;
 pub use self::reading::{Layout, Reading};
 use self::search::Search;
+use crate::data::Source;
 use crate::number::digits;
 use crate::{Machine, Notes, mistake};
 
@@ -36,11 +35,11 @@ use crate::{Machine, Notes, mistake};
 const MOST_ROWS: usize = 40;
 
 /// Which reading of these rows is that of this machine?
-pub struct Doctor {
+pub struct Doctor<'a> {
     /// The machine as its spec has it.
     pub machine: Machine,
-    /// A CSV file: a column for each joint, then a pose or a position.
-    pub data: PathBuf,
+    /// A column for each joint, then a pose or a position.
+    pub data: Source<'a>,
     /// What may be left of a position for a reading to fit, in the spec's length unit.
     pub within: Option<f64>,
 }
@@ -92,10 +91,10 @@ pub struct Report {
     pub of_spec: Vec<String>,
 }
 
-impl Doctor {
+impl Doctor<'_> {
     /// Goes through the readings.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
-        let columns = Columns::read(&self.data, &self.machine.spec, MOST_ROWS, notes)?;
+        let columns = Columns::read(self.data, &self.machine.spec, MOST_ROWS, notes)?;
         let kinematics = Kinematics::new(&self.machine.spec)
             .map_err(|error| mistake::whole(&self.machine.origin, &error))?;
         let layouts = reading::layouts(columns.pose.first().map_or(0, Vec::len));
@@ -103,7 +102,7 @@ impl Doctor {
             let count = columns.pose.first().map_or(0, Vec::len);
             let message = format!("beside the joints there are {count} columns of numbers");
             let help = "a position has 3; a pose 6 with angles, 7 with a quaternion, 12 with a matrix, 16 as 4×4; leave out the others";
-            return Err(mistake::with_help(self.data.display(), message, help));
+            return Err(mistake::with_help(self.data.name(), message, help));
         }
         let search = Search::new(&kinematics, &columns, &layouts, self.within);
         let candidates = search.run(notes)?;

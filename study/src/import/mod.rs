@@ -115,7 +115,11 @@ impl Import {
                         Rx(alpha) Tx(a) Rz(theta) Tz(d)";
             return Err(mistake::with_help(self.file.display(), message, help));
         }
-        let mut document = Document::read(&self.file)?;
+        self.read(Document::read(&self.file)?, notes)
+    }
+
+    /// Writes the spec of a text; `file` is what the spec calls it.
+    pub fn read(&self, mut document: Document, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let mut almost = Almost::new(self.round_angles);
         let chain = match &self.format {
             Format::Urdf { base, tip, fold } => {

@@ -21,7 +21,9 @@ fn run(spec: &str, data: &str, folder: &Path) -> Report {
     let (file, rows) = (folder.join("robot.toml"), folder.join("rows.csv"));
     std::fs::write(&file, spec).unwrap();
     std::fs::write(&rows, data).unwrap();
-    Doctor { machine: Machine::find(&file).unwrap(), data: rows, within: None }.run(&mut ()).unwrap()
+    Doctor { machine: Machine::find(&file).unwrap(), data: (&rows).into(), within: None }
+        .run(&mut ())
+        .unwrap()
 }
 
 /// The map of a reading that it holds wholly leaves as little of these rows as was said, give or take that a fitted base counts
@@ -175,7 +177,8 @@ fn what_less_changed_leaves_is_said_and_can_be_accepted() {
         assert!(simpler.reading.changes.is_empty() && simpler.both > report.found[0].both);
         let machine = Machine::find(folder.path().join("robot.toml")).unwrap();
         let within = Some(1.2 * simpler.both);
-        let asked = Doctor { machine, data: folder.path().join("rows.csv"), within }.run(&mut ()).unwrap();
+        let rows = folder.path().join("rows.csv");
+        let asked = Doctor { machine, data: (&rows).into(), within }.run(&mut ()).unwrap();
         assert_eq!(asked.found[0].reading, simpler.reading, "{}", asked.sentence);
     }
 }
@@ -223,7 +226,8 @@ fn equal_rows_are_refused() {
     std::fs::write(folder.path().join("robot.toml"), &case.spec).unwrap();
     std::fs::write(folder.path().join("rows.csv"), data).unwrap();
     let machine = Machine::find(folder.path().join("robot.toml")).unwrap();
-    let refused = Doctor { machine, data: folder.path().join("rows.csv"), within: None }.run(&mut ());
+    let rows = folder.path().join("rows.csv");
+    let refused = Doctor { machine, data: (&rows).into(), within: None }.run(&mut ());
     assert!(refused.unwrap_err().to_string().contains("the 10 rows of this file are of one configuration"));
 }
 

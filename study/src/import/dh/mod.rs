@@ -7,6 +7,8 @@ mod columns;
 mod rows;
 mod text;
 
+use std::str::FromStr;
+
 use abbe::LengthUnit;
 use abbe_codegen::diagnostic::{Diagnostic, listed};
 use abbe_codegen::document::Document;
@@ -27,6 +29,25 @@ pub struct Units {
     pub length: Option<LengthUnit>,
     /// Whether angles are in degrees; in rad if not.
     pub degrees: Option<bool>,
+}
+
+/// `mm,deg`, in either order; or one of them.
+impl FromStr for Units {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let mut units = Self::default();
+        for unit in text.split(',').map(str::trim) {
+            match unit {
+                "m" if units.length.is_none() => units.length = Some(LengthUnit::Metre),
+                "mm" if units.length.is_none() => units.length = Some(LengthUnit::Millimetre),
+                "deg" if units.degrees.is_none() => units.degrees = Some(true),
+                "rad" if units.degrees.is_none() => units.degrees = Some(false),
+                _ => return Err("give one of m and mm, and one of deg and rad, as in `mm,deg`"),
+            }
+        }
+        Ok(units)
+    }
 }
 
 /// The chain of a table; what is wrong goes to the document, what is left out to the notes.

@@ -1,0 +1,168 @@
+//! Robots of other programs as specs, and machines as files that other programs load.
+
+use std::path::PathBuf;
+
+use abbe_codegen::document::Document;
+use abbe_codegen::spec::DhConvention;
+use abbe_report::text;
+use abbe_study::export::{Export, Format as Exported};
+use abbe_study::import::{Format, Import, Units};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::failure::guarded;
+use crate::job::run;
+use crate::machine::Machine;
+use crate::report::Report;
+
+/// The spec of a robot that a URDF file describes: `file`, or the `text` of one.
+///
+/// `base` and `tip` are the links of F_0 and of the tool point: the root, and the last link if there is only one. `fold` puts
+/// fixed joints into the frames that follow them; without, each is a frame that has errors of its own. `round_angles` writes
+/// angles that are multiples of 45° but for rounding in the file, up to 1e-5 rad, as such. Lengths are in m.
+///
+/// `.load()` of the report is the manipulator, `.spec` the text of its spec, `.notes` what was left out; `.report(folder)` writes
+/// the spec. A mistake raises SpecError, with its place. Fields as those of `abbe import --json`.
+///
+/// >>> import abbe
+/// >>> urdf = '''<robot name="arm"> <link name="base"/> <link name="hand"/>
+/// ...   <joint name="Elbow" type="revolute"> <parent link="base"/> <child link="hand"/>
+/// ...     <axis xyz="0 0 1"/> <limit lower="-1" upper="1" effort="1" velocity="1"/> </joint> </robot>'''
+/// >>> abbe.import_urdf(text=urdf).load()
+/// Machine('arm': 1 frame, 1 joint variable, m)
+#[pyfunction]
+#[pyo3(signature = (file=None, *, text=None, base=None, tip=None, fold=false, round_angles=false))]
+pub(crate) fn import_urdf(
+    py: Python<'_>,
+    file: Option<PathBuf>,
+    text: Option<String>,
+    base: Option<String>,
+    tip: Option<String>,
+    fold: bool,
+    round_angles: bool,
+) -> PyResult<Report> {
+    if file.is_some() == text.is_some() {
+        return Err(PyTypeError::new_err("give the path of a URDF file, or else text=…"));
+    }
+    let file = file.unwrap_or_else(|| "text".into());
+    imported(py, Import { file, format: Format::Urdf { base, tip, fold }, round_angles }, text)
+}
+
+/// The spec of a table of Denavit-Hartenberg numbers: a CSV file, a table with the columns theta, d, a and alpha, or the `text` of
+/// one, as the Robotics Toolbox prints it, too.
+///
+/// `convention` is "standard", Rz(theta) Tz(d) Tx(a) Rx(alpha), or "modified", Rx(alpha) Tx(a) Rz(theta) Tz(d); `units`, such as
+/// "mm,deg", are those of numbers whose heading does not say them; nothing is guessed. Else as `import_urdf`, with lengths in that unit.
+///
+/// >>> import abbe
+/// >>> rows = {"theta": ["q1", "q2 + 90"], "d": [0, 120], "a": [400, 0], "alpha": [0, -90],
+/// ...         "lower": [-170, -90], "upper": [170, 90]}
+/// >>> abbe.import_dh(rows, convention="standard", units="mm,deg").load().pose([0, 0])[:3, 3]
+/// array([400.,   0., 120.])
+#[pyfunction]
+#[pyo3(signature = (table=None, *, convention, text=None, units=None, round_angles=false))]
+pub(crate) fn import_dh(
+    py: Python<'_>,
+    table: Option<&Bound<'_, PyAny>>,
+    convention: &str,
+    text: Option<String>,
+    units: Option<&str>,
+    round_angles: bool,
+) -> PyResult<Report> {
+    let convention = match convention {
+        "standard" => DhConvention::Standard,
+        "modified" => DhConvention::Modified,
+        other => {
+            let message = format!("convention={other:?}: \"standard\" or \"modified\"");
+            return Err(PyValueError::new_err(message));
+        }
+    };
+    let units: Units = units
+        .map_or(Ok(Units::default()), str::parse)
+        .map_err(|message| PyValueError::new_err(format!("`units`: {message}")))?;
+    let (file, text) = match (table, text) {
+        (None, Some(text)) => ("text".into(), Some(text)),
+        (Some(table), None) => match table.extract::<PathBuf>() {
+            Ok(file) => (file, None),
+            Err(_) => {
+                let written = py.import("abbe._arrays")?.getattr("csv")?.call1((table, "table"))?;
+                ("table".into(), Some(written.extract()?))
+            }
+        },
+        _ => return Err(PyTypeError::new_err("give a CSV file or a table, or else text=…")),
+    };
+    imported(py, Import { file, format: Format::Table { convention, units }, round_angles }, text)
+}
+
+fn imported(py: Python<'_>, job: Import, text: Option<String>) -> PyResult<Report> {
+    let (report, notes) = run(py, None, None, |notes| match text {
+        None => job.run(notes),
+        Some(text) => job.read(Document::new(job.file.display().to_string(), text), notes),
+    })?;
+    let (name, spec) = (format!("{}.toml", report.manipulator), report.spec.clone());
+    let found = Report::new("import", &report, notes)?.printed(guarded(|| Ok(text::imported(&report)))?);
+    Ok(found.with_spec(&name).with_pages(move || Ok(vec![(name.clone(), spec.clone())])))
+}
+
+#[pymethods]
+impl Machine {
+    /// What was found of a machine, its repeatable sources, in files that controllers and other programs load, and what remains.
+    ///
+    /// `to`: "dh", "urdf" (a copy of the nominal robot's file `urdf`, from its link `base` to `tip`), "ur-calibration", "isg-csv",
+    /// "linuxcnc" or "table"; `nodes`: how many values of each axis or joint a table has. `samples` random configurations (`seed`) are
+    /// what the differences are of, in the length unit and rad. `.files` have `.name` and `.text`, `.report(folder)` writes them. What a
+    /// format cannot hold is in `.left_out`, or raises SpecError. Fields as those of `abbe export --json`.
+    ///
+    /// >>> import abbe
+    /// >>> report = abbe.load("machine3").with_parameters(temperature_rise="3 K").export("isg-csv", nodes=21)
+    /// >>> report.files[0].name, report.remains.position.largest < report.before.position.largest
+    /// ('machine3.volcomp.csv', True)
+    #[pyo3(signature = (to, *, urdf=None, base=None, tip=None, nodes=None, samples=1000, seed=0))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn export(
+        &self,
+        py: Python<'_>,
+        to: &str,
+        urdf: Option<PathBuf>,
+        base: Option<String>,
+        tip: Option<String>,
+        nodes: Option<usize>,
+        samples: usize,
+        seed: u64,
+    ) -> PyResult<Report> {
+        if !(1..=1_000_000).contains(&samples) || !nodes.is_none_or(|nodes| (2..=1_000_000).contains(&nodes))
+        {
+            return Err(PyValueError::new_err("`samples` is from 1 to 1000000, `nodes` from 2 to 1000000"));
+        }
+        let needless = |given: bool, name: &str| match given {
+            true => Err(PyValueError::new_err(format!("`{name}` is not for to={to:?}: leave it out"))),
+            false => Ok(()),
+        };
+        if to != "urdf" {
+            let given = [("urdf", urdf.is_some()), ("base", base.is_some()), ("tip", tip.is_some())];
+            given.into_iter().try_for_each(|(name, given)| needless(given, name))?;
+        }
+        let of_axis = nodes.unwrap_or(Exported::NODES);
+        let format = match (to, urdf) {
+            ("isg-csv", _) => Exported::IsgCsv { nodes: of_axis },
+            ("linuxcnc", _) => Exported::LinuxCnc { nodes: of_axis },
+            ("table", _) => Exported::Table { nodes },
+            ("urdf", Some(file)) => Exported::Urdf { file, base, tip },
+            ("urdf", None) => {
+                return Err(PyValueError::new_err("name the URDF file of the nominal robot: urdf=…"));
+            }
+            ("ur-calibration", _) => Exported::UrCalibration,
+            ("dh", _) => Exported::Dh,
+            _ => {
+                let known = Exported::NAMES.map(|name| format!("\"{name}\"")).join(", ");
+                return Err(PyValueError::new_err(format!("to={to:?}: {known}")));
+            }
+        };
+        needless(nodes.is_some() && !["isg-csv", "linuxcnc", "table"].contains(&to), "nodes")?;
+        let job = Export { machine: self.machine.clone(), format, samples, seed };
+        let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
+        let files: Vec<_> = report.files.iter().map(|file| (file.name.clone(), file.text.clone())).collect();
+        let found = Report::new("export", &report, notes)?.printed(guarded(|| Ok(text::exported(&report)))?);
+        Ok(found.with_pages(move || Ok(files.clone())))
+    }
+}
