@@ -4,8 +4,17 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Writes `bindings.rs` for the generated C, C++ and Rust. A file holds the one function that it is named after.
-pub fn write(out: &Path, c: &[PathBuf], cpp: &[PathBuf], rust: &[PathBuf]) {
+/// Our functions, as everyone's are called here and as they are.
+const OURS: [(&str, &str); 4] = [
+    ("dense", "error_jacobian"),
+    ("distinct", "error_jacobian_distinct"),
+    ("displacement", "displacement"),
+    ("covariance", "covariance"),
+];
+
+/// Writes `bindings.rs` for the generated C, C++ and Rust. A file holds the one function that it is named after; one of ours those of
+/// a manipulator.
+pub fn write(out: &Path, c: &[PathBuf], cpp: &[PathBuf], rust: &[PathBuf], ours: &[PathBuf]) {
     let name = |path: &PathBuf| path.file_stem().expect("a name").to_string_lossy().into_owned();
     let mut text = String::from("unsafe extern \"C\" {\n");
     let mut list = String::new();
@@ -16,6 +25,16 @@ pub fn write(out: &Path, c: &[PathBuf], cpp: &[PathBuf], rust: &[PathBuf]) {
         text.push_str(&format!("    fn {name}(q: *const f64, second: *mut f64, result: *mut f64);\n"));
         entry(&name, &name);
     }
+    let mut own = String::new();
+    for manipulator in ours.iter().map(name) {
+        for (kind, function) in OURS {
+            let function = format!("{manipulator}_{function}");
+            text.push_str(&format!(
+                "    fn {function}(q: *const f64, s: *const f64, second: *mut f64, result: *mut f64) -> i32;\n"
+            ));
+            own.push_str(&format!("    (\"{manipulator}_{kind}\", {function}),\n"));
+        }
+    }
     text.push_str("}\n");
     for path in rust {
         let name = name(path);
@@ -25,5 +44,6 @@ pub fn write(out: &Path, c: &[PathBuf], cpp: &[PathBuf], rust: &[PathBuf]) {
     text.push_str(&format!(
         "/// Every function by its name.\npub const FUNCTIONS: &[(&str, Function)] = &[\n{list}];\n"
     ));
+    text.push_str(&format!("/// Ours in C.\npub const OURS: &[(&str, Ours)] = &[\n{own}];\n"));
     fs::write(out.join("bindings.rs"), text).expect("the bindings");
 }

@@ -1,6 +1,8 @@
 //! The specs as one table each, the peers' code from these tables, and all of it compiled.
 
 mod bindings;
+mod ours;
+mod sizes;
 mod table;
 
 use std::fs;
@@ -8,6 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use abbe_codegen::spec::Spec;
+use ours::Rounding;
+use serde_json::json;
 
 /// The robots that are compared, in the order in which they are shown.
 const SPECS: [&str; 4] = [
@@ -25,18 +29,18 @@ fn main() {
     abbe_codegen::compile("specs");
 
     let root = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    let (out, tables) = (root.join("peers"), root.join("tables"));
-    for folder in [&out, &tables] {
+    let (out, tables, own) = (root.join("peers"), root.join("tables"), root.join("ours"));
+    for folder in [&out, &tables, &own] {
         let _ = fs::remove_dir_all(folder);
         fs::create_dir_all(folder).expect("a folder for generated code");
     }
     let python = std::env::var("PEERS_PYTHON").expect("PEERS_PYTHON is not set: use benches/peers/run");
     let mut generate = Command::new(&python);
     generate.arg("-B").arg("generate/main.py").arg(&out).arg("1");
-    for path in SPECS {
-        let spec = Spec::read(Path::new(path)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let specs = SPECS.map(|path| Spec::read(Path::new(path)).unwrap_or_else(|mistakes| panic!("{mistakes}")));
+    for spec in &specs {
         let table = tables.join(format!("{}.json", spec.name));
-        fs::write(&table, table::table(&spec).to_string()).expect("a table");
+        fs::write(&table, table::table(spec).to_string()).expect("a table");
         generate.arg(table);
     }
     said(&mut generate);
@@ -47,11 +51,22 @@ fn main() {
         files.sort();
         files
     };
-    bindings::write(&out, &sources("c"), &sources("cpp"), &sources("rs"));
+    let written = |rounding| specs.each_ref().map(|spec| ours::write(spec, rounding, &own));
+    let (as_written, contracted) = (written(Rounding::AsWritten), written(Rounding::Contracted));
+    bindings::write(
+        &out,
+        &sources("c"),
+        &sources("cpp"),
+        &sources("rs"),
+        [&as_written[..], &contracted].concat().as_slice(),
+    );
 
     let include = include_folder(&python);
     let mut c = cc::Build::new();
     options(&mut c).files(sources("c")).compile("peers_c");
+    // As our documents ask for: the same bits as the Rust code.
+    options(&mut cc::Build::new()).flag("-ffp-contract=off").files(as_written).compile("ours_c");
+    options(&mut cc::Build::new()).files(contracted).compile("ours_c_contracted");
     let mut cpp = cc::Build::new();
     options(&mut cpp)
         .cpp(true)
@@ -65,6 +80,47 @@ fn main() {
     pinocchio.define("BOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", None).define("BOOST_MPL_LIMIT_LIST_SIZE", "30");
     pinocchio.define("BOOST_MPL_LIMIT_VECTOR_SIZE", "30").define("BOOST_FUSION_INVOKE_MAX_ARITY", "12");
     pinocchio.file("cpp/pinocchio.cpp").compile("peers_pinocchio");
+
+    let bytes = specs.iter().flat_map(|spec| {
+        let name = &spec.name;
+        let dense = |library: &str, ending| {
+            (
+                library.to_owned(),
+                out.join(format!("{library}_{name}_dense.{ending}")),
+                format!("{library}_{name}_dense"),
+            )
+        };
+        let ours = |ending: &str| {
+            (
+                format!("abbe{ending}"),
+                own.join(format!("{name}{ending}.c")),
+                format!("{name}{ending}_error_jacobian"),
+            )
+        };
+        let all = [
+            ours(""),
+            ours(ours::CONTRACTED),
+            dense("casadi", "c"),
+            dense("symforce", "cpp"),
+            dense("sympy", "c"),
+        ];
+        all.map(|(library, source, function)| {
+            let [fast, small] = ["-O3", "-Os"].map(|level| {
+                let mut build = cc::Build::new();
+                options(&mut build).opt_level_str(&level[2..]);
+                if library == "abbe" {
+                    build.flag("-ffp-contract=off");
+                }
+                if source.extension().is_some_and(|ending| ending == "cpp") {
+                    build.cpp(true).std("c++17").include(include.join("eigen3"));
+                }
+                sizes::bytes(build.get_compiler().to_command(), &source, &function, &root)
+            });
+            json!({ "robot": name, "library": library, "fast": fast, "small": small })
+        })
+    });
+    let bytes = serde_json::Value::Array(bytes.collect()).to_string();
+    fs::write(root.join("sizes.json"), bytes).expect("the sizes");
 
     let gcc = said(c.get_compiler().to_command().arg("-dumpfullversion"));
     let flags = std::env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default().replace('\u{1f}', " ");

@@ -39,6 +39,7 @@ fn main() {
         }
         let interpreted = interpreter(name, spec);
         rows.extend(batch::rows("interpreter", Side::Interpreter, interpreted, batch::MANY, &answers.inputs));
+        rows.extend(peers::ours(name));
         rows.extend(pinocchio::rows(robot));
         rows.extend(peers::rows(name));
         let deviations = rows.iter_mut().map(|row| answers.deviation(row)).collect();

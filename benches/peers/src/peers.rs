@@ -1,4 +1,4 @@
-//! The generated functions of CasADi, SymForce, SymPy and wrenfold.
+//! The generated functions of CasADi, SymForce, SymPy and wrenfold, and our own in C.
 
 use std::fs;
 use std::path::Path;
@@ -8,6 +8,9 @@ use crate::row::{Kind, Row, Side};
 
 /// `(q, pose, result)`; or `(q, ε, ΔX)` and `(q, σ², covariance)`, where the second is not written to.
 pub type Function = unsafe extern "C" fn(q: *const f64, second: *mut f64, result: *mut f64);
+
+/// The same of ours: with parameters, of which there are none here, and 0 if all results are finite.
+pub type Ours = unsafe extern "C" fn(q: *const f64, s: *const f64, second: *mut f64, result: *mut f64) -> i32;
 
 include!(concat!(env!("OUT_DIR"), "/peers/bindings.rs"));
 
@@ -43,6 +46,49 @@ pub fn rows(robot: &str) -> Vec<Row> {
         }
     }
     rows
+}
+
+/// Our rows in C for a robot: as documented, with the bits of the Rust code, and as a compiler may contract it.
+pub fn ours(robot: &str) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (ending, shown) in [("", "abbe, C"), ("_contracted", "abbe, C, contracted")] {
+        for kind in Kind::ALL {
+            let name = format!("{robot}{ending}_{}", kind.name());
+            let function = OURS.iter().find(|(listed, _)| **listed == name).expect("it was generated").1;
+            let none = std::ptr::null();
+            // Safety: generated for this robot, whose parameters are none; a row has room for all that it reads and writes.
+            rows.push(match kind {
+                Kind::Dense | Kind::Distinct => {
+                    Row::jacobian(shown, Side::OurC, kind, move |q, pose, result| unsafe {
+                        assert_eq!(function(q.as_ptr(), none, pose.as_mut_ptr(), result.as_mut_ptr()), 0);
+                    })
+                }
+                Kind::Displacement | Kind::Covariance => {
+                    Row::given(shown, Side::OurC, kind, move |q, given, result| unsafe {
+                        assert_eq!(
+                            function(q.as_ptr(), none, given.as_ptr().cast_mut(), result.as_mut_ptr()),
+                            0
+                        );
+                    })
+                }
+            });
+        }
+    }
+    rows
+}
+
+/// How a library's functions are shown.
+pub fn shown(library: &str) -> &str {
+    match LIBRARIES.iter().find(|(name, _)| *name == library) {
+        Some((_, shown)) => shown,
+        None if library == "abbe" => "abbe, C",
+        None => "abbe, C, contracted",
+    }
+}
+
+/// The bytes of everyone's `J_e` dense, of every robot.
+pub fn sizes() -> Vec<serde_json::Value> {
+    serde_json::from_str(include_str!(concat!(env!("OUT_DIR"), "/sizes.json"))).expect("the build script's")
 }
 
 /// Operation counts and seconds of every library and robot: the generators run once more, now that nothing else does.

@@ -18,6 +18,7 @@ pub fn lines(robot: &str, rows: &[Row], times: &[Times]) -> Vec<String> {
         format!("| {robot} | {title} | {} |", cells.join(" | "))
     };
     let single = |row: &Row| row.side == Side::Ours && row.block == 1;
+    let in_c = |row: &Row| row.side == Side::OurC;
     let batch = |row: &Row| row.side == Side::Ours && row.block > 1;
     let many = |row: &Row| row.side == Side::Ours && row.block == MANY;
     let interpreted = |row: &Row| row.side == Side::Interpreter;
@@ -25,6 +26,7 @@ pub fn lines(robot: &str, rows: &[Row], times: &[Times]) -> Vec<String> {
     let library = |row: &Row| row.side == Side::Library;
     vec![
         line("best generator / ours, one by one", &|kind| ratios.fastest_over(kind, generator, single)),
+        line("best generator / ours in C", &|kind| ratios.fastest_over(kind, generator, in_c)),
         line("Pinocchio / ours, one by one", &|kind| ratios.fastest_over(kind, library, single)),
         line("best generator / our best batch", &|kind| ratios.fastest_over(kind, generator, batch)),
         line("Pinocchio / our best batch", &|kind| ratios.fastest_over(kind, library, batch)),

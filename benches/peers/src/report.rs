@@ -82,7 +82,9 @@ impl Report {
                 None => String::new(),
                 Some((row, times, _)) => {
                     let ratio = match row.side {
-                        Side::Ours => format!(" **{:.2} ×**", best[kind as usize] / times.median),
+                        Side::Ours | Side::OurC => {
+                            format!(" **{:.2} ×**", best[kind as usize] / times.median)
+                        }
                         _ => String::new(),
                     };
                     format!("{:.1} ({:.1}){ratio}", times.median, times.minimum)
@@ -163,6 +165,15 @@ impl fmt::Display for Report {
         writeln!(f, "\nMultiplications / additions, and ms from the robot to the code of J_e dense.\n")?;
         writeln!(f, "| robot | | {titles} | ms |\n|---|---|---|---|---|---|---|")?;
         self.operations.iter().try_for_each(|row| writeln!(f, "{row}"))?;
+        writeln!(
+            f,
+            "\nBytes of code and constants of J_e dense, with all that it calls but the system's functions.\n"
+        )?;
+        writeln!(f, "| robot | | `-O3` | `-Os` |\n|---|---|---|---|")?;
+        for size in peers::sizes() {
+            let [robot, library] = ["robot", "library"].map(|key| size[key].as_str().unwrap_or_default());
+            writeln!(f, "| {robot} | {} | {} | {} |", peers::shown(library), size["fast"], size["small"])?;
+        }
         if self.wrong {
             writeln!(f, "\nA deviation is too large: there is a wrong answer, and the comparison is void.")?;
         }

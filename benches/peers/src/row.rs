@@ -40,6 +40,8 @@ impl Kind {
 pub enum Side {
     /// Our generated code.
     Ours,
+    /// The same in C.
+    OurC,
     /// The same programs without a compiler.
     Interpreter,
     /// Code that a peer generated.

@@ -62,16 +62,16 @@ impl Support {
     }
 }
 
-/// Whether numbers are finite.
+/// Whether numbers are finite: all are looked at without a branch, several at once where the compiler can.
 pub(super) const IS_FINITE: &str = "\
 /* 1 if all numbers are finite, else 0. */
 static int is_finite(const double *numbers, int count)
 {
-    int finite = 1;
+    unsigned wrong = 0U;
     for (int k = 0; k < count; k++) {
-        finite = (finite != 0 && isfinite(numbers[k]) != 0) ? 1 : 0;
+        wrong |= (fabs(numbers[k]) < HUGE_VAL) ? 0U : 1U;
     }
-    return finite;
+    return (wrong == 0U) ? 1 : 0;
 }
 ";
 
