@@ -41,7 +41,12 @@ fn differences(report: &Report) -> String {
     let mut table = Table::new(&["", &largest[0], &rms[0], &largest[1], &rms[1]]);
     let [before, remains] = report.compared;
     let at_nodes = report.at_nodes.as_ref().map(|difference| ("at the nodes", difference));
-    let rows = [(before, &report.before)].into_iter().chain(at_nodes).chain([(remains, &report.remains)]);
+    let placed = report.placed.as_ref().map(|difference| ("axes placed, too", difference));
+    let rows = [(before, &report.before)]
+        .into_iter()
+        .chain(at_nodes)
+        .chain([(remains, &report.remains)])
+        .chain(placed);
     for (name, difference) in rows {
         let Difference { position, angle } = difference;
         let figures = [position.largest, position.rms, 1e3 * angle.largest, 1e3 * angle.rms];

@@ -14,6 +14,7 @@ use abbe_codegen::spec::{ChainNumber, DhConvention, Spec};
 use abbe_interpreter::Interpreter;
 
 use super::difference::Difference;
+use super::slides::Slide;
 use crate::machine::Machine;
 use crate::mistake;
 
@@ -243,16 +244,19 @@ impl Found {
     }
 
     /// What remains when commands are corrected: from where the tool should be to where it then really is.
-    pub(super) fn of_commands(&self, corrected: impl Fn(&[f64]) -> Vec<f64>) -> Result<Difference, Error> {
+    pub(super) fn of_commands(
+        &self,
+        corrected: impl Fn(&[f64]) -> Result<Vec<f64>, Error>,
+    ) -> Result<Difference, Error> {
         let mut pairs = Vec::with_capacity(self.ideal.len());
         for (Configuration { q, u, .. }, ideal) in self.configurations.iter().zip(&self.ideal) {
-            pairs.push([*ideal, self.real_tool(&corrected(q), u)?]);
+            pairs.push([*ideal, self.real_tool(&corrected(q)?, u)?]);
         }
         Ok(Difference::new(pairs))
     }
 
     /// What a table over one axis leaves out: errors that depend on more than the axis that they are of.
-    pub(super) fn beyond_own_axis(&self) -> Option<String> {
+    pub(super) fn beyond_own_axis(&self, slides: &[Slide]) -> Option<String> {
         const PLACES: usize = 50;
         let own = |cause: &Cause| match cause.at {
             At::Frame(frame, _) | At::Number(ChainNumber::DenavitHartenberg { frame, .. }) => {
@@ -265,8 +269,8 @@ impl Found {
         let mut names: Vec<String> = Vec::new();
         for Configuration { q, u, .. } in self.configurations.iter().take(PLACES) {
             let Ok(all) = self.values(q, u) else { continue };
-            for (variable, value) in q.iter().enumerate() {
-                let (at, inputs) = self.at_home(variable, *value);
+            for variable in slides.iter().map(|slide| slide.variable) {
+                let (at, inputs) = self.at_home(variable, q[variable]);
                 let Ok(alone) = self.values(&at, &inputs) else { continue };
                 for (cause, (all, alone)) in self.causes.iter().zip(all.iter().zip(&alone)) {
                     let name = format!("\"{}\"", sources[cause.source]);

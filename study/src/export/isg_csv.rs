@@ -9,16 +9,18 @@ use abbe::{Pose, real_pose};
 use abbe_codegen::diagnostic::Diagnostics;
 
 use super::found::Found;
-use super::slides::{Reference, Slide, interpolated, slides};
+use super::slides::{Axes, Reference, Slide, axes, interpolated};
+use super::turning::{Kinematics, Turning};
 use super::{COMMANDS, ExportedFile, Written};
 use crate::mistake;
 use crate::number::digits;
 
 /// The tables, and what remains of the errors with them.
 pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostics> {
-    let slides = slides(found)?;
+    let axes = axes(found)?;
+    let Axes { slides, turning } = &axes;
     let evaluated = |error: abbe::Error| mistake::whole(&found.origin, &error);
-    let reference = Reference::new(found, &slides).map_err(evaluated)?;
+    let reference = Reference::new(found, &axes).map_err(evaluated)?;
     let mm = found.spec.length.in_metres() * 1e3;
     let mut text = format!(
         "// {}: errors of its axes as ISO 230-1 has them, actual minus nominal, in mm and rad\nP0X P0Y P0Z\n{}\n",
@@ -31,7 +33,7 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
         let names = ["X", "Y", "Z", "A", "B", "C"].map(|direction| format!("E{direction}{letter}"));
         let _ = writeln!(text, "#\n{letter} {}", names.join(" "));
         for value in slide.nodes(nodes) {
-            let [x, y, z, a, b, c] = reference.errors(found, &slides, k, value).map_err(evaluated)?;
+            let [x, y, z, a, b, c] = reference.errors(found, &axes, k, value).map_err(evaluated)?;
             let [at, x, y, z] = [value, x, y, z].map(|v| v * mm);
             let _ = writeln!(text, "{}", row(&[at, x, y, z, a, b, c]));
             for (i, error) in [x, y, z].into_iter().enumerate() {
@@ -41,11 +43,13 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
             }
         }
     }
-    let tables = Tables::read(&text, &slides).ok_or_else(|| {
+    let tables = Tables::read(&text, slides).ok_or_else(|| {
         let help = "this is a mistake of abbe: please report the spec";
         mistake::with_help("abbe export", "what was written cannot be read", help)
     })?;
-    let mut left_out: Vec<String> = found.beyond_own_axis().into_iter().collect();
+    let turned = Turning::all(found, turning).map_err(evaluated)?;
+    let mut left_out: Vec<String> = turned.iter().map(|axis| axis.sentence(mm)).collect();
+    left_out.extend(found.beyond_own_axis(slides));
     left_out.push(
         "The control corrects the position of the tool point, not its orientation, with the length of the tool that it is told."
             .to_owned(),
@@ -67,7 +71,11 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
         compared: COMMANDS,
         before: found.nominal(),
         at_nodes: None,
-        remains: found.of_commands(|q| tables.corrected(&slides, q, mm)).map_err(evaluated)?,
+        remains: found.of_commands(|q| Ok(tables.corrected(slides, q, mm))).map_err(evaluated)?,
+        placed: Kinematics::new(found, slides, turning)
+            .remains(|q| tables.corrected(slides, q, mm))
+            .map_err(evaluated)?,
+        turned,
         sign: if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 },
     })
 }

@@ -6,11 +6,12 @@
 
 use std::fmt::Write;
 
-use abbe::{Error, Manipulator};
+use abbe::{Error, Manipulator, Pose};
 use abbe_codegen::diagnostic::Diagnostics;
 
-use super::found::Found;
-use super::slides::{Slide, interpolated, slides};
+use super::found::{Found, Link};
+use super::slides::{Axes, axes, interpolated};
+use super::turning::{Kinematics, Turning};
 use super::{COMMANDS, ExportedFile, Written};
 use crate::mistake;
 use crate::number::digits;
@@ -24,14 +25,15 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
         let message = format!("a file of LinuxCNC has {MOST_NODES} lines at most");
         return Err(mistake::with_help("--nodes", message, format!("ask for fewer: `--nodes {MOST_NODES}`")));
     }
-    let slides = slides(found)?;
+    let axes = axes(found)?;
+    let Axes { slides, turning } = &axes;
     let evaluated = |error: Error| mistake::whole(&found.origin, &error);
     let mm = found.spec.length.in_metres() * 1e3;
     let (mut files, mut largest) = (Vec::new(), (0.0, String::new()));
-    for slide in &slides {
+    for (k, slide) in slides.iter().enumerate() {
         let mut text = String::new();
         for value in slide.nodes(nodes) {
-            let error = along(found, slide, value).map_err(evaluated)? * mm;
+            let error = along(found, &axes, k, value).map_err(evaluated)? * mm;
             let (nominal, actual) = (value * mm, value * mm + error);
             let _ = writeln!(text, "{nominal:.6} {actual:.6} {actual:.6}");
             if error.abs() > largest.0 {
@@ -53,7 +55,9 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
         }
         q
     };
-    let mut left_out: Vec<String> = found.beyond_own_axis().into_iter().collect();
+    let turned = Turning::all(found, turning).map_err(evaluated)?;
+    let mut left_out: Vec<String> = turned.iter().map(|axis| axis.sentence(mm)).collect();
+    left_out.extend(found.beyond_own_axis(slides));
     left_out.push(
         "A joint is corrected along itself, by its own position: straightness, squareness and what turns with a lever that changes remain. What the \
          tool point is off by along each axis is taken with the other axes at home."
@@ -77,16 +81,21 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
         compared: COMMANDS,
         before: found.nominal(),
         at_nodes: None,
-        remains: found.of_commands(corrected).map_err(evaluated)?,
+        remains: found.of_commands(|q| Ok(corrected(q))).map_err(evaluated)?,
+        placed: Kinematics::new(found, slides, turning).remains(corrected).map_err(evaluated)?,
+        turned,
         sign: if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 },
     })
 }
 
-/// What the tool point is off by along the axis, with the other slides at home.
-fn along(found: &Found, slide: &Slide, value: f64) -> Result<f64, Error> {
-    let (q, u) = found.at_home(slide.variable, value);
-    let (real, ideal) = (found.real_tool(&q, &u)?, found.manipulator.pose(&q, &found.s)?);
-    Ok(real.position()[slide.axis] - ideal.position()[slide.axis])
+/// What the tool point is off by along the axis, with the other slides at home, and what turns at 0.
+fn along(found: &Found, axes: &Axes, k: usize, value: f64) -> Result<f64, Error> {
+    let (q, u) = axes.at(found, k, value);
+    let (links, tool) = found.links(&q, &axes.errors(found, &q, &u)?)?;
+    let place = |pose: Pose, link: &Link| pose.then(&link.transform).then(&link.error);
+    let real = links.iter().fold(Pose::IDENTITY, place).then(&tool);
+    let (axis, ideal) = (axes.slides[k].axis, found.manipulator.pose(&q, &found.s)?);
+    Ok(real.position()[axis] - ideal.position()[axis])
 }
 
 fn sentence(letter: char, nominal: f64, actual: f64) -> String {

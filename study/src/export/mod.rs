@@ -11,6 +11,7 @@ mod linuxcnc;
 mod origins;
 mod slides;
 mod table;
+mod turning;
 mod ur_calibration;
 mod urdf;
 
@@ -21,6 +22,7 @@ use serde::Serialize;
 
 pub use self::difference::{Difference, Figure};
 use self::found::Found;
+pub use self::turning::Turning;
 use crate::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
@@ -114,6 +116,10 @@ pub struct Report {
     pub at_nodes: Option<Difference>,
     /// What remains when the files are loaded and used.
     pub remains: Difference,
+    /// What remains when the control knows where the axes stand that turn the workpiece, too; none where nothing does.
+    pub placed: Option<Difference>,
+    /// These axes.
+    pub turned: Vec<Turning>,
     /// Over how many configurations.
     pub configurations: usize,
     /// Which ones.
@@ -132,6 +138,8 @@ struct Written {
     before: Difference,
     at_nodes: Option<Difference>,
     remains: Difference,
+    placed: Option<Difference>,
+    turned: Vec<Turning>,
     sign: String,
 }
 
@@ -159,7 +167,19 @@ impl Export {
             Format::LinuxCnc { nodes } => linuxcnc::written(&found, *nodes)?,
             Format::Table { nodes } => table::written(&found, *nodes, notes)?,
         };
-        let Written { format, files, changes, left_out, compared, before, at_nodes, remains, sign } = written;
+        let Written {
+            format,
+            files,
+            changes,
+            left_out,
+            compared,
+            before,
+            at_nodes,
+            remains,
+            placed,
+            turned,
+            sign,
+        } = written;
         let report = Report {
             name: machine.spec.name.clone(),
             format,
@@ -171,6 +191,8 @@ impl Export {
             before,
             at_nodes,
             remains,
+            placed,
+            turned,
             configurations: *samples,
             seed: *seed,
             sign,

@@ -1,4 +1,5 @@
-//! Machine tools of slides: X, Y and Z, each along an axis of `F_0`, one on the other, the workpiece at rest.
+//! Machine tools of slides: X, Y and Z, each along an axis of `F_0`, one on the other; the workpiece is at rest or on axes that turn it,
+//! which are at 0 where a table of slides is made.
 
 use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation};
 use abbe_codegen::diagnostic::Diagnostics;
@@ -28,11 +29,19 @@ impl Slide {
     }
 }
 
-/// The slides of a machine, from its bed on; a machine of another kind is a mistake.
-pub(super) fn slides(found: &Found) -> Result<Vec<Slide>, Diagnostics> {
+/// The axes of a machine tool.
+pub(super) struct Axes {
+    /// From the bed on.
+    pub(super) slides: Vec<Slide>,
+    /// The variables of those that turn the workpiece.
+    pub(super) turning: Vec<usize>,
+}
+
+/// The axes of a machine; a machine of another kind is a mistake.
+pub(super) fn axes(found: &Found) -> Result<Axes, Diagnostics> {
     let spec = &found.spec;
     let refused = |name: &str, reason: &str| {
-        let help = "such tables are for slides along X, Y and Z of F_0 that carry the tool; every machine has `--to table`";
+        let help = "such tables are for slides along X, Y and Z of F_0 that carry the tool, behind axes that turn the workpiece if there are any; every machine has `--to table`";
         Err(mistake::with_help(&found.origin, format!("`{name}` {reason}"), help))
     };
     let evaluated = |error: Error| mistake::whole(&found.origin, &error);
@@ -42,11 +51,22 @@ pub(super) fn slides(found: &Found) -> Result<Vec<Slide>, Diagnostics> {
         let done = found.manipulator.transforms(q, &found.s, &mut transforms).map_err(evaluated);
         done.map(|()| transforms[..=frame].iter().fold(Pose::IDENTITY, |pose, next| pose.then(next)))
     };
-    let mut slides: Vec<Slide> = Vec::new();
+    let (mut slides, mut turning): (Vec<Slide>, Vec<usize>) = (Vec::new(), Vec::new());
+    // A slide is followed by slides alone.
+    let first =
+        spec.variables.iter().filter(|one| one.kind == VariableKind::Prismatic).map(|one| one.frame).min();
     for (i, variable) in spec.variables.iter().enumerate() {
         let (name, frame) = (variable.name.as_str(), variable.frame);
-        if variable.kind != VariableKind::Prismatic {
-            return refused(name, "turns");
+        match (variable.kind, first) {
+            (VariableKind::Prismatic, _) => {}
+            (VariableKind::Revolute, None) => return refused(name, "turns, and nothing slides"),
+            (VariableKind::Revolute, Some(first)) if frame > first => {
+                return refused(name, "turns the tool, which a slide carries");
+            }
+            (VariableKind::Revolute, Some(_)) => {
+                turning.push(i);
+                continue;
+            }
         }
         if !variable.limits.iter().all(|limit| limit.is_finite()) {
             return refused(name, "has no limits, between which the table would go");
@@ -68,7 +88,29 @@ pub(super) fn slides(found: &Found) -> Result<Vec<Slide>, Diagnostics> {
         }
         slides.push(Slide { variable: i, frame, axis, range: variable.limits });
     }
-    Ok(slides)
+    slides.sort_by_key(|slide| slide.frame);
+    Ok(Axes { slides, turning })
+}
+
+impl Axes {
+    /// A slide at a value, the others at home, what turns at 0, and the inputs as they are.
+    pub(super) fn at(&self, found: &Found, k: usize, value: f64) -> (Vec<f64>, Vec<f64>) {
+        let (mut q, u) = found.at_home(self.slides[k].variable, value);
+        self.turning.iter().for_each(|variable| q[*variable] = 0.0);
+        (q, u)
+    }
+
+    /// The errors of the slides and of what is behind them.
+    pub(super) fn errors(&self, found: &Found, q: &[f64], u: &[f64]) -> Result<Errors, Error> {
+        let mut errors = found.errors_at(q, u)?;
+        if !self.turning.is_empty() {
+            let before = self.slides.first().map_or(0, |slide| slide.frame);
+            errors.frames[..before].fill([0.0; 6]);
+            errors.numbers[..before].fill([0.0; 4]);
+            self.turning.iter().for_each(|variable| errors.joints[*variable] = 0.0);
+        }
+        Ok(errors)
+    }
 }
 
 /// Where the tool is with all slides at 0, from the reference point: the origin of the first slide's frame there.
@@ -78,10 +120,10 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    pub(super) fn new(found: &Found, slides: &[Slide]) -> Result<Self, Error> {
+    pub(super) fn new(found: &Found, axes: &Axes) -> Result<Self, Error> {
         let zero = vec![0.0; found.spec.variables.len()];
         let (links, _) = found.links(&zero, &Errors::none(&found.spec))?;
-        let first = slides.first().map_or(0, |slide| slide.frame + 1);
+        let first = axes.slides.first().map_or(0, |slide| slide.frame + 1);
         let point =
             links[..first].iter().fold(Pose::IDENTITY, |pose, link| pose.then(&link.transform)).position();
         let tool = found.manipulator.pose(&zero, &found.s)?.position();
@@ -89,27 +131,21 @@ impl Reference {
     }
 
     /// The six errors of a carriage as ISO 230-1 has them, actual minus nominal: along X, Y and Z of the reference point that moves with it, then
-    /// about X, Y and Z. The other slides are at home.
+    /// about X, Y and Z. The other slides are at home, and what turns at 0.
     ///
     /// With the small motion `(t, θ) = A⁻¹ Ã E` of the frame and `r` from its origin to the reference point: `t + θ × r`.
-    pub(super) fn errors(
-        &self,
-        found: &Found,
-        slides: &[Slide],
-        k: usize,
-        value: f64,
-    ) -> Result<[f64; 6], Error> {
-        let slide = slides[k];
-        let (q, u) = found.at_home(slide.variable, value);
+    pub(super) fn errors(&self, found: &Found, axes: &Axes, k: usize, value: f64) -> Result<[f64; 6], Error> {
+        let slide = axes.slides[k];
+        let (q, u) = axes.at(found, k, value);
         let (nominal, _) = found.links(&q, &Errors::none(&found.spec))?;
-        let (real, _) = found.links(&q, &found.errors_at(&q, &u)?)?;
+        let (real, _) = found.links(&q, &axes.errors(found, &q, &u)?)?;
         let i = slide.frame;
         let moved = nominal[i].transform.inverse().then(&real[i].transform).then(&real[i].error);
         let [x, y, z, a, b, c] = deviation(Orientation::RotationVector, &Pose::IDENTITY, &moved);
         let frame =
             nominal[..=i].iter().fold(Pose::IDENTITY, |pose, link| pose.then(&link.transform)).position();
         let mut point = self.point;
-        slides[..=k].iter().for_each(|slide| point[slide.axis] += q[slide.variable]);
+        axes.slides[..=k].iter().for_each(|slide| point[slide.axis] += q[slide.variable]);
         let r = difference(point, frame);
         let swing = [b * r[2] - c * r[1], c * r[0] - a * r[2], a * r[1] - b * r[0]];
         Ok([x + swing[0], y + swing[1], z + swing[2], a, b, c])

@@ -89,7 +89,7 @@ pub(super) fn written(
     })?;
     let corrected = |q: &[f64]| {
         let added = interpolated(&axes, &corrections, count, q);
-        q.iter().zip(added).map(|(q, added)| q + added).collect()
+        Ok(q.iter().zip(added).map(|(q, added)| q + added).collect())
     };
     let evaluated = |error: Error| mistake::whole(&found.origin, &error);
     let mut left_out = Vec::new();
@@ -117,6 +117,8 @@ pub(super) fn written(
         before: found.nominal(),
         at_nodes: Some(Difference::new(at_nodes)),
         remains: found.of_commands(corrected).map_err(evaluated)?,
+        placed: None,
+        turned: Vec::new(),
         sign: if largest.1.is_empty() { "All corrections are 0.".to_owned() } else { largest.1 },
     })
 }

@@ -96,6 +96,8 @@ pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
         before: found.nominal(),
         at_nodes: None,
         remains: found.of_model(by_text),
+        placed: None,
+        turned: Vec::new(),
         sign: sign(&joints, &new, metres),
     })
 }

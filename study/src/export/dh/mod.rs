@@ -56,6 +56,8 @@ pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
         before: found.nominal(),
         at_nodes: None,
         remains: found.of_model(|q| read.pose(q)),
+        placed: None,
+        turned: Vec::new(),
         sign: sign(&nominal, &table, found),
     })
 }

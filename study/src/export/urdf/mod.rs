@@ -93,6 +93,8 @@ pub(super) fn written(found: &Found, from: From<'_>) -> Result<Written, Diagnost
         before: found.nominal(),
         at_nodes: None,
         remains,
+        placed: None,
+        turned: Vec::new(),
         sign,
     })
 }
