@@ -191,7 +191,11 @@ DHRobot.Panda: Panda (by Franka Emika), 7 joints (RRRRRRR), dynamics, geometry, 
 ";
     let panda = imported(table, DhConvention::Modified, IN_M, false);
     assert_eq!(panda.report.manipulator, "panda");
-    assert!(panda.heard.iter().any(|note| note.contains("base and tool is not read")), "{:?}", panda.heard);
+    assert!(
+        panda.heard.iter().any(|note| note.contains("base and tool is rounded, and not read")),
+        "{:?}",
+        panda.heard
+    );
     let numbers = [
         [0.333, 0.0, 0.0],
         [0.0, 0.0, -right],
@@ -240,6 +244,62 @@ tool:    t = (0, -0.1, 0), RPY/xyz = (-1.57, 0, -1.57) deg
         };
         assert_same(&puma, standard, rows, 2.0);
     }
+}
+
+/// T(xyz) Rz(yaw) Ry(pitch) Rx(roll), as in URDF.
+fn placed(xyz: [f64; 3], [roll, pitch, yaw]: [f64; 3]) -> Matrix4<f64> {
+    Matrix4::new_translation(&xyz.into())
+        * nalgebra::Rotation3::from_euler_angles(roll, pitch, yaw).to_homogeneous()
+}
+
+/// Base and tool are the first row and the last, by `kind` or, where there is none, by name; of any of them the four numbers may say it.
+#[test]
+fn rows_of_base_and_tool() {
+    let with_kind = "\
+joint,kind,theta,d,a,alpha,x,y,z,roll,pitch,yaw,lower,upper
+,base,,,,,100,-200,0.4 m,0,30,90,,
+base,revolute,,340,0,-90,,,,,,,-170,170
+arm,revolute,,0,260,0,0,0,0.0,,,,-120,120
+flange,tool,,,,,0,12,80,10,-20,135,,
+";
+    let by_name = "\
+name,theta,d,a,alpha,x,y,z,roll,pitch,yaw
+Base,,,,,100,-200,400,0,30,90
+waist,q1,340,0,-90,,,,,,
+arm,q2,0,260,0,,,,,,
+TOOL,,,,,0,12,80,10,-20,135
+";
+    let degrees = |angles: [f64; 3]| angles.map(f64::to_radians);
+    let base = placed([100.0, -200.0, 400.0], degrees([0.0, 30.0, 90.0]));
+    let tool = placed([0.0, 12.0, 80.0], degrees([10.0, -20.0, 135.0]));
+    for (convention, matrix) in
+        [(DhConvention::Standard, standard as fn([f64; 4]) -> _), (DhConvention::Modified, modified)]
+    {
+        for table in [with_kind, by_name] {
+            let Imported { report, spec, heard } = imported(table, convention, IN_MM, false);
+            assert_eq!(report.frames.len(), 3, "{report:?}");
+            assert!(heard.iter().all(|note| !note.contains("not read")), "{heard:?}");
+            let right = -std::f64::consts::FRAC_PI_2;
+            for q in [[0.0, 0.0], [0.7, -1.3]] {
+                let joints = matrix([q[0], 340.0, 0.0, right]) * matrix([q[1], 0.0, 260.0, 0.0]);
+                let found = spec.pose(&q, &sampling::nominal_parameters(spec.description())).unwrap().rows();
+                let off = base * joints * tool - Matrix4::from_fn(|i, j| found[i][j]);
+                assert!(off.abs().max() < 1e-12 * 1e3, "{off}");
+            }
+        }
+    }
+    // Four numbers of a tool are a row of the table that has no errors of its own; columns of a place without such rows are not read.
+    let table = "kind,theta,d,a,alpha,x\nrevolute,q1,340,0,-90,7\nrevolute,q2,0,260,0,7\n";
+    let unread = imported(table, DhConvention::Standard, IN_MM, false);
+    assert!(unread.heard.iter().any(|note| note == "columns that are not read: `x`"), "{:?}", unread.heard);
+    let table = "kind,theta,d,a,alpha\nrevolute,q1,340,0,-90\ntool,30,80,5,45\n";
+    let Imported { report, spec, .. } = imported(table, DhConvention::Modified, IN_MM, false);
+    assert_eq!(report.frames.len(), 1);
+    let [turn, tilt] = [30_f64, 45.0].map(f64::to_radians);
+    let right = -std::f64::consts::FRAC_PI_2;
+    let expected = modified([0.4, 340.0, 0.0, right]) * modified([turn, 80.0, 5.0, tilt]);
+    let found = spec.pose(&[0.4], &[]).unwrap().rows();
+    assert!((expected - Matrix4::from_fn(|i, j| found[i][j])).abs().max() < 1e-10);
 }
 
 /// Of a table that is refused nothing is said but what is wrong with it.

@@ -41,7 +41,9 @@ pub(super) fn spec(chain: &Chain, origin: &str) -> String {
     }
     if *tool != Placement::default() {
         let _ = write!(text, "\n[tool]\n");
-        line(&mut text, "description", &quoted(&format!("Link {tip}")));
+        if frames.iter().any(|frame| frame.link.is_some()) {
+            line(&mut text, "description", &quoted(&format!("Link {tip}")));
+        }
         line(&mut text, "origin", &placed(tool));
     }
     for Mass { link, kilograms, frame, centre } in masses {

@@ -24,6 +24,13 @@ pub(super) enum Meaning {
     Upper,
     /// Which way the variable counts: 1 or −1.
     Sign,
+    /// Where base or tool is.
+    X,
+    Y,
+    Z,
+    Roll,
+    Pitch,
+    Yaw,
 }
 
 impl Meaning {
@@ -50,7 +57,7 @@ struct Heading {
 }
 
 /// The names by which columns are known, in lower case.
-const NAMES: [(Meaning, &[&str]); 10] = [
+const NAMES: [(Meaning, &[&str]); 16] = [
     (Meaning::Name, &["joint", "name", "jointname", "link", "axis", "j", "i", "no", "#"]),
     (Meaning::Kind, &["kind", "type", "jointtype", "sigma"]),
     (Meaning::Theta, &["theta", "θ"]),
@@ -61,6 +68,12 @@ const NAMES: [(Meaning, &[&str]); 10] = [
     (Meaning::Lower, &["lower", "min", "qmin", "q⁻", "lowerlimit"]),
     (Meaning::Upper, &["upper", "max", "qmax", "q⁺", "upperlimit"]),
     (Meaning::Sign, &["sign", "sense", "direction"]),
+    (Meaning::X, &["x"]),
+    (Meaning::Y, &["y"]),
+    (Meaning::Z, &["z"]),
+    (Meaning::Roll, &["roll"]),
+    (Meaning::Pitch, &["pitch"]),
+    (Meaning::Yaw, &["yaw"]),
 ];
 
 impl Heading {
@@ -183,6 +196,17 @@ impl Columns {
             Unit::Length(length) => Some(length),
             _ => None,
         })
+    }
+
+    /// The names of columns that only rows of base and tool have.
+    pub(super) fn of_ends<'t>(&self, whole: &'t str) -> Vec<&'t str> {
+        let of_ends = |column: &&Column| {
+            matches!(
+                column.meaning,
+                Meaning::X | Meaning::Y | Meaning::Z | Meaning::Roll | Meaning::Pitch | Meaning::Yaw
+            )
+        };
+        self.read.iter().filter(of_ends).map(|column| &whole[column.span.clone()]).collect()
     }
 
     /// The names of columns that mean nothing here.

@@ -1,9 +1,11 @@
 //! Tables of Denavit-Hartenberg numbers: CSV, and what the Robotics Toolbox prints.
 //!
-//! `text` finds the rows of the table, `columns` says what its heading means, `cell` what a cell does, `rows` makes joints of them.
+//! `text` finds the rows of the table, `columns` says what its heading means, `cell` what a cell does, `rows` makes joints of them; `ends` are those
+//! of base and tool.
 
 mod cell;
 mod columns;
+mod ends;
 mod rows;
 mod text;
 
@@ -18,8 +20,8 @@ use self::cell::Cells;
 use self::columns::Columns;
 use self::text::Text;
 use super::almost::Almost;
-use super::chain::Chain;
-use super::placement::Placement;
+use super::chain::{Chain, Frame};
+use super::geometry::Geometry;
 use crate::notes::Notes;
 
 /// What numbers are in where neither heading nor cell says it.
@@ -58,40 +60,51 @@ pub(super) fn chain(
     almost: &mut Almost,
     notes: &mut dyn Notes,
 ) -> Option<Chain> {
-    let text = Text::find(document)?;
+    let mut text = Text::find(document)?;
     contradicted(&text, convention, document)?;
     let columns = Columns::read(&text, convention, document)?;
     let length = units.length.or_else(|| columns.length()).unwrap_or(LengthUnit::Metre);
-    let mistakes = document.found.len();
+    let (mistakes, whole) = (document.found.len(), document.text.clone());
     let cells = Cells { columns: &columns, units, length, decimal_comma: text.decimal_comma };
+    let [base, tool] = ends::ends(&mut text, &cells, convention, almost, document)?;
     let joints = rows::joints(&text, &cells, document, notes);
     if document.found.len() > mistakes {
         return None;
     }
-    let unread = columns.unread();
+    let mut unread = columns.unread();
+    if base.is_none() && tool.is_none() {
+        unread.extend(columns.of_ends(&whole));
+    }
     if !unread.is_empty() {
         notes.note(&format!("columns that are not read: {}", listed(&unread)));
     }
-    if text.has_ends {
+    if text.has_ends && base.is_none() && tool.is_none() {
         notes.warn(
-            "what stands beside the table about base and tool is not read: add it to the spec, as a first [[frame]] and as [tool]",
+            "what stands beside the table about base and tool is rounded, and not read: add rows of the kind base and tool, with columns x, y, z, roll, \
+             pitch and yaw, or a first [[frame]] and [tool] to the spec",
         );
     }
     let word = match convention {
         DhConvention::Standard => "Standard",
         DhConvention::Modified => "Modified",
     };
-    let (variables, frames) = rows::frames(joints, convention, almost);
+    let (variables, mut frames) = rows::frames(joints, convention, almost);
+    if let Some(base) = base {
+        let geometry = Geometry::Origin(base);
+        let is_taken = frames.iter().any(|frame| frame.joint == "base");
+        let name = if is_taken { "before base" } else { "base" };
+        frames.insert(0, Frame { joint: name.to_owned(), link: None, geometry, motion: None });
+    }
     Some(Chain {
         robot: text.name.clone(),
         origin: format!("{word} Denavit-Hartenberg numbers"),
         length,
         degrees: cells.degrees(),
         base: "F_0".to_owned(),
-        tip: format!("F_{}", frames.len()),
+        tip: if tool.is_some() { "tool".to_owned() } else { format!("F_{}", frames.len()) },
         variables,
         frames,
-        tool: Placement::default(),
+        tool: tool.unwrap_or_default(),
         masses: Vec::new(),
     })
 }

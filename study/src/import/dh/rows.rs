@@ -200,7 +200,9 @@ fn kind(whole: &str, cell: Span, document: &mut Document) -> Option<Kind> {
     let found = KINDS.iter().find(|(name, _)| *name == word).map(|(_, kind)| *kind);
     if found.is_none() {
         let message = format!("there is no joint of the kind `{}`", whole[cell.clone()].escape_debug());
-        document.mistake(Diagnostic::new(cell, message).help("the kinds are revolute, prismatic and fixed"));
+        document.mistake(Diagnostic::new(cell, message).help(
+            "the kinds are revolute, prismatic and fixed, and base and tool of the first row and the last",
+        ));
     }
     found
 }
