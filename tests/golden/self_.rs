@@ -25,12 +25,12 @@
 /// |---|---|
 /// | `transforms` | 26 mul, 7 add, 5 sincos, 3 other, 5 neg |
 /// | `pose` | 47 mul, 21 add, 5 sincos, 3 other, 2 neg |
-/// | `error_jacobian` | 63 mul, 30 add, 5 sincos, 3 other, 9 neg |
+/// | `error_jacobian` | 58 mul, 23 add, 5 sincos, 3 other, 11 neg |
 /// | `joint_jacobian` | 59 mul, 25 add, 1 div, 5 sincos, 5 other, 6 neg |
-/// | `parameter_jacobian` | 68 mul, 28 add, 1 div, 5 sincos, 3 other, 11 neg |
+/// | `parameter_jacobian` | 66 mul, 24 add, 1 div, 5 sincos, 3 other, 12 neg |
 /// | `effects` | 9 mul, 3 add, 4 div, 1 sqrt, 2 other |
 /// | `generalized_errors` | 0 mul, 0 add |
-/// | `error_jacobian_distinct` | 63 mul, 30 add, 5 sincos, 3 other, 9 neg |
+/// | `error_jacobian_distinct` | 58 mul, 23 add, 5 sincos, 3 other, 11 neg |
 /// | `displacement` | 47 mul, 31 add, 5 sincos, 3 other, 2 neg |
 /// | `covariance` | 100 mul, 88 add, 5 sincos, 3 other, 4 neg |
 /// | `predicted_displacement` | 0 mul, 0 add |
@@ -315,9 +315,11 @@ pub mod self_ {
             let t10 = sin_1.mul_sub(cos_s, t5 * sin_s);
             let t11 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
             let t12 = sin_1.mul_add(sin_s, t5 * cos_s);
+            let lever1_x = t9 * self_;
+            let lever1_y = t10 * self_;
             let p2_z = -(t8 * self_);
-            let p2_x = t9.mul_add(self_, p1_x);
-            let p2_y = t10.mul_add(self_, p1_y);
+            let p2_x = p1_x + lever1_x;
+            let p2_y = p1_y + lever1_y;
             let t13 = t9.mul_sub(sin_2, t6 * cos_2);
             let t14 = r1_23.mul_add(cos_2, t10 * sin_2);
             let t15 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
@@ -393,48 +395,50 @@ pub mod self_ {
             // Frame 1: first | `frame`
             columns.along(0, [cos_1, sin_1, zero]);
             columns.turn(5, [cos_1, sin_1, zero]);
-            let t4 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
             let r1_32 = -sin_r1_11;
             let r1_33 = -cos_r1_11;
             let r1_12 = sin_1 * cos_r1_11;
-            let t5 = cos_1 * cos_r1_11;
-            let r1_22 = -t5;
+            let t4 = cos_1 * cos_r1_11;
+            let r1_22 = -t4;
             columns.along(1, [r1_12, r1_22, r1_32]);
             columns.turn(3, [r1_12, r1_22, r1_32]);
-            let t6 = sin_1 * sin_r1_11;
+            let t5 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let r1_13 = -t6;
+            let r1_13 = -t5;
             columns.along(2, [r1_13, r1_23, r1_33]);
             columns.turn(4, [r1_13, r1_23, r1_33]);
-            let t7 = sin_r1_11 * cos_s;
-            let t8 = sin_r1_11 * sin_s;
-            let t9 = cos_1.mul_add(cos_s, r1_12 * sin_s);
-            let t10 = sin_1.mul_sub(cos_s, t5 * sin_s);
-            let t11 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
-            let t12 = sin_1.mul_add(sin_s, t5 * cos_s);
-            let t13 = t8 * self_;
-            let p2_z = -t13;
-            let p2_x = t9.mul_add(self_, p1_x);
-            let p2_y = t10.mul_add(self_, p1_y);
-            let t14 = t9.mul_sub(sin_2, t6 * cos_2);
-            let t15 = r1_23.mul_add(cos_2, t10 * sin_2);
-            let t16 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
-            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
-            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
-            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
+            let t6 = sin_r1_11 * cos_s;
+            let t7 = sin_r1_11 * sin_s;
+            let t8 = cos_1.mul_add(cos_s, r1_12 * sin_s);
+            let t9 = sin_1.mul_sub(cos_s, t4 * sin_s);
+            let t10 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
+            let t11 = sin_1.mul_add(sin_s, t4 * cos_s);
+            let t12 = t7 * self_;
+            let p2_z = -t12;
+            let t13 = cos_s * self_;
+            let t14 = q_ + t13;
+            let t15 = sin_s * self_;
+            let t16 = cos_r1_11 * t15;
+            let t17 = Some_.mul_sub(ERRORS_, t16);
+            let p2_x = cos_1.mul_sub(t14, sin_1 * t17);
+            let p2_y = sin_1.mul_add(t14, cos_1 * t17);
+            let t18 = t8.mul_sub(sin_2, t5 * cos_2);
+            let t19 = r1_23.mul_add(cos_2, t9 * sin_2);
+            let t20 = cos_r1_11.mul_add(cos_2, t7 * sin_2);
+            let r2_11 = t5.mul_add(sin_2, t8 * cos_2);
+            let r2_21 = t9.mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, t7 * cos_2);
             // Frame 2: x
             columns.along(6, [r2_11, r2_21, r2_31]);
             columns.turn(11, [r2_11, r2_21, r2_31]);
-            let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
-            let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
-            let r2_32 = -t7.mul_add(cos_3, t16 * sin_3);
+            let r2_12 = t10.mul_add(cos_3, t18 * sin_3);
+            let r2_22 = t19.mul_sub(sin_3, t11 * cos_3);
+            let r2_32 = -t6.mul_add(cos_3, t20 * sin_3);
             columns.along(7, [r2_12, r2_22, r2_32]);
             columns.turn(9, [r2_12, r2_22, r2_32]);
-            let r2_13 = t14.mul_sub(cos_3, t11 * sin_3);
-            let r2_23 = t12.mul_add(sin_3, t15 * cos_3);
-            let r2_33 = t7.mul_sub(sin_3, t16 * cos_3);
+            let r2_13 = t18.mul_sub(cos_3, t10 * sin_3);
+            let r2_23 = t11.mul_add(sin_3, t19 * cos_3);
+            let r2_33 = t6.mul_sub(sin_3, t20 * cos_3);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
@@ -443,21 +447,19 @@ pub mod self_ {
             ];
             columns.along(8, [r2_13, r2_23, r2_33]);
             columns.turn(10, [r2_13, r2_23, r2_33]);
-            let lever1_x = p2_x - p1_x;
-            let lever1_y = p2_y - p1_y;
-            let t17 = -(sin_1 * t13);
-            let t18 = cos_1 * t13;
-            let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
+            let t21 = -(sin_1 * t12);
+            let t22 = cos_1 * t12;
+            let t23 = -t16;
             // Frame 1: first | `frame`
-            columns.moment(5, [t17, t18, t19]);
-            let t20 = t5.mul_add(t13, sin_r1_11 * lever1_y);
-            let t21 = r1_12.mul_sub(t13, sin_r1_11 * lever1_x);
-            let t22 = r1_12.mul_add(lever1_y, t5 * lever1_x);
-            columns.moment(3, [t20, t21, t22]);
-            let t23 = cos_r1_11.mul_sub(lever1_y, r1_23 * t13);
-            let t24 = -cos_r1_11.mul_add(lever1_x, t6 * t13);
-            let t25 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
-            columns.moment(4, [t23, t24, t25]);
+            columns.moment(5, [t21, t22, t23]);
+            let t24 = t5 * t13;
+            let t25 = -(r1_23 * t13);
+            let t26 = cos_r1_11 * t13;
+            columns.moment(3, [t24, t25, t26]);
+            let t27 = r1_12.mul_sub(t13, cos_1 * t15);
+            let t28 = -sin_1.mul_add(t15, t4 * t13);
+            let t29 = -(sin_r1_11 * t13);
+            columns.moment(4, [t27, t28, t29]);
         }
 
         /// Pose and joint Jacobian `∂X_T/∂q`: one column per variable.
@@ -499,9 +501,11 @@ pub mod self_ {
             let t12 = sin_2.mul_sub(cos_s, t6 * sin_s);
             let t13 = r1_12.mul_sub(cos_s, cos_2 * sin_s);
             let t14 = sin_2.mul_add(sin_s, t6 * cos_s);
+            let lever1_x = t11 * self_;
+            let lever1_y = t12 * self_;
             let p2_z = -(t9 * self_);
-            let p2_x = t11.mul_add(self_, p1_x);
-            let p2_y = t12.mul_add(self_, p1_y);
+            let p2_x = p1_x + lever1_x;
+            let p2_y = p1_y + lever1_y;
             let t15 = t11.mul_sub(sin_3, t7 * cos_3);
             let t16 = r1_23.mul_add(cos_3, t12 * sin_3);
             let t17 = cos_r1_11.mul_add(cos_3, t9 * sin_3);
@@ -563,67 +567,67 @@ pub mod self_ {
                 self_.atan2(q_),
                 Some_.abs().powf(T::constant(2.7)),
             ]);
-            let t4 = Some_ * ERRORS_;
-            let p1_x = cos_1.mul_sub(q_, sin_1 * t4);
-            let p1_y = sin_1.mul_add(q_, cos_1 * t4);
             let r1_33 = -cos_r1_11;
             let r1_12 = sin_1 * cos_r1_11;
-            let t5 = cos_1 * cos_r1_11;
-            let t6 = sin_1 * sin_r1_11;
+            let t4 = cos_1 * cos_r1_11;
+            let t5 = sin_1 * sin_r1_11;
             let r1_23 = cos_1 * sin_r1_11;
-            let r1_13 = -t6;
-            let t7 = sin_r1_11 * cos_s;
-            let t8 = sin_r1_11 * sin_s;
-            let t9 = cos_1.mul_add(cos_s, r1_12 * sin_s);
-            let t10 = sin_1.mul_sub(cos_s, t5 * sin_s);
-            let t11 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
-            let t12 = sin_1.mul_add(sin_s, t5 * cos_s);
-            let t13 = t8 * self_;
-            let p2_z = -t13;
-            let p2_x = t9.mul_add(self_, p1_x);
-            let p2_y = t10.mul_add(self_, p1_y);
-            let t14 = t9.mul_sub(sin_2, t6 * cos_2);
-            let t15 = r1_23.mul_add(cos_2, t10 * sin_2);
-            let t16 = cos_r1_11.mul_add(cos_2, t8 * sin_2);
-            let r2_11 = t6.mul_add(sin_2, t9 * cos_2);
-            let r2_21 = t10.mul_sub(cos_2, r1_23 * sin_2);
-            let r2_31 = cos_r1_11.mul_sub(sin_2, t8 * cos_2);
-            let r2_12 = t11.mul_add(cos_3, t14 * sin_3);
-            let r2_22 = t15.mul_sub(sin_3, t12 * cos_3);
-            let r2_32 = -t7.mul_add(cos_3, t16 * sin_3);
-            let r2_13 = t14.mul_sub(cos_3, t11 * sin_3);
-            let r2_23 = t12.mul_add(sin_3, t15 * cos_3);
-            let r2_33 = t7.mul_sub(sin_3, t16 * cos_3);
+            let r1_13 = -t5;
+            let t6 = sin_r1_11 * cos_s;
+            let t7 = sin_r1_11 * sin_s;
+            let t8 = cos_1.mul_add(cos_s, r1_12 * sin_s);
+            let t9 = sin_1.mul_sub(cos_s, t4 * sin_s);
+            let t10 = r1_12.mul_sub(cos_s, cos_1 * sin_s);
+            let t11 = sin_1.mul_add(sin_s, t4 * cos_s);
+            let t12 = t7 * self_;
+            let p2_z = -t12;
+            let t13 = cos_s * self_;
+            let t14 = q_ + t13;
+            let t15 = sin_s * self_;
+            let t16 = cos_r1_11 * t15;
+            let t17 = Some_.mul_sub(ERRORS_, t16);
+            let p2_x = cos_1.mul_sub(t14, sin_1 * t17);
+            let p2_y = sin_1.mul_add(t14, cos_1 * t17);
+            let t18 = t8.mul_sub(sin_2, t5 * cos_2);
+            let t19 = r1_23.mul_add(cos_2, t9 * sin_2);
+            let t20 = cos_r1_11.mul_add(cos_2, t7 * sin_2);
+            let r2_11 = t5.mul_add(sin_2, t8 * cos_2);
+            let r2_21 = t9.mul_sub(cos_2, r1_23 * sin_2);
+            let r2_31 = cos_r1_11.mul_sub(sin_2, t7 * cos_2);
+            let r2_12 = t10.mul_add(cos_3, t18 * sin_3);
+            let r2_22 = t19.mul_sub(sin_3, t11 * cos_3);
+            let r2_32 = -t6.mul_add(cos_3, t20 * sin_3);
+            let r2_13 = t18.mul_sub(cos_3, t10 * sin_3);
+            let r2_23 = t11.mul_add(sin_3, t19 * cos_3);
+            let r2_33 = t6.mul_sub(sin_3, t20 * cos_3);
             *pose = [
                 [r2_11, r2_21, r2_31],
                 [r2_12, r2_22, r2_32],
                 [r2_13, r2_23, r2_33],
                 [p2_x, p2_y, p2_z],
             ];
-            let lever1_x = p2_x - p1_x;
-            let lever1_y = p2_y - p1_y;
-            let t17 = -(sin_1 * t13);
-            let t18 = cos_1 * t13;
-            let t19 = cos_1.mul_sub(lever1_y, sin_1 * lever1_x);
-            columns[6] = [t17, t18, t19, cos_1, sin_1, zero];
-            let t20 = cos_r1_11.mul_sub(lever1_y, r1_23 * t13);
-            let t21 = -cos_r1_11.mul_add(lever1_x, t6 * t13);
-            let t22 = -t6.mul_add(lever1_y, r1_23 * lever1_x);
-            columns[9] = [t20, t21, t22, r1_13, r1_23, r1_33];
-            let t23 = self_ / q_.mul_add(q_, self_ * self_);
-            let t24 = -(t11 * t23);
-            let t25 = t12 * t23;
-            let t26 = t7 * t23;
-            columns[0] = [cos_1, sin_1, zero, t24, t25, t26];
-            let t27 = -(T * p2_y);
-            let t28 = T * p2_x;
-            columns[1] = [t27, t28, zero, zero, zero, T];
-            let t29 = -(Some_ * sin_1);
-            let t30 = Some_ * cos_1;
-            columns[2] = [t29, t30, zero, zero, zero, zero];
-            let t31 = -(None_ * p2_y);
-            let t32 = None_ * p2_x;
-            columns[3] = [t31, t32, zero, zero, zero, None_];
+            let t21 = -(sin_1 * t12);
+            let t22 = cos_1 * t12;
+            let t23 = -t16;
+            columns[6] = [t21, t22, t23, cos_1, sin_1, zero];
+            let t24 = r1_12.mul_sub(t13, cos_1 * t15);
+            let t25 = -sin_1.mul_add(t15, t4 * t13);
+            let t26 = -(sin_r1_11 * t13);
+            columns[9] = [t24, t25, t26, r1_13, r1_23, r1_33];
+            let t27 = self_ / q_.mul_add(q_, self_ * self_);
+            let t28 = -(t10 * t27);
+            let t29 = t11 * t27;
+            let t30 = t6 * t27;
+            columns[0] = [cos_1, sin_1, zero, t28, t29, t30];
+            let t31 = -(T * p2_y);
+            let t32 = T * p2_x;
+            columns[1] = [t31, t32, zero, zero, zero, T];
+            let t33 = -(Some_ * sin_1);
+            let t34 = Some_ * cos_1;
+            columns[2] = [t33, t34, zero, zero, zero, zero];
+            let t35 = -(None_ * p2_y);
+            let t36 = None_ * p2_x;
+            columns[3] = [t35, t36, zero, zero, zero, None_];
         }
 
         /// The errors that the sources cause, one per entry of the description's effects.
@@ -846,16 +850,15 @@ pub mod self_ {
             let t104 = sin_1.mul_add(t74, cos_1 * t81);
             covariance[5] = [t103, t104, t79, t94, t95, t72];
             let t105 = t77 - t75;
-            let t106 = t79.mul_sub(t83, t84 * t105);
+            let t106 = t84.mul_sub(t105, t79 * t83);
             let t107 = t79.mul_add(t84, t83 * t105);
-            let t108 = t106 - t79;
-            let t109 = -t106;
-            let t110 = t107 - t77;
-            covariance[0] = [t91, t93, t87, t108, t110, t103];
-            covariance[4] = [t110, t109, t102, t100, t99, t95];
-            let t111 = t75 + t107;
-            covariance[1] = [t93, t92, t88, t111, t109, t104];
-            covariance[3] = [t108, t111, t101, t98, t100, t94];
+            let t108 = -(t106 + t79);
+            let t109 = t107 - t77;
+            covariance[0] = [t91, t93, t87, t108, t109, t103];
+            covariance[4] = [t109, t106, t102, t100, t99, t95];
+            let t110 = t75 + t107;
+            covariance[1] = [t93, t92, t88, t110, t106, t104];
+            covariance[3] = [t108, t110, t101, t98, t100, t94];
         }
 
         /// `ΔX = J_e ε` of the repeatable sources: rows as those of a Jacobian.
@@ -968,8 +971,10 @@ pub mod self_ {
             let t14 = sin_4.mul_sub(cos_s, t9 * sin_s);
             let t15 = r1_12.mul_sub(cos_s, cos_4 * sin_s);
             let t16 = sin_4.mul_add(sin_s, t9 * cos_s);
-            let p2_x = t13.mul_add(self_, p1_x);
-            let p2_y = t14.mul_add(self_, p1_y);
+            let lever1_x = t13 * self_;
+            let lever1_y = t14 * self_;
+            let p2_x = p1_x + lever1_x;
+            let p2_y = p1_y + lever1_y;
             let t17 = t13.mul_sub(sin_5, t10 * cos_5);
             let t18 = r1_23.mul_add(cos_5, t14 * sin_5);
             let t19 = cos_r1_11.mul_add(cos_5, t12 * sin_5);

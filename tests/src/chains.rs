@@ -135,3 +135,59 @@ pub fn coupled_joints() -> &'static str {
         transform = "Tz(0.2 m + d4/3) Rx(q1/5)"
     "#
 }
+
+/// An arm like those that exist: 2 to 8 joints, some prismatic, neighbouring axes mostly parallel or at right angles,
+/// many lengths 0, in all forms that a spec knows; `index` says which.
+pub fn random_arm(index: u64) -> String {
+    let mut state = index.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(0x2545_F491_4F6C_DD1D);
+    let mut below = |count: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % count
+    };
+    let frames = 2 + below(7);
+    let mut text = "[manipulator]\nname = \"arm\"\nlength = \"m\"\n[parameters]\n".to_owned();
+    for k in 0..3 {
+        writeln!(text, "a{k} = \"{} mm\"", 100 + below(400)).unwrap();
+    }
+    for i in 1..=frames {
+        let prismatic = below(5) == 0;
+        let kind = if prismatic { "prismatic" } else { "revolute" };
+        let mut length = |zeros: u64| match below(zeros + 3) {
+            0 => format!("\"a{}\"", below(3)),
+            1 | 2 => format!("\"{} mm\"", 50 + below(500)),
+            _ => "0".to_owned(),
+        };
+        let (a, mut d) = (length(2), length(2));
+        let alpha = match below(8) {
+            0 | 1 => "0",
+            2 | 3 => "\"pi/2\"",
+            4 | 5 => "\"-pi/2\"",
+            6 => "\"pi\"",
+            _ => "0.3",
+        };
+        let mut theta = format!("\"q{i}\"");
+        if prismatic {
+            (theta, d) = (["0", "\"pi/2\"", "0.4"][below(3) as usize].to_owned(), theta);
+        }
+        writeln!(
+            text,
+            "[[frame]]\nname = \"frame {i}\"\nvariable = {{ name = \"q{i}\", kind = \"{kind}\" }}"
+        )
+        .unwrap();
+        match below(4) {
+            0 => writeln!(text, "mdh = {{ theta = {theta}, d = {d}, a = {a}, alpha = {alpha} }}"),
+            1 => {
+                let axis =
+                    ["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]", "[0, 0, -1]", "[0.6, 0, 0.8]"][below(5) as usize];
+                writeln!(text, "origin = {{ xyz = [{a}, 0, 0.2], rpy = [{alpha}, 0, 0] }}\naxis = {axis}")
+            }
+            _ => writeln!(text, "dh = {{ theta = {theta}, d = {d}, a = {a}, alpha = {alpha} }}"),
+        }
+        .unwrap();
+    }
+    let tool = ["", "Tz(0.1)", "Tx(a0) Tz(0.2)", "Tx(0.1) Ry(0.2) Tz(a1)"][below(4) as usize];
+    if !tool.is_empty() {
+        writeln!(text, "[tool]\ntransform = \"{tool}\"").unwrap();
+    }
+    text
+}

@@ -2,7 +2,7 @@
 
 use super::local::Local;
 use super::rows::Rows;
-use crate::graph::{Graph, Node, Vector};
+use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::Spec;
 
 /// The chain as local motions.
@@ -31,6 +31,39 @@ impl Links {
     pub(super) fn new(graph: &mut Graph, spec: &Spec) -> Self {
         let frames = spec.frames.iter().map(|frame| Local::motions(graph, &frame.factors)).collect();
         Self { frames, tool: Local::motions(graph, &spec.tool) }
+    }
+
+    fn motions(&self, link: usize) -> &[Local] {
+        self.frames.get(link).unwrap_or(&self.tool)
+    }
+
+    /// The pose behind a link, the tool being the last, from that before it.
+    pub(super) fn onwards(&self, graph: &mut Graph, link: usize, before: Frame) -> Frame {
+        self.motions(link).iter().fold(before, |frame, motion| motion.behind(graph, &frame))
+    }
+
+    /// A pose in the axes before a link from that in those behind it.
+    pub(super) fn before(&self, graph: &mut Graph, link: usize, pose: Frame) -> Frame {
+        Frame {
+            axes: pose.axes.map(|axis| self.direction(graph, link, axis)),
+            position: self.point(graph, link, pose.position),
+        }
+    }
+
+    /// A direction in the axes before a link.
+    pub(super) fn direction(&self, graph: &mut Graph, link: usize, v: Vector) -> Vector {
+        self.motions(link).iter().rev().fold(v, |v, motion| motion.direction(graph, v))
+    }
+
+    /// A point in the axes before a link, from their origin.
+    pub(super) fn point(&self, graph: &mut Graph, link: usize, p: Vector) -> Vector {
+        self.motions(link).iter().rev().fold(p, |p, motion| motion.point(graph, p))
+    }
+
+    /// From the origin before a link to that behind it, where the link's axes are these.
+    pub(super) fn shift(&self, graph: &mut Graph, link: usize, axes: &[Vector; 3]) -> Vector {
+        let start = Frame { axes: *axes, position: [graph.zero(); 3] };
+        self.onwards(graph, link, start).position
     }
 
     /// Accumulates from the tip to `F_0`:

@@ -64,7 +64,8 @@ pub fn joint_twist(graph: &mut Graph, spec: &Spec, joint: usize) -> FrameTwist {
     twist
 }
 
-fn local_twist(graph: &mut Graph, spec: &Spec, symbol: Symbol, frame: usize) -> FrameTwist {
+/// What a symbol does to one frame.
+pub(super) fn local_twist(graph: &mut Graph, spec: &Spec, symbol: Symbol, frame: usize) -> FrameTwist {
     let mut body = Body::at_rest(graph);
     for factor in &spec.frames[frame].factors {
         body.go_through(graph, factor);

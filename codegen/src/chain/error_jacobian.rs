@@ -9,7 +9,8 @@ use crate::spec::Component;
 /// What the six columns of a frame are made of: its axes, and of the rotations `e_s e_r e_p` the moments and rows 4–6.
 pub(crate) struct Columns {
     axes: [Vector; 3],
-    moments: [Vector; 3],
+    /// Those of `e_s e_r e_p`.
+    pub(super) moments: [Vector; 3],
     rows: [Vector; 3],
 }
 

@@ -79,6 +79,20 @@ impl Local {
         }
     }
 
+    /// The pose behind the motion from that before it.
+    pub(super) fn behind(&self, graph: &mut Graph, frame: &Frame) -> Frame {
+        match self {
+            Self::Shift(shift) => {
+                let offset = graph.turn(&frame.axes, *shift);
+                Frame { position: graph.add_vectors(frame.position, offset), ..*frame }
+            }
+            Self::Turn { axis, sine, cosine } => graph.turned_by(frame, *axis, *sine, *cosine),
+            Self::Rotation(axes) => {
+                Frame { axes: axes.map(|column| graph.turn(&frame.axes, column)), ..*frame }
+            }
+        }
+    }
+
     /// A point in the axes before the motion, from their origin.
     pub(crate) fn point(&self, graph: &mut Graph, p: Vector) -> Vector {
         match self {

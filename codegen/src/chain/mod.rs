@@ -24,6 +24,7 @@ mod six;
 mod sources;
 mod symbol_jacobian;
 mod walk;
+mod ways;
 
 pub(crate) use accumulate::Accumulated;
 pub(crate) use covariance::Covariance;

@@ -13,6 +13,7 @@ use super::rows::Rows;
 use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
+use super::ways::Ways;
 use crate::expr::{Elementary, Motion, Symbol};
 use crate::graph::{Frame, Graph, Node, Op, Vector};
 use crate::spec::{Class, Factor, Source, Spec};
@@ -115,11 +116,11 @@ impl Model {
         let joint_jacobian = Jacobian { columns, margin };
         let joint_twists = twists.iter().map(|[[x, y, z], [a, b, c]]| [*x, *y, *z, *a, *b, *c]).collect();
         let parameters = (0..spec.parameters.len()).map(Symbol::Parameter);
-        let by_parameter = parameters.map(|symbol| {
-            let [velocity, turn] = symbol_jacobian::twist(g, &steps, symbol, tool.position);
-            rows.column(g, velocity, turn)
-        });
-        let parameter_jacobian = Jacobian { columns: by_parameter.collect(), margin };
+        let parameter_twists: Vec<[Vector; 2]> =
+            parameters.map(|symbol| symbol_jacobian::twist(g, &steps, symbol, tool.position)).collect();
+        let columns =
+            parameter_twists.iter().map(|[velocity, turn]| rows.column(g, *velocity, *turn)).collect();
+        let parameter_jacobian = Jacobian { columns, margin };
 
         let factors = spec.frames.iter().map(|frame| &frame.factors).chain([&spec.tool]);
         let transforms = factors.map(|factors| transform(g, factors)).collect();
@@ -165,6 +166,15 @@ impl Model {
         };
         let joint_local_twists = twists_of((0..spec.variables.len()).map(Symbol::Variable).collect());
         let parameter_local_twists = twists_of((0..spec.parameters.len()).map(Symbol::Parameter).collect());
+        if !spec.is_long() {
+            let poses: Vec<Frame> = frames.iter().copied().chain([tool]).collect();
+            let ways = Ways::new(g, &links, &poses);
+            ways.moments(g, &by_frame);
+            let symbols: Vec<Symbol> = (0..spec.variables.len()).map(Symbol::Variable).collect();
+            ways.twists(g, spec, &symbols, &twists);
+            let symbols: Vec<Symbol> = (0..spec.parameters.len()).map(Symbol::Parameter).collect();
+            ways.twists(g, spec, &symbols, &parameter_twists);
+        }
         Self {
             graph,
             transforms,

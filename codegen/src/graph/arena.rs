@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use indexmap::{IndexMap, IndexSet};
 
+use super::equal::Equals;
 use crate::expr::{Function, Lookup, Symbol, Table};
 
 /// A handle to a node of a [`Graph`]. Operands have smaller handles than the node that uses them.
@@ -74,6 +75,7 @@ pub struct Graph {
     names: IndexMap<Node, String>,
     numbers: IndexMap<u64, String>,
     tables: Vec<Arc<Table>>,
+    pub(super) equals: Equals,
 }
 
 impl Graph {
@@ -110,6 +112,11 @@ impl Graph {
     /// All operations, each after its operands.
     pub fn ops(&self) -> impl Iterator<Item = Op> {
         self.ops.iter().copied()
+    }
+
+    /// All nodes, each after its operands.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = Node> + use<> {
+        (0..self.ops.len() as u32).map(Node)
     }
 
     /// The name that generated code should give the node at a place in the graph.

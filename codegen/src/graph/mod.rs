@@ -1,16 +1,18 @@
 //! The symbolic core: expressions as a graph in which equal subexpressions are one node.
 //!
 //! [`Graph`] holds the nodes; the rules by which they simplify are its constructors (`arithmetic`,
-//! `functions`); `diff` is the derivative of any node by any symbol, `evaluate` its value, `vector` three-dimensional arithmetic, and
+//! `functions`), and what takes other operations to the same value is stated in `equal`; `diff` is the derivative of any node by any symbol, `evaluate` its value, `vector` three-dimensional arithmetic, and
 //! `lower` brings a checked expression in.
 
 mod arena;
 mod arithmetic;
 mod diff;
+mod equal;
 mod evaluate;
 mod functions;
 mod lower;
 mod vector;
 
 pub use arena::{Graph, Node, Op};
+pub use equal::Signed;
 pub use vector::{Frame, Vector};

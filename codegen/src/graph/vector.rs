@@ -83,6 +83,11 @@ impl Graph {
     /// A motion turned about its own axis 0, 1 or 2: two columns change.
     pub fn turned(&mut self, frame: &Frame, axis: usize, angle: Node) -> Frame {
         let (sine, cosine) = (self.sin(angle), self.cos(angle));
+        self.turned_by(frame, axis, sine, cosine)
+    }
+
+    /// The same by an angle whose sine and cosine are known.
+    pub(crate) fn turned_by(&mut self, frame: &Frame, axis: usize, sine: Node, cosine: Node) -> Frame {
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         let (u, v) = (frame.axes[j], frame.axes[k]);
         let [uc, us, vc, vs] = [(cosine, u), (sine, u), (cosine, v), (sine, v)]

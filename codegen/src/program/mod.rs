@@ -12,7 +12,9 @@ mod outputs;
 mod rounding;
 mod routine;
 mod routines;
+mod select;
 mod straight_line;
+mod write;
 
 pub use count::Operations;
 pub use outputs::{results, straight_line};

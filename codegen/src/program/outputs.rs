@@ -3,6 +3,7 @@
 use abbe::Function;
 
 use super::Program;
+use super::select::Selections;
 use crate::chain::{Jacobian, Model};
 use crate::graph::{Frame, Node};
 
@@ -17,7 +18,7 @@ pub(super) struct Outputs {
 
 /// The straight-line program of a function: its results one after the other, the margin last.
 pub fn straight_line(function: Function, model: &Model) -> Program {
-    fewest(ways(function, model), model).1
+    fewest(ways(function, model), model, &mut Selections::default()).1
 }
 
 /// The nodes of each result of a function, and those of the margin, in one of the ways to compute them.
@@ -27,10 +28,10 @@ pub fn results(function: Function, model: &Model) -> (Vec<Vec<Node>>, Option<Nod
 }
 
 /// Of several ways to compute a function the outputs and the program with the fewest operations.
-pub(super) fn fewest(ways: Vec<Outputs>, model: &Model) -> (Outputs, Program) {
+pub(super) fn fewest(ways: Vec<Outputs>, model: &Model, selections: &mut Selections) -> (Outputs, Program) {
     let ways = ways.into_iter().map(|outputs| {
         let nodes: Vec<Node> = outputs.results.iter().flatten().copied().chain(outputs.margin).collect();
-        let program = Program::new(&model.graph, &nodes);
+        let program = Program::with(&model.graph, &nodes, selections);
         (outputs, program)
     });
     ways.min_by_key(|(_, program)| program.operations().weight()).expect("every function has outputs")

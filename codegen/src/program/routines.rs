@@ -8,6 +8,7 @@ use abbe::{Description, Function};
 use super::loops::Loops;
 use super::outputs::{Outputs, fewest, ways};
 use super::routine::{Array, Block, Place, Role, Routine, Row, Stage, Sums, Table};
+use super::select::Selections;
 use super::{Operations, Program};
 use crate::chain::{EffectNode, Model};
 use crate::expr::Table as LookupTable;
@@ -43,6 +44,7 @@ impl Routines {
     fn with(spec: &Spec, model: &Model, mut loops: Option<Loops<'_>>) -> Self {
         let description = spec.describe(model.effects.iter().map(EffectNode::effect));
         let mut list: Vec<Routine> = Vec::new();
+        let mut selections = Selections::default();
         let mut known: Vec<(Function, Outputs)> = Vec::new();
         for function in Function::ALL {
             let signature = function.signature();
@@ -60,7 +62,7 @@ impl Routines {
             } else if loops.is_none() && function == Function::CompensatorStep {
                 compensator_step(model, &arrays, &description)
             } else {
-                let (outputs, program) = fewest(ways, model);
+                let (outputs, program) = fewest(ways, model, &mut selections);
                 let stages = if let Some(call) = same(&outputs) {
                     vec![call]
                 } else {

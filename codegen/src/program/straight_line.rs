@@ -2,8 +2,10 @@
 
 use indexmap::IndexMap;
 
+use super::select::Selections;
+use super::write::Writer;
 use crate::expr::{Function, Lookup, Symbol};
-use crate::graph::{Graph, Node, Op};
+use crate::graph::{Graph, Node};
 
 /// Where a value comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,17 +99,14 @@ pub struct Program {
 }
 
 impl Program {
-    /// The steps that compute some nodes, and nothing else, in the order in which the nodes were made.
+    /// The steps that compute some nodes, and nothing else, in the order in which the nodes were made; of nodes that are
+    /// equal those that take the fewest operations.
     pub fn new(graph: &Graph, outputs: &[Node]) -> Self {
-        let count = outputs.iter().map(|node| node.index() + 1).max().unwrap_or(0);
-        let ops: Vec<Op> = graph.ops().take(count).collect();
-        let mut needed = vec![false; count];
-        outputs.iter().for_each(|node| needed[node.index()] = true);
-        for (index, op) in ops.iter().enumerate().rev() {
-            if needed[index] {
-                op.operands().for_each(|operand| needed[operand.index()] = true);
-            }
-        }
+        Self::with(graph, outputs, &mut Selections::default())
+    }
+
+    /// The same with what was selected for others.
+    pub(super) fn with(graph: &Graph, outputs: &[Node], selections: &mut Selections) -> Self {
         let mut program = Self {
             steps: Vec::new(),
             outputs: Vec::new(),
@@ -115,14 +114,7 @@ impl Program {
             registers: 0,
             uses: Vec::new(),
         };
-        let mut values: Vec<Option<Operand>> = vec![None; count];
-        for index in 0..count {
-            if needed[index] && values[index].is_none() {
-                let partner = partner(graph, &ops, &needed, index);
-                program.translate(graph, &ops, &mut values, index, partner);
-            }
-        }
-        program.outputs = outputs.iter().filter_map(|node| values[node.index()]).collect();
+        program.outputs = Writer::new(graph, outputs, selections, &mut program).outputs(outputs);
         program.count_uses();
         program.fuse();
         program.sines_first();
@@ -142,52 +134,6 @@ impl Program {
         self.numbers = named.collect();
     }
 
-    fn translate(
-        &mut self,
-        graph: &Graph,
-        ops: &[Op],
-        values: &mut [Option<Operand>],
-        index: usize,
-        partner: Option<usize>,
-    ) {
-        // Operands come before the nodes that use them, so their values are known.
-        let of = |node: Node| values[node.index()].unwrap_or(Operand::Constant(f64::NAN));
-        let action = match ops[index] {
-            Op::Constant(bits) => {
-                values[index] = Some(Operand::Constant(f64::from_bits(bits)));
-                return;
-            }
-            Op::Symbol(symbol) => {
-                values[index] = Some(Operand::Symbol(symbol));
-                return;
-            }
-            Op::Neg(a) => Action::Neg(of(a)),
-            Op::Add(a, b) => Action::Add(of(a), of(b)),
-            Op::Sub(a, b) => Action::Sub(of(a), of(b)),
-            Op::Mul(a, b) => Action::Mul(of(a), of(b)),
-            Op::Div(a, b) => Action::Div(of(a), of(b)),
-            Op::Pow(a, b) => Action::Pow(of(a), of(b)),
-            Op::Atan2(a, b) => Action::Atan2(of(a), of(b)),
-            Op::Min(a, b) => Action::Min(of(a), of(b)),
-            Op::Max(a, b) => Action::Max(of(a), of(b)),
-            Op::Lookup(lookup, a) => Action::Lookup(lookup, of(a)),
-            Op::Call(_, a) if partner.is_some() => Action::SinCos(of(a)),
-            Op::Call(function, a) => Action::Call(function, of(a)),
-        };
-        let register = self.registers;
-        self.registers += 1;
-        values[index] = Some(Operand::Register(register));
-        if let Some(partner) = partner {
-            self.registers += 1;
-            values[partner] = Some(Operand::Register(register + 1));
-            if matches!(ops[index], Op::Call(Function::Cos, _)) {
-                values.swap(index, partner);
-            }
-        }
-        let name = graph.name_at(index).map(str::to_owned);
-        self.steps.push(Step { register, action, name });
-    }
-
     pub(super) fn count_uses(&mut self) {
         let mut uses = vec![0; self.registers];
         let operands = self.steps.iter().flat_map(|step| step.action.operands());
@@ -198,14 +144,4 @@ impl Program {
         }
         self.uses = uses;
     }
-}
-
-/// The cosine that goes with a sine, or the other way round, if both are needed.
-fn partner(graph: &Graph, ops: &[Op], needed: &[bool], index: usize) -> Option<usize> {
-    let Op::Call(function @ (Function::Sin | Function::Cos), angle) = ops[index] else {
-        return None;
-    };
-    let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
-    let partner = graph.find(Op::Call(other, angle))?.index();
-    (partner < needed.len() && needed[partner]).then_some(partner)
 }

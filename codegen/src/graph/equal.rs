@@ -1,0 +1,115 @@
+//! Nodes that are equal though they take other operations: a program computes whichever takes the fewest.
+
+use indexmap::IndexMap;
+
+use super::{Graph, Node, Op, Vector};
+
+/// A node or its negative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signed {
+    /// The node, which is no change of sign.
+    pub node: Node,
+    /// Whether its negative is meant.
+    pub negative: bool,
+}
+
+/// What is known to be equal.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Equals {
+    /// What stands for all that are equal to a node, by its place; of a node that is equal to no other one none.
+    first: Vec<Option<Signed>>,
+    /// All that are equal to one that stands for them, itself the first.
+    all: IndexMap<Node, Vec<Signed>>,
+    /// Nodes that may pay together where none of them does alone.
+    together: Vec<Vec<Node>>,
+}
+
+impl Graph {
+    /// States that two nodes are equal, whatever the symbols are.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::Symbol, graph::Graph, program::Program};
+    /// # let mut g = Graph::new();
+    /// # let [a, b, c] = [0, 1, 2].map(|i| g.symbol(Symbol::Variable(i)));
+    /// let (ab, ac, sum) = (g.mul(a, b), g.mul(a, c), g.add(b, c));
+    /// let (long, short) = (g.add(ab, ac), g.mul(a, sum));
+    /// assert_eq!(Program::new(&g, &[long]).operations().mul, 2);
+    /// g.equate(long, short);
+    /// assert_eq!(Program::new(&g, &[long]).operations().mul, 1);
+    /// ```
+    pub fn equate(&mut self, a: Node, b: Node) {
+        let (a, b) = (self.class(a), self.class(b));
+        // The oldest stands for all, so that no node comes before what stands for its operands.
+        let (a, b) = if a.node < b.node { (a, b) } else { (b, a) };
+        if a.node == b.node {
+            return;
+        }
+        let negative = a.negative != b.negative;
+        self.equals.first.resize(self.len(), None);
+        let members = self.equals.all.swap_remove(&b.node).unwrap_or_else(|| vec![Signed::plain(b.node)]);
+        let all = self.equals.all.entry(a.node).or_insert_with(|| vec![Signed::plain(a.node)]);
+        self.equals.first[a.node.index()] = Some(Signed::plain(a.node));
+        for member in members {
+            let member = member.times(negative);
+            all.push(member);
+            self.equals.first[member.node.index()] = Some(Signed { node: a.node, ..member });
+        }
+    }
+
+    /// States that two vectors are equal.
+    pub(crate) fn equate_vectors(&mut self, a: Vector, b: Vector) {
+        for (a, b) in a.into_iter().zip(b) {
+            self.equate(a, b);
+        }
+    }
+
+    /// Proposes nodes, each equal to others, that may pay together where none of them does alone; those that others use first.
+    pub(crate) fn propose_together(&mut self, nodes: Vec<Node>) {
+        self.equals.together.push(nodes);
+    }
+
+    /// What was proposed together.
+    pub(crate) fn together(&self) -> &[Vec<Node>] {
+        &self.equals.together
+    }
+
+    /// The node that stands for all that are equal to this one, or to its negative.
+    pub fn class(&self, node: Node) -> Signed {
+        let node = match self.op(node) {
+            Op::Neg(a) => Signed { node: a, negative: true },
+            _ => Signed::plain(node),
+        };
+        self.first(node.node).map_or(node, |first| first.times(node.negative))
+    }
+
+    /// All that is equal to a node that stands for it, or whose negative is: itself first.
+    pub fn equal(&self, first: Node) -> impl Iterator<Item = Signed> {
+        let all = self.first(first).and_then(|first| self.equals.all.get(&first.node));
+        let others = all.map_or(&[][..], |all| &all[1..]);
+        std::iter::once(Signed::plain(first)).chain(others.iter().copied())
+    }
+
+    fn first(&self, node: Node) -> Option<Signed> {
+        self.equals.first.get(node.index()).copied().flatten()
+    }
+
+    /// Forgets what was stated: what programs choose is held against what they would be without a choice.
+    pub fn forget_equal(&mut self) {
+        self.equals = Equals::default();
+    }
+
+    /// All nodes that stand for more than themselves.
+    pub fn classes(&self) -> impl Iterator<Item = Node> {
+        self.equals.all.keys().copied()
+    }
+}
+
+impl Signed {
+    fn plain(node: Node) -> Self {
+        Self { node, negative: false }
+    }
+
+    fn times(self, negative: bool) -> Self {
+        Self { negative: self.negative != negative, ..self }
+    }
+}
