@@ -25,16 +25,32 @@ pub(crate) fn run(arguments: &arguments::Doctor) -> Result<Outcome, Failure> {
     };
     let job = Doctor { machine, data: Source::File(&arguments.data), within };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
-    let wanted = outputs.wanted(arguments.out.as_deref())?;
+    let [map, spec] = [&arguments.out, &arguments.corrected].map(Option::as_deref);
+    let wanted = [outputs.wanted(map)?, outputs.wanted(spec)?];
     let report = job.run(&mut Console::default())?;
-    let printed = match (wanted, &report.map) {
-        (Some(file), Some(map)) => Some(outputs.finish([file.fill(map)?])?),
-        (Some(_), None) => {
-            Console::default().note("no reading fits: no map is written, and what was there stays");
-            None
+    let corrected = match spec {
+        Some(file) => {
+            let spec = &job.machine.spec;
+            report.corrected(spec, &job.machine.text()?, &file.display().to_string())?
         }
-        _ => None,
+        None => None,
     };
+    let none = match report.fits {
+        false => ["no reading fits: no map is written, and what was there stays"; 2],
+        true => [
+            "",
+            "the reading is not of the spec, or of something that its text cannot say: no spec is written, and what was there stays",
+        ],
+    };
+    let mut written = Vec::new();
+    for ((file, text), none) in wanted.into_iter().zip([&report.map, &corrected]).zip(none) {
+        match (file, text) {
+            (Some(file), Some(text)) => written.push(file.fill(text)?),
+            (Some(_), None) => Console::default().note(none),
+            (None, _) => {}
+        }
+    }
+    let printed = (!written.is_empty()).then(|| outputs.finish(written)).transpose()?;
     let text = if arguments.json { json(&report)? } else { text::doctor(&report) };
     let outcome = Outcome::checked(text, report.fits);
     Ok(match printed {

@@ -5,11 +5,14 @@ use abbe_study::doctor::Doctor;
 use pyo3::prelude::*;
 
 use crate::asked::length;
-use crate::failure::guarded;
+use crate::failure::{guarded, spec_error};
 use crate::job::run;
 use crate::machine::Machine;
 use crate::measured::Measured;
-use crate::report::Report;
+use crate::report::{Pages, Report};
+
+/// The spec as a reading has it.
+const CORRECTED: &str = "doctor.spec.toml";
 
 #[pymethods]
 impl Machine {
@@ -21,7 +24,8 @@ impl Machine {
     /// may be left of a position, in the length unit or as text.
     ///
     /// `.sentence` says what is found, `.found` has the readings that fit, `.map` is the text of the first one's map, or None, which
-    /// `.report(folder)` writes as doctor.map.toml. Fields as those of `abbe doctor --json`, residuals in the length unit and rad.
+    /// `.report(folder)` writes as doctor.map.toml; where the reading is about the spec, `.load()` is the machine as it has it, and
+    /// doctor.spec.toml its spec. Fields as those of `abbe doctor --json`, residuals in the length unit and rad.
     ///
     /// >>> import abbe, numpy as np
     /// >>> ur5 = abbe.load("ur5")
@@ -48,10 +52,12 @@ impl Machine {
         let (report, notes) = run(py, None, None, |notes| {
             Doctor { machine: self.machine.clone(), data: rows.source(), within }.run(notes)
         })?;
-        let map = report.map.clone();
+        let mut pages: Pages =
+            report.map.iter().map(|map| ("doctor.map.toml".to_owned(), map.clone())).collect();
+        let corrected = || report.corrected(&self.unchanged.spec, &self.text()?, CORRECTED);
+        let corrected = guarded(|| corrected().map_err(|mistakes| spec_error(py, &mistakes)))?;
+        pages.extend(corrected.map(|spec| (CORRECTED.to_owned(), spec)));
         let found = Report::new("doctor", &report, notes)?.printed(guarded(|| Ok(text::doctor(&report)))?);
-        Ok(found.with_pages(move || {
-            Ok(map.iter().map(|map| ("doctor.map.toml".to_owned(), map.clone())).collect())
-        }))
+        Ok(found.with_spec(CORRECTED).with_pages(move || Ok(pages.clone())))
     }
 }

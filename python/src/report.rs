@@ -145,7 +145,7 @@ impl Report {
         Ok(pages.into_iter().map(|(name, _)| name).collect())
     }
 
-    /// The manipulator that was imported, or identified, as `abbe.load` gives it; ValueError if the report is of neither.
+    /// The manipulator that was imported, identified, or corrected by the doctor, as `abbe.load` gives it; ValueError if there is none.
     fn load(&self, py: Python<'_>) -> PyResult<Machine> {
         let pages = self.pages(py)?;
         match pages.into_iter().find(|(name, _)| self.spec.as_ref() == Some(name)) {

@@ -141,6 +141,41 @@ def test_the_doctor_reads_arrays_and_tables(tmp_path):
     assert ur5.doctor(pandas.DataFrame(table)).to_json() == ur5.doctor(table).to_json()
 
 
+PALLETIZER = """
+[manipulator]
+name = "palletizer"
+length = "mm"
+[[frame]]
+name = "column"
+variable = { name = "q1", kind = "revolute", limits = [-3, 3] }
+dh = { theta = "q1", d = 650, a = 200, alpha = "90 deg" }
+[[frame]]
+name = "upper arm"
+variable = { name = "q2", kind = "revolute", limits = [-0.4, 2] }
+dh = { theta = "q2", d = 0, a = 900, alpha = 0 }
+[[frame]]
+name = "forearm"
+variable = { name = "q3", kind = "revolute", limits = [-2.6, 0.5] }
+dh = { theta = "q3", d = 0, a = 850, alpha = 0 }
+[tool]
+transform = "Ty(-180)"
+"""
+
+
+def test_the_doctor_corrects_a_spec(tmp_path):
+    arm = abbe.load(text=PALLETIZER)
+    q = np.random.default_rng(4).uniform([-2.6, 0.7, -2.2], [2.6, 1.9, -0.4], (10, 3))
+    # The third column is the forearm against the horizon.
+    shown = q + q[:, [1]] * [0, 0, 1]
+    report = arm.doctor(shown, arm.pose(q)[:, :3, 3])
+    assert report.of_spec == ["q3 is coupled: q3 − q2 is meant"]
+    assert np.abs(report.load().pose(shown) - arm.pose(q)).max() < 1e-9
+    assert report.report(tmp_path) == ["doctor.map.toml", "doctor.spec.toml"]
+    # Where the map says all there is no other spec.
+    with pytest.raises(ValueError, match="a report of doctor has no spec"):
+        arm.doctor(q, arm.pose(q)[:, :3, 3]).load()
+
+
 def test_the_doctor_says_that_none_fits(tmp_path):
     q = some_rows(10)
     report = abbe.load("puma560").doctor(q, ur5.pose(q))

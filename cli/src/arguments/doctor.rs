@@ -8,6 +8,7 @@ use super::shared::{Subject, Writing};
 #[command(after_help = after_help!(
     "  abbe doctor ur5 pendant.csv
   abbe doctor ur5 pendant.csv --within 5mm -o pendant.toml
+  abbe doctor ur5 pendant.csv -o pendant.toml --corrected corrected.toml
 ", "no reading fits"))]
 pub(crate) struct Doctor {
     #[command(flatten)]
@@ -22,6 +23,9 @@ pub(crate) struct Doctor {
     /// Write the map of the reading to this file
     #[arg(long, short, value_name = "MAP")]
     pub(crate) out: Option<PathBuf>,
+    /// Write the spec as the reading has it to this file, where it is other than the spec: another convention, a coupling, base or tool
+    #[arg(long, value_name = "SPEC")]
+    pub(crate) corrected: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) writing: Writing,
     /// Print JSON

@@ -30,7 +30,10 @@ pub fn doctor(report: &Report) -> String {
         list(&mut text, others, length);
     }
     if !of_spec.is_empty() {
-        let _ = writeln!(text, "\nNo map can hold this; change it in the spec, or in the file:");
+        let _ = writeln!(
+            text,
+            "\nNo map can hold this; change it in the spec (`--corrected SPEC` does, where its text can say it), or in the file:"
+        );
         for line in of_spec {
             let _ = writeln!(text, "  {line}");
         }

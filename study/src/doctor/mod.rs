@@ -3,10 +3,12 @@
 //! `columns` finds numbers in a file; a `reading` says what they mean: units, how an orientation is written, and `change`s, each
 //! one thing that is other than the spec has it. `kinematics` has the poses of the spec under a change of its joints, `zeros` the
 //! zeros of joints that fit best, `registration` base and tool that do. `search` goes through readings one by one and in pairs,
-//! `ranked` keeps those that nothing simpler explains, `written` is the map of one.
+//! `ranked` keeps those that nothing simpler explains, `written` is the map of one, `corrected`
+//! the spec where a reading is about it.
 
 mod change;
 mod columns;
+mod corrected;
 mod kinematics;
 mod ranked;
 mod reading;
