@@ -9,7 +9,7 @@ use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_study::export::{Export, Format, Report, SAMPLES};
 use abbe_study::import;
-use abbe_study::{Changes, Machine};
+use abbe_study::{Changes, Machine, Notes};
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
 
 /// A shipped spec with sources of its own.
@@ -668,4 +668,33 @@ fn a_head_is_refused() {
             Export { machine: machine.clone(), format, samples: 5, seed: 0 }.run(&mut ()).unwrap_err();
         assert!(mistake.list[0].message.contains("`b` turns the tool, which a slide carries"), "{mistake:?}");
     }
+}
+
+/// Three nodes over two turns of each joint: whoever loads that is warned.
+#[test]
+fn a_table_that_makes_it_worse_is_said_to() {
+    #[derive(Default)]
+    struct Heard(Vec<String>);
+    impl Notes for Heard {
+        fn note(&mut self, _: &str) {}
+
+        fn warn(&mut self, warning: &str) {
+            self.0.push(warning.to_owned());
+        }
+    }
+    let found = machine(
+        "ur5",
+        "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"0.6 mrad\"\n\
+         [[source]]\nname = \"tilt\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ne_p = \"-0.4 mrad\"\n",
+    );
+    let heard = |format| {
+        let mut heard = Heard::default();
+        let report =
+            Export { machine: found.clone(), format, samples: 200, seed: 0 }.run(&mut heard).unwrap();
+        (report.remains.position.rms > report.before.position.rms, heard.0)
+    };
+    let (worse, warned) = heard(Format::Table { nodes: Some(3) });
+    assert!(worse && warned.iter().any(|warning| warning.contains("do not load it")), "{warned:?}");
+    let (worse, warned) = heard(Format::Dh);
+    assert!(!worse && warned.is_empty(), "{warned:?}");
 }

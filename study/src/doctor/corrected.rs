@@ -38,43 +38,53 @@ impl Report {
 }
 
 fn changed(changes: &[Change], spec: &Spec, text: &str) -> Option<String> {
-    let table = DeTable::parse(text).ok()?;
-    let file = File { text, table: table.get_ref() };
     let coupled = changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
-    let (mut edits, mut said, mut meant) = (Vec::new(), Vec::new(), Vec::new());
-    for change in changes {
+    let mut of_spec: Vec<&Change> = changes.iter().filter(|change| step(change, coupled).is_some()).collect();
+    // As the reading was tried: ends that are exchanged are then turned round.
+    of_spec.sort_by_key(|change| step(change, coupled));
+    let (mut new, mut said, mut meant) = (text.to_owned(), String::new(), Vec::new());
+    for change in &of_spec {
+        said += &format!("# - {}\n", words::change(change, spec));
         match change {
-            Change::Convention => edits.extend(file.other_convention()),
-            Change::ToolInverted => edits.push(file.inverted(file.tool()?)?),
-            Change::BaseInverted => edits.push(file.inverted(file.base(spec)?)?),
-            Change::ToolLeftOut => edits.push(File::left_out(file.tool()?)),
-            Change::BaseLeftOut => edits.push(File::left_out(file.base(spec)?)),
-            Change::EndsExchanged => edits.extend(file.exchanged(file.base(spec)?, file.tool()?)),
             Change::Coupled { joint, to, by } => {
                 let sign = if *by > 0.0 { '+' } else { '-' };
                 meant.push((*joint, format!(" {sign} {}", spec.variables[*to].name)));
             }
-            Change::Zero { joint, offset } if coupled => meant.push((*joint, zero(*offset, *joint, spec))),
-            // Of columns: the map has them.
-            _ => continue,
+            Change::Zero { joint, offset } => meant.push((*joint, zero(*offset, *joint, spec))),
+            change => new = edited(&new, |file| file.edits(change, spec))?,
         }
-        said.push(format!("# - {}\n", words::change(change, spec)));
-    }
-    if said.is_empty() {
-        return None;
     }
     if !meant.is_empty() {
-        edits.extend(file.meant(&meant, spec)?);
+        new = edited(&new, |file| file.meant(&meant, spec))?;
     }
+    (!of_spec.is_empty()).then(|| format!("# The spec as `abbe doctor` reads it:\n{said}{new}"))
+}
+
+/// When a change is written, of those that are of the spec; the others are of columns, and in the map.
+fn step(change: &Change, coupled: bool) -> Option<u8> {
+    match change {
+        Change::Convention => Some(0),
+        Change::EndsExchanged => Some(1),
+        Change::ToolInverted | Change::BaseInverted => Some(2),
+        Change::ToolLeftOut | Change::BaseLeftOut => Some(3),
+        Change::Coupled { .. } => Some(4),
+        Change::Zero { .. } if coupled => Some(5),
+        _ => None,
+    }
+}
+
+/// A text with places in it replaced.
+fn edited(text: &str, edits: impl FnOnce(&File<'_>) -> Option<Vec<Edit>>) -> Option<String> {
+    let table = DeTable::parse(text).ok()?;
+    let mut edits = edits(&File { text, table: table.get_ref() })?;
     edits.sort_by_key(|(span, _)| span.start);
-    let mut new = format!("# The spec as `abbe doctor` reads it:\n{}", said.concat());
-    let mut end = 0;
+    let (mut new, mut end) = (String::new(), 0);
     for (span, with) in edits {
         new += text.get(end..span.start)?;
         new += &with;
         end = span.end;
     }
-    Some(new + &text[end..])
+    Some(new + text.get(end..)?)
 }
 
 fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
@@ -131,6 +141,19 @@ impl<'t> File<'t> {
         let moving = spec.variables_of_transforms();
         let fixed = moving.iter().take_while(|variables| variables.is_empty()).count();
         (fixed == 1).then(|| Self::place(self.frames()[0]))?
+    }
+
+    /// What a change of ends or of the convention is in the text.
+    fn edits(&self, change: &Change, spec: &Spec) -> Option<Vec<Edit>> {
+        Some(match change {
+            Change::Convention => self.other_convention(),
+            Change::EndsExchanged => self.exchanged(self.base(spec)?, self.tool()?).to_vec(),
+            Change::ToolInverted => vec![self.inverted(self.tool()?)?],
+            Change::BaseInverted => vec![self.inverted(self.base(spec)?)?],
+            Change::ToolLeftOut => vec![Self::left_out(self.tool()?)],
+            Change::BaseLeftOut => vec![Self::left_out(self.base(spec)?)],
+            _ => return None,
+        })
     }
 
     fn other_convention(&self) -> Vec<Edit> {

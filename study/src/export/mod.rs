@@ -26,6 +26,7 @@ pub use self::turning::Turning;
 use crate::finite;
 use crate::machine::Machine;
 use crate::notes::Notes;
+use crate::number::digits;
 
 /// How many configurations the differences are of, if nobody says.
 pub const SAMPLES: usize = 1000;
@@ -180,6 +181,14 @@ impl Export {
             turned,
             sign,
         } = written;
+        if remains.position.rms > before.position.rms && !found.is_nominal() {
+            let [before, remains] = [&before, &remains].map(|difference| digits(difference.position.rms, 3));
+            let unit = machine.spec.length.symbol();
+            notes.warn(&format!(
+                "with this the tool is farther off than without, {remains} {unit} against {before} {unit} (rms): do not load it; a table needs more nodes, or \
+                 joints with narrower `limits`"
+            ));
+        }
         let report = Report {
             name: machine.spec.name.clone(),
             format,
