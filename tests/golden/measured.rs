@@ -39,7 +39,7 @@
 /// | `predicted_displacement` | 38 mul, 22 add, 3 div, 5 sincos, 16 other, 2 neg |
 /// | `source_displacements` | 57 mul, 23 add, 8 div, 5 sincos, 18 other, 6 neg |
 /// | `real_pose` | 66 mul, 39 add, 3 div, 7 sincos, 17 other, 1 neg |
-/// | `drawn_pose` | 90 mul, 48 add, 8 div, 8 sincos, 19 other, 2 neg |
+/// | `drawn_pose` | 88 mul, 47 add, 8 div, 8 sincos, 19 other, 2 neg |
 /// | `compensator_step` | 146 mul, 88 add, 7 div, 11 sincos, 34 other, 4 neg |
 #[allow(dead_code)]
 pub mod measured {
@@ -1109,62 +1109,62 @@ pub mod measured {
             let p1_z = STRAIGHTNESS_TABLE.value(d1);
             let t8 = lever + STRETCH_TABLE.value(q2.abs());
             let p2_y = sin_4 * t8;
-            let t9 = depth + (q2 * wide).max(fine).max(T::constant(-5.0));
-            let t10 = s2.mul_add(T::constant(1.4), q3 / T::constant(4.0));
-            let (s3, c3) = (q3 + TORQUE_TABLE.value(t10)).sin_cos();
+            let t9 = s2.mul_add(T::constant(1.4), q3 / T::constant(4.0));
+            let (s3, c3) = (q3 + TORQUE_TABLE.value(t9)).sin_cos();
             let r3_21 = sin_4 * c3;
-            let t11 = (-(q3 * q3 / T::constant(9.0))).exp();
-            let t12 = lever * T::constant(2.0) * t11;
-            let t13 = STRAIGHTNESS_TABLE.value(T::constant(2000.0) - d1);
-            let t14 = (T::constant(1.0) + payload).ln() - T::constant(1.0);
-            let t15 = T::constant(1.0).min(payload / T::constant(10.0));
-            let t16 = (-(run / (T::constant(4.0) * period))).exp();
-            let t17 = T::constant(0.02) * (T::constant(1.0) - t16);
-            let t18 = t17 * (preload / T::constant(1000.0));
-            let t19 = sin_3.mul_add(cos_6, cos_3 * sin_6);
-            let t20 = cos_3.mul_sub(cos_6, sin_3 * sin_6);
-            let t21 = cos_4 * t20;
-            let t22 = cos_4 * t19;
-            let t23 = sin_4 * t20;
-            let t24 = sin_4 * t19;
-            let t25 = t18 * (pressure / T::constant(1000.0)) * m3;
+            let t10 = (-(q3 * q3 / T::constant(9.0))).exp();
+            let t11 = lever * T::constant(2.0) * t10;
+            let t12 = STRAIGHTNESS_TABLE.value(T::constant(2000.0) - d1);
+            let t13 = (T::constant(1.0) + payload).ln() - T::constant(1.0);
+            let t14 = T::constant(1.0).min(payload / T::constant(10.0));
+            let t15 = (-(run / (T::constant(4.0) * period))).exp();
+            let t16 = T::constant(0.02) * (T::constant(1.0) - t15);
+            let t17 = t16 * (preload / T::constant(1000.0));
+            let t18 = sin_3.mul_add(cos_6, cos_3 * sin_6);
+            let t19 = cos_3.mul_sub(cos_6, sin_3 * sin_6);
+            let t20 = cos_4 * t19;
+            let t21 = cos_4 * t18;
+            let t22 = sin_4 * t19;
+            let t23 = sin_4 * t18;
+            let t24 = depth + (q2 * wide).max(fine).max(T::constant(-5.0));
+            let t25 = (t17 * (pressure / T::constant(1000.0))).mul_add(m3, t24);
             let t26 = cos_4 * cos_7;
             let t27 = cos_4 * sin_7;
-            let t28 = t19.mul_sub(sin_7, t23 * cos_7);
-            let t29 = t24.mul_add(cos_7, t20 * sin_7);
-            let t30 = t23.mul_add(sin_7, t19 * cos_7);
-            let t31 = t20.mul_sub(cos_7, t24 * sin_7);
-            let t32 = c3.mul_add(t30, s3 * t21);
+            let t28 = t18.mul_sub(sin_7, t22 * cos_7);
+            let t29 = t23.mul_add(cos_7, t19 * sin_7);
+            let t30 = t22.mul_add(sin_7, t18 * cos_7);
+            let t31 = t19.mul_sub(cos_7, t23 * sin_7);
+            let t32 = c3.mul_add(t30, s3 * t20);
             let t33 = sin_4.mul_sub(s3, c3 * t27);
-            let t34 = c3.mul_sub(t31, s3 * t22);
-            let t35 = c3.mul_sub(t21, s3 * t30);
+            let t34 = c3.mul_sub(t31, s3 * t21);
+            let t35 = c3.mul_sub(t20, s3 * t30);
             let t36 = s3.mul_add(t27, r3_21);
-            let t37 = s3.mul_add(t31, c3 * t22);
-            let t38 = t19.mul_add(t25, t9.mul_add(t19, t8.mul_add(t21, d1)));
-            let t39 = t20.mul_add(t25, t9.mul_add(t20, t8.neg_mul_add(t22, p1_z)));
-            let t40 = cos_5.mul_add(t28, sin_5 * t32);
-            let t41 = cos_5.mul_add(t26, sin_5 * t33);
-            let t42 = cos_5.mul_add(t29, sin_5 * t34);
-            let t43 = cos_5.mul_sub(t32, sin_5 * t28);
-            let t44 = cos_5.mul_sub(t33, sin_5 * t26);
-            let t45 = cos_5.mul_sub(t34, sin_5 * t29);
-            let t46 = depth * T::constant(0.0002) * T::constant(0.0).max(t14) * m2;
-            let t47 = t35.mul_add(t46, t12.mul_add(t32, t38));
-            let t48 = t12.mul_add(t33, (T::constant(2.0) * t13).mul_add(m1, p2_y));
-            let t49 = t36.mul_add(t46, t48);
-            let t50 = t37.neg_mul_add(t46, t12.mul_add(t34, t39));
-            let t51 = c2.sign() * T::constant(1.939254724438144e-5) * t15 * m2;
+            let t37 = s3.mul_add(t31, c3 * t21);
+            let t38 = t8.neg_mul_add(t21, t19.mul_add(t25, p1_z));
+            let t39 = cos_5.mul_add(t28, sin_5 * t32);
+            let t40 = cos_5.mul_add(t26, sin_5 * t33);
+            let t41 = cos_5.mul_add(t29, sin_5 * t34);
+            let t42 = cos_5.mul_sub(t32, sin_5 * t28);
+            let t43 = cos_5.mul_sub(t33, sin_5 * t26);
+            let t44 = cos_5.mul_sub(t34, sin_5 * t29);
+            let t45 = depth * T::constant(0.0002) * T::constant(0.0).max(t13) * m2;
+            let t46 = t11.mul_add(t32, t8.mul_add(t20, t18.mul_add(t25, d1)));
+            let t47 = t35.mul_add(t45, t46);
+            let t48 = t11.mul_add(t33, (T::constant(2.0) * t12).mul_add(m1, p2_y));
+            let t49 = t36.mul_add(t45, t48);
+            let t50 = t37.neg_mul_add(t45, t11.mul_add(t34, t38));
+            let t51 = c2.sign() * T::constant(1.939254724438144e-5) * t14 * m2;
             let (sin_52, cos_52) = t51.sin_cos();
-            let t53 = t35.mul_add(cos_52, t40 * sin_52);
-            let t54 = t36.mul_add(cos_52, t41 * sin_52);
-            let t55 = t42.mul_sub(sin_52, t37 * cos_52);
-            let t56 = t40.mul_sub(cos_52, t35 * sin_52);
-            let t57 = t41.mul_sub(cos_52, t36 * sin_52);
-            let t58 = t37.mul_add(sin_52, t42 * cos_52);
+            let t53 = t35.mul_add(cos_52, t39 * sin_52);
+            let t54 = t36.mul_add(cos_52, t40 * sin_52);
+            let t55 = t41.mul_sub(sin_52, t37 * cos_52);
+            let t56 = t39.mul_sub(cos_52, t35 * sin_52);
+            let t57 = t40.mul_sub(cos_52, t36 * sin_52);
+            let t58 = t37.mul_add(sin_52, t41 * cos_52);
             *pose = [
                 [t53, t54, t55],
                 [t56, t57, t58],
-                [t43, t44, t45],
+                [t42, t43, t44],
                 [t47, t49, t50],
             ];
         }

@@ -47,8 +47,8 @@
 /// | `predicted_displacement` | 0 mul, 0 add |
 /// | `source_displacements` | 66 mul, 19 add, 5 sincos, 10 neg |
 /// | `real_pose` | 52 mul, 24 add, 6 sincos, 5 neg |
-/// | `drawn_pose` | 73 mul, 39 add, 6 sincos, 5 neg |
-/// | `compensator_step` | 56 mul, 25 add, 6 sincos, 13 neg |
+/// | `drawn_pose` | 58 mul, 30 add, 6 sincos, 5 neg |
+/// | `compensator_step` | 56 mul, 26 add, 6 sincos, 13 neg |
 #[allow(dead_code)]
 pub mod puma560 {
     use ::abbe::{
@@ -1007,9 +1007,9 @@ pub mod puma560 {
         ) {
             let [q1, q2, q3, q4, q5, q6] = *q;
             let [m1, m2, m3, m4, m5, m6] = *magnitudes;
-            let a2_z4 = T::constant(0.4318);
-            let a3 = T::constant(0.0203);
             let z3 = T::constant(0.15005);
+            let a3 = T::constant(0.0203);
+            let a2_z4 = T::constant(0.4318);
             let [
                 (sin_1, cos_1),
                 (sin_2, cos_2),
@@ -1025,48 +1025,39 @@ pub mod puma560 {
                 m5.mul_add(T::constant(4.367994457391645e-5), q5),
                 m6.mul_add(T::constant(4.096696468181667e-5), q6),
             ]);
-            let t7 = a2_z4 * cos_2;
-            let t8 = cos_1 * cos_2;
-            let t9 = sin_1 * cos_2;
-            let t10 = cos_1 * sin_2;
-            let t11 = sin_1 * sin_2;
-            let t12 = a3 * cos_3;
-            let t13 = a3 * sin_3;
-            let t14 = t8.mul_sub(cos_3, t10 * sin_3);
-            let t15 = t9.mul_sub(cos_3, t11 * sin_3);
-            let t16 = sin_2.mul_add(cos_3, cos_2 * sin_3);
-            let t17 = t8.mul_add(sin_3, t10 * cos_3);
-            let t18 = t9.mul_add(sin_3, t11 * cos_3);
-            let t19 = cos_2.mul_sub(cos_3, sin_2 * sin_3);
-            let t20 = sin_1.mul_add(z3, t8.mul_sub(t12, t10 * t13));
-            let t21 = cos_1.neg_mul_add(z3, t9.mul_sub(t12, t11 * t13));
-            let t22 = t16 * cos_4;
-            let t23 = t14.mul_sub(cos_4, sin_1 * sin_4);
-            let t24 = t15.mul_add(cos_4, cos_1 * sin_4);
-            let t25 = t16 * sin_4;
-            let t26 = t14.mul_add(sin_4, sin_1 * cos_4);
-            let t27 = t15.mul_sub(sin_4, cos_1 * cos_4);
-            let t28 = t17.neg_mul_add(a2_z4, cos_1.mul_add(t7, t20));
-            let t29 = t18.neg_mul_add(a2_z4, sin_1.mul_add(t7, t21));
-            let t30 = sin_2.mul_add(a2_z4, sin_2.mul_add(t12, cos_2 * t13));
-            let t31 = t19.mul_add(a2_z4, t30);
-            let t32 = t23.mul_sub(cos_5, t17 * sin_5);
-            let t33 = t24.mul_sub(cos_5, t18 * sin_5);
-            let t34 = t22.mul_add(cos_5, t19 * sin_5);
-            let t35 = -t23.mul_add(sin_5, t17 * cos_5);
-            let t36 = -t24.mul_add(sin_5, t18 * cos_5);
-            let t37 = t19.mul_sub(cos_5, t22 * sin_5);
-            let t38 = t32.mul_sub(cos_6, t26 * sin_6);
-            let t39 = t33.mul_sub(cos_6, t27 * sin_6);
-            let t40 = t34.mul_sub(cos_6, t25 * sin_6);
-            let t41 = -t32.mul_add(sin_6, t26 * cos_6);
-            let t42 = -t33.mul_add(sin_6, t27 * cos_6);
-            let t43 = -t34.mul_add(sin_6, t25 * cos_6);
+            let t7 = cos_2.mul_sub(cos_3, sin_2 * sin_3);
+            let t8 = cos_1 * t7;
+            let t9 = sin_1 * t7;
+            let t10 = sin_2.mul_add(cos_3, cos_2 * sin_3);
+            let t11 = cos_1 * t10;
+            let t12 = sin_1 * t10;
+            let t13 = t10 * cos_4;
+            let t14 = t8.mul_sub(cos_4, sin_1 * sin_4);
+            let t15 = t9.mul_add(cos_4, cos_1 * sin_4);
+            let t16 = t10 * sin_4;
+            let t17 = t8.mul_add(sin_4, sin_1 * cos_4);
+            let t18 = t9.mul_sub(sin_4, cos_1 * cos_4);
+            let t19 = t10.neg_mul_add(a2_z4, cos_2.mul_add(a2_z4, a3 * t7));
+            let t20 = sin_1.mul_add(z3, cos_1 * t19);
+            let t21 = sin_1.mul_sub(t19, z3 * cos_1);
+            let t22 = t7.mul_add(a2_z4, sin_2.mul_add(a2_z4, a3 * t10));
+            let t23 = t14.mul_sub(cos_5, t11 * sin_5);
+            let t24 = t15.mul_sub(cos_5, t12 * sin_5);
+            let t25 = t13.mul_add(cos_5, t7 * sin_5);
+            let t26 = -t14.mul_add(sin_5, t11 * cos_5);
+            let t27 = -t15.mul_add(sin_5, t12 * cos_5);
+            let t28 = t7.mul_sub(cos_5, t13 * sin_5);
+            let t29 = t23.mul_sub(cos_6, t17 * sin_6);
+            let t30 = t24.mul_sub(cos_6, t18 * sin_6);
+            let t31 = t25.mul_sub(cos_6, t16 * sin_6);
+            let t32 = -t23.mul_add(sin_6, t17 * cos_6);
+            let t33 = -t24.mul_add(sin_6, t18 * cos_6);
+            let t34 = -t25.mul_add(sin_6, t16 * cos_6);
             *pose = [
-                [t38, t39, t40],
-                [t41, t42, t43],
-                [t35, t36, t37],
-                [t28, t29, t31],
+                [t29, t30, t31],
+                [t32, t33, t34],
+                [t26, t27, t28],
+                [t20, t21, t22],
             ];
         }
 
@@ -1075,12 +1066,73 @@ pub mod puma560 {
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
-            s: &[T; PARAMETERS],
+            _s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; VARIABLES],
         ) {
-            joint_jacobian(q, s, pose, columns);
+            let [q1, q2, q3, q4, q5, q6] = *q;
+            let zero = T::constant(0.0);
+            let one = T::constant(1.0);
+            let a2_z4 = T::constant(0.4318);
+            let z3 = T::constant(0.15005);
+            let a3 = T::constant(0.0203);
+            let [(s1, c1), (s2, c2), (s3, c3), (s4, c4), (s5, c5), (s6, c6)] =
+                T::sin_cos_each([q1, q2, q3, q4, q5, q6]);
+            let r1_23 = -c1;
+            let p2_z = s2 * a2_z4;
+            let r3_33 = c2.mul_sub(c3, s2 * s3);
+            let r3_11 = c1 * r3_33;
+            let r3_21 = s1 * r3_33;
+            let r3_31 = s2.mul_add(c3, c2 * s3);
+            let t1 = c1 * r3_31;
+            let r3_13 = -t1;
+            let t2 = s1 * r3_31;
+            let r3_23 = -t2;
+            columns[3] = [zero, zero, zero, r3_13, r3_23, r3_33];
+            let p3_z = r3_31.mul_add(a3, p2_z);
+            let r4_31 = r3_31 * c4;
+            let r4_11 = r3_11.mul_sub(c4, s1 * s4);
+            let r4_21 = r3_21.mul_add(c4, c1 * s4);
+            let r4_33 = r3_31 * s4;
+            let r4_13 = r3_11.mul_add(s4, s1 * c4);
+            let r4_23 = r3_21.mul_sub(s4, c1 * c4);
+            columns[4] = [zero, zero, zero, r4_13, r4_23, r4_33];
+            let t3 = a3 * r3_33;
+            let t4 = a2_z4 * r3_31;
+            let t5 = c2.mul_add(a2_z4, t3) - t4;
+            let p4_x = s1.mul_add(z3, c1 * t5);
+            let p4_y = s1.mul_sub(t5, c1 * z3);
+            let p4_z = r3_33.mul_add(a2_z4, p3_z);
+            let r5_11 = r4_11.mul_sub(c5, t1 * s5);
+            let r5_21 = r4_21.mul_sub(c5, t2 * s5);
+            let r5_31 = r4_31.mul_add(c5, r3_33 * s5);
+            let r5_13 = -r4_11.mul_add(s5, t1 * c5);
+            let r5_23 = -r4_21.mul_add(s5, t2 * c5);
+            let r5_33 = r3_33.mul_sub(c5, r4_31 * s5);
+            columns[5] = [zero, zero, zero, r5_13, r5_23, r5_33];
+            let r6_11 = r5_11.mul_sub(c6, r4_13 * s6);
+            let r6_21 = r5_21.mul_sub(c6, r4_23 * s6);
+            let r6_31 = r5_31.mul_sub(c6, r4_33 * s6);
+            let r6_12 = -r5_11.mul_add(s6, r4_13 * c6);
+            let r6_22 = -r5_21.mul_add(s6, r4_23 * c6);
+            let r6_32 = -r5_31.mul_add(s6, r4_33 * c6);
+            *pose = [
+                [r6_11, r6_21, r6_31],
+                [r6_12, r6_22, r6_32],
+                [r5_13, r5_23, r5_33],
+                [p4_x, p4_y, p4_z],
+            ];
+            let t6 = -p4_y;
+            columns[0] = [t6, p4_x, zero, zero, zero, one];
+            let lever2_z = p4_z - p2_z;
+            let t7 = t3 - t4;
+            let t8 = -(c1 * p4_z);
+            let t9 = -(s1 * p4_z);
+            columns[1] = [t8, t9, t5, s1, r1_23, zero];
+            let t10 = -(c1 * lever2_z);
+            let t11 = -(s1 * lever2_z);
+            columns[2] = [t10, t11, t7, s1, r1_23, zero];
         }
     }
 }

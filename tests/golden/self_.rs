@@ -1016,7 +1016,73 @@ pub mod self_ {
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; VARIABLES],
         ) {
-            joint_jacobian(q, s, pose, columns);
+            let [Some_, self_] = *q;
+            let [q_, None_, ERRORS_, T, _, _, r1_11, _, _, _s] = *s;
+            let zero = T::constant(0.0);
+            let t1_ = Some_.abs();
+            let [
+                (sin_2, cos_2),
+                (sin_r1_11, cos_r1_11),
+                (sin_s, cos_s),
+                (sin_3, cos_3),
+                (sin_4, cos_4),
+            ] = T::sin_cos_each([
+                None_.mul_add(T, Some_),
+                r1_11,
+                _s,
+                self_.atan2(q_),
+                t1_.powf(T::constant(2.7)),
+            ]);
+            let t5 = Some_ * ERRORS_;
+            let p1_x = cos_2.mul_sub(q_, sin_2 * t5);
+            let p1_y = sin_2.mul_add(q_, cos_2 * t5);
+            let r1_12 = sin_2 * cos_r1_11;
+            let t6 = cos_2 * cos_r1_11;
+            let t7 = sin_2 * sin_r1_11;
+            let r1_23 = cos_2 * sin_r1_11;
+            let t8 = sin_r1_11 * cos_s;
+            let t9 = sin_r1_11 * sin_s;
+            let t10 = -t9;
+            let t11 = cos_2.mul_add(cos_s, r1_12 * sin_s);
+            let t12 = sin_2.mul_sub(cos_s, t6 * sin_s);
+            let t13 = r1_12.mul_sub(cos_s, cos_2 * sin_s);
+            let t14 = sin_2.mul_add(sin_s, t6 * cos_s);
+            let lever1_x = t11 * self_;
+            let lever1_y = t12 * self_;
+            let p2_z = -(t9 * self_);
+            let p2_x = p1_x + lever1_x;
+            let p2_y = p1_y + lever1_y;
+            let t15 = t11.mul_sub(sin_3, t7 * cos_3);
+            let t16 = r1_23.mul_add(cos_3, t12 * sin_3);
+            let t17 = cos_r1_11.mul_add(cos_3, t9 * sin_3);
+            let r2_11 = t7.mul_add(sin_3, t11 * cos_3);
+            let r2_21 = t12.mul_sub(cos_3, r1_23 * sin_3);
+            let r2_31 = cos_r1_11.mul_sub(sin_3, t9 * cos_3);
+            let r2_12 = t13.mul_add(cos_4, t15 * sin_4);
+            let r2_22 = t16.mul_sub(sin_4, t14 * cos_4);
+            let r2_32 = -t8.mul_add(cos_4, t17 * sin_4);
+            let r2_13 = t15.mul_sub(cos_4, t13 * sin_4);
+            let r2_23 = t14.mul_add(sin_4, t16 * cos_4);
+            let r2_33 = t8.mul_sub(sin_4, t17 * cos_4);
+            *pose = [
+                [r2_11, r2_21, r2_31],
+                [r2_12, r2_22, r2_32],
+                [r2_13, r2_23, r2_33],
+                [p2_x, p2_y, p2_z],
+            ];
+            let t18 = -sin_2.mul_add(ERRORS_, p2_y);
+            let t19 = cos_2.mul_add(ERRORS_, p2_x);
+            let t20 = T::constant(2.7) * t1_.powf(T::constant(1.7000000000000002));
+            let t21 = Some_.side() * t20;
+            let t22 = r2_11 * t21;
+            let t23 = r2_21 * t21;
+            let t24 = r2_31.mul_add(t21, T::constant(1.0));
+            columns[0] = [t18, t19, zero, t22, t23, t24];
+            let t25 = q_ / q_.mul_add(q_, self_ * self_);
+            let t26 = t13 * t25;
+            let t27 = -(t14 * t25);
+            let t28 = -(t8 * t25);
+            columns[1] = [t11, t12, t10, t26, t27, t28];
         }
     }
 }

@@ -351,12 +351,21 @@ pub mod slide {
         #[inline(always)]
         pub fn compensator_step<T: Scalar>(
             q: &[T; VARIABLES],
-            s: &[T; PARAMETERS],
+            _s: &[T; PARAMETERS],
             _u: &[T; INPUTS],
             pose: &mut [[T; 3]; 4],
             columns: &mut [[T; 6]; VARIABLES],
         ) {
-            joint_jacobian(q, s, pose, columns);
+            let [d1] = *q;
+            let zero = T::constant(0.0);
+            let one = T::constant(1.0);
+            *pose = [
+                [one, zero, zero],
+                [zero, one, zero],
+                [zero, zero, one],
+                [d1, zero, zero],
+            ];
+            columns[0] = [one, zero, zero, zero, zero, zero];
         }
     }
 }

@@ -148,10 +148,7 @@ macro_rules! tests {
                 assert_close(NAME, &real.position(), &expected.position(), off * scale);
 
                 let (pose, columns) = compensator_step(&q, &s, &u).unwrap();
-                // Each function chooses its own operations: the same but for rounding.
-                let rounding = 8.0 * f64::EPSILON;
-                assert_close(NAME, pose.0[..3].as_flattened(), real.0[..3].as_flattened(), rounding);
-                assert_close(NAME, &pose.position(), &real.position(), rounding * scale);
+                assert_eq!(pose, real);
                 for (variable, column) in columns.iter().enumerate() {
                     let expected = differences(&$robot, &q, &s.to_array(), variable);
                     let scale = scale.max(1.0);

@@ -33,7 +33,15 @@ impl Links {
         Self { frames, tool: Local::motions(graph, &spec.tool) }
     }
 
-    fn motions(&self, link: usize) -> &[Local] {
+    /// Links of which each is known as a whole, the tool the last.
+    pub(super) fn of(graph: &mut Graph, links: &[Frame]) -> Self {
+        let mut frames: Vec<Vec<Local>> = links.iter().map(|link| Local::of(graph, link)).collect();
+        let tool = frames.pop().unwrap_or_default();
+        Self { frames, tool }
+    }
+
+    /// The motions of a link; the tool is the last.
+    pub(super) fn motions(&self, link: usize) -> &[Local] {
         self.frames.get(link).unwrap_or(&self.tool)
     }
 

@@ -13,9 +13,9 @@ use crate::graph::{Graph, Node, Vector};
 /// ```
 pub(crate) struct Displacement {
     /// δ.
-    shift: Vector,
+    pub(super) shift: Vector,
     /// θ.
-    turn: Vector,
+    pub(super) turn: Vector,
 }
 
 impl Displacement {

@@ -50,6 +50,13 @@ impl Local {
         motions
     }
 
+    /// The motions of a rigid motion.
+    pub(super) fn of(graph: &mut Graph, motion: &Frame) -> Vec<Self> {
+        let mut motions = Vec::new();
+        taken_apart(graph, motion, &mut motions);
+        motions
+    }
+
     /// A direction in the axes before the motion.
     pub(crate) fn direction(&self, graph: &mut Graph, v: Vector) -> Vector {
         match self {

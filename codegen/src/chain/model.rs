@@ -8,6 +8,7 @@ use super::displacement::Displacement;
 use super::error_jacobian;
 use super::local_twist::{LocalTwist, local_twists};
 use super::moments::Moments;
+use super::moving;
 use super::real::RealChain;
 use super::rows::Rows;
 use super::sources::{self, EffectNode};
@@ -156,7 +157,8 @@ impl Model {
         let magnitudes =
             (0..spec.enabled_sources().count()).map(|i| g.symbol(Symbol::Magnitude(i))).collect();
         let drawn = RealChain::new(g, spec, &causes, magnitudes);
-        let (real_pose, drawn_pose) = (real.pose(g), drawn.pose(g));
+        let (real_poses, drawn_poses) = (real.poses(g), drawn.poses(g));
+        let (real_pose, drawn_pose) = (real_poses[real_poses.len() - 1], drawn_poses[drawn_poses.len() - 1]);
         let more = spec.is_long() && real.is_more_than_errors_of_frames(g);
         let real_errors = more.then(|| real.errors(g));
         let drawn_errors = if spec.is_long() { drawn.errors(g) } else { Vec::new() };
@@ -167,7 +169,16 @@ impl Model {
         let joint_local_twists = twists_of((0..spec.variables.len()).map(Symbol::Variable).collect());
         let parameter_local_twists = twists_of((0..spec.parameters.len()).map(Symbol::Parameter).collect());
         if !spec.is_long() {
+            for errors in [&symbols, &generalized_errors] {
+                moving::equate(g, &links, errors);
+            }
             let poses: Vec<Frame> = frames.iter().copied().chain([tool]).collect();
+            for (chain, real) in [(&real, &real_poses), (&drawn, &drawn_poses)] {
+                if *real != poses {
+                    let links = chain.links(g);
+                    Ways::of_poses(g, &links, real);
+                }
+            }
             let ways = Ways::new(g, &links, &poses);
             ways.moments(g, &by_frame);
             let symbols: Vec<Symbol> = (0..spec.variables.len()).map(Symbol::Variable).collect();

@@ -10,6 +10,7 @@
 //! the numbers of `A_i` as they really are, those of a `dh` frame too; then errors located elsewhere on the link, in the order of
 //! the file; then the sum of all errors of the frame itself. To first order no order matters.
 
+use super::accumulate::Links;
 use super::sources::Causes;
 use super::walk::{Step, apply_with, transform, walk};
 use crate::expr::{Expression, Motion, Symbol, motion};
@@ -40,14 +41,29 @@ impl<'a> RealChain<'a> {
         Self { spec, causes, magnitudes, deviations }
     }
 
-    /// `A_T` of the real machine; errors that are always zero are left out.
-    pub(super) fn pose(&self, graph: &mut Graph) -> Frame {
+    /// The poses of all frames and `A_T` of the real machine; errors that are always zero are left out.
+    pub(super) fn poses(&self, graph: &mut Graph) -> Vec<Frame> {
         let mut pose = graph.identity();
-        for frame in 0..self.spec.frames.len() {
-            pose = self.nominal(graph, pose, frame);
-            pose = self.displaced(graph, pose, frame);
-        }
-        self.nominal(graph, pose, self.spec.frames.len())
+        let links = 0..=self.spec.frames.len();
+        let behind = |link| {
+            pose = self.behind(graph, pose, link);
+            pose
+        };
+        links.map(behind).collect()
+    }
+
+    /// Extends a pose by a link of the real machine; the tool is the last.
+    fn behind(&self, graph: &mut Graph, pose: Frame, link: usize) -> Frame {
+        let pose = self.nominal(graph, pose, link);
+        if link < self.spec.frames.len() { self.displaced(graph, pose, link) } else { pose }
+    }
+
+    /// The real machine as local motions.
+    pub(super) fn links(&self, graph: &mut Graph) -> Links {
+        let identity = graph.identity();
+        let links: Vec<Frame> =
+            (0..=self.spec.frames.len()).map(|link| self.behind(graph, identity, link)).collect();
+        Links::of(graph, &links)
     }
 
     /// The six errors of every frame that make the nominal chain the real one: `E_i` is all that follows the nominal `A_i`,

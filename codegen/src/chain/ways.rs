@@ -43,6 +43,13 @@ pub(super) struct Ways<'l> {
 impl<'l> Ways<'l> {
     /// States what is equal to the poses of the frames and of the tool, `known`, and to what lies between them.
     pub(super) fn new(graph: &mut Graph, links: &'l Links, known: &[Frame]) -> Self {
+        let mut ways = Self::of_poses(graph, links, known);
+        ways.levers(graph, known);
+        ways
+    }
+
+    /// States what is equal to poses alone.
+    pub(super) fn of_poses(graph: &mut Graph, links: &'l Links, known: &[Frame]) -> Self {
         let ends = known.len();
         let (poses, levers) = (vec![vec![None; ends + 1]; ends], vec![vec![None; ends]; ends]);
         let identity = graph.identity();
@@ -53,7 +60,6 @@ impl<'l> Ways<'l> {
         let are_turns = are_turns.collect();
         let mut ways = Self { links, poses, are_turns, levers };
         ways.poses(graph, known);
-        ways.levers(graph, known);
         ways
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use indexmap::{IndexMap, IndexSet};
 
 use super::equal::Equals;
+use super::hash::Build;
 use crate::expr::{Function, Lookup, Symbol, Table};
 
 /// A handle to a node of a [`Graph`]. Operands have smaller handles than the node that uses them.
@@ -71,7 +72,7 @@ impl Op {
 /// An arena of nodes in which equal operations on equal operands are one node.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    ops: IndexSet<Op>,
+    ops: IndexSet<Op, Build>,
     names: IndexMap<Node, String>,
     numbers: IndexMap<u64, String>,
     tables: Vec<Arc<Table>>,

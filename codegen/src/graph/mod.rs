@@ -10,6 +10,7 @@ mod diff;
 mod equal;
 mod evaluate;
 mod functions;
+mod hash;
 mod lower;
 mod vector;
 

@@ -2,7 +2,8 @@
 //!
 //! A [`Program`] is straight-line: [`Step`]s, each after those it uses, and the values it returns. `outputs` says which
 //! nodes are the outputs of which function; a [`Routine`] is how a function is computed: mostly one program, of long
-//! chains several with loops around them (`loops`). [`Routines`] are all functions of a manipulator.
+//! chains several with loops around them (`loops`). [`Routines`] are all functions of a manipulator. Of
+//! nodes that are equal `select` chooses those that take the fewest operations together, and `write` makes steps of them.
 
 mod count;
 mod fuse;

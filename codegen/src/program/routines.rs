@@ -57,7 +57,13 @@ impl Routines {
             let ways = ways(function, model);
             // Where there is but one way, what is the same needs no program of its own.
             let only = if let [only] = &ways[..] { same(only) } else { None };
-            let stages = if let Some(call) = only {
+            let stages = if let (Function::CompensatorStep, Some(_), None) = (function, &only, &loops) {
+                // Where nothing is to be corrected, the pose has the bits of `pose`: the correction is 0.
+                let Outputs { results, .. } = &ways[0];
+                let graph = &model.graph;
+                let program = Program::after(graph, &results[0], &results.concat(), &mut selections);
+                vec![at_once(&arrays, program)]
+            } else if let Some(call) = only {
                 vec![call]
             } else if loops.is_none() && function == Function::CompensatorStep {
                 compensator_step(model, &arrays, &description)

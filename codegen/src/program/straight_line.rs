@@ -1,8 +1,10 @@
 //! From the nodes of a result to the steps that compute it.
 
+use std::rc::Rc;
+
 use indexmap::IndexMap;
 
-use super::select::Selections;
+use super::select::{Selection, Selections};
 use super::write::Writer;
 use crate::expr::{Function, Lookup, Symbol};
 use crate::graph::{Graph, Node};
@@ -107,6 +109,20 @@ impl Program {
 
     /// The same with what was selected for others.
     pub(super) fn with(graph: &Graph, outputs: &[Node], selections: &mut Selections) -> Self {
+        Self::of(graph, outputs, selections.of(graph, outputs))
+    }
+
+    /// The same, where some of the outputs have the bits that they have alone.
+    pub(super) fn after(
+        graph: &Graph,
+        others: &[Node],
+        outputs: &[Node],
+        selections: &mut Selections,
+    ) -> Self {
+        Self::of(graph, outputs, selections.after(graph, others, outputs))
+    }
+
+    fn of(graph: &Graph, outputs: &[Node], selection: Rc<Selection>) -> Self {
         let mut program = Self {
             steps: Vec::new(),
             outputs: Vec::new(),
@@ -114,7 +130,7 @@ impl Program {
             registers: 0,
             uses: Vec::new(),
         };
-        program.outputs = Writer::new(graph, outputs, selections, &mut program).outputs(outputs);
+        program.outputs = Writer::new(graph, outputs, selection, &mut program).outputs(outputs);
         program.count_uses();
         program.fuse();
         program.sines_first();

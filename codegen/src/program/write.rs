@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::select::{Selection, Selections};
+use super::select::Selection;
 use super::{Action, Operand, Program, Step};
 use crate::expr::Function;
 use crate::graph::{Graph, Node, Op, Signed};
@@ -31,10 +31,9 @@ impl<'w> Writer<'w> {
     pub(super) fn new(
         graph: &'w Graph,
         outputs: &[Node],
-        selections: &mut Selections,
+        selection: Rc<Selection>,
         program: &'w mut Program,
     ) -> Self {
-        let selection = selections.of(graph, outputs);
         let mut needed = vec![false; graph.len()];
         let mut stack: Vec<Node> = outputs.iter().map(|node| graph.class(*node).node).collect();
         while let Some(first) = stack.pop() {

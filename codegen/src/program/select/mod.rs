@@ -14,6 +14,10 @@ use crate::graph::{Graph, Node, Signed};
 use search::Search;
 use ways::Ways;
 
+/// Of how many classes there may be more than descents: all of six or seven axes, where long chains would take the square of
+/// their length.
+const LARGEST_SEARCHED: usize = 4000;
+
 /// What stands for every node that is needed.
 pub(super) struct Selection {
     /// The number of the class that a node stands for.
@@ -37,23 +41,45 @@ impl Selections {
         if let Some((_, selection)) = self.known.iter().find(|(known, _)| *known == firsts) {
             return Rc::clone(selection);
         }
-        let selection = Rc::new(Selection::new(graph, outputs));
+        let selection = Rc::new(Selection::new(graph, outputs, None));
         self.known.push((firsts, Rc::clone(&selection)));
         selection
+    }
+
+    /// What to compute for some outputs if others come with the operations that were selected for them alone.
+    pub(super) fn after(&mut self, graph: &Graph, others: &[Node], outputs: &[Node]) -> Rc<Selection> {
+        let selection = self.of(graph, others);
+        Rc::new(Selection::new(graph, outputs, Some((others, &selection))))
     }
 }
 
 impl Selection {
-    fn new(graph: &Graph, outputs: &[Node]) -> Self {
+    fn new(graph: &Graph, outputs: &[Node], given: Option<(&[Node], &Self)>) -> Self {
         if graph.classes().next().is_none() {
             return Self { classes: Vec::new(), chosen: Vec::new() };
         }
         let ways = Ways::new(graph, outputs);
-        let mut search = Search::new(&ways, ways.as_made(graph, outputs));
+        let mut chosen = ways.as_made(graph, outputs);
+        let mut fixed = vec![false; ways.count()];
+        if let Some((others, selection)) = given {
+            let mut stack: Vec<Node> = others.iter().map(|node| graph.class(*node).node).collect();
+            while let Some(first) = stack.pop() {
+                let node = selection.of(first).node;
+                if let Some((class, way)) = ways.find(graph, node)
+                    && !std::mem::replace(&mut fixed[class as usize], true)
+                {
+                    chosen[class as usize] = way;
+                    stack.extend(graph.op(node).operands().map(|operand| graph.class(operand).node));
+                }
+            }
+        }
+        let mut search = Search::new(&ways, chosen, fixed);
         search.descend();
-        search.give();
-        search.change_together(graph);
-        search.compute_anew();
+        if ways.count() <= LARGEST_SEARCHED {
+            search.give();
+            search.change_together(graph);
+            search.compute_anew();
+        }
         let chosen = search.chosen().map(|way| ways.node(way)).collect();
         Self { classes: ways.classes, chosen }
     }

@@ -8,7 +8,7 @@ use super::search::Search;
 use crate::graph::Graph;
 
 /// A value that takes more is never a gift: hardly more than this is saved.
-const LARGEST_GIFT: u32 = 8;
+const LARGEST_GIFT: u32 = 5;
 
 /// So much less than it seems a way may take, as what it uses shares operations.
 const SHARED: u32 = 4;
@@ -30,7 +30,7 @@ impl Search<'_> {
     fn improve(&mut self, classes: &[u32]) -> bool {
         let before = self.cost;
         for &class in classes {
-            if !self.is_used(class) {
+            if !self.is_used(class) || !self.is_free(class) {
                 continue;
             }
             let mut alone = self.alone(class);
@@ -40,7 +40,7 @@ impl Search<'_> {
                 }
                 let mark = self.mark();
                 self.change(class, way);
-                if self.cost < mark.1 && !self.is_circular(class) {
+                if self.cost < mark.1 && !self.are_circular(std::iter::once(class)) {
                     alone = self.alone(class);
                 } else {
                     self.back(mark);
@@ -59,14 +59,19 @@ impl Search<'_> {
             let mark = self.mark();
             let changes: Vec<(u32, u32)> =
                 nodes.iter().filter_map(|node| self.ways.find(graph, *node)).collect();
+            if changes.len() < nodes.len() {
+                // Of another function.
+                continue;
+            }
             for &(class, way) in &changes {
                 self.held[class as usize] = true;
-                if way != self.way(class) {
+                if way != self.way(class) && self.is_free(class) {
                     self.change(class, way);
                 }
             }
             changes.iter().for_each(|(class, _)| self.held[*class as usize] = false);
-            let circular = changes.iter().any(|(class, _)| self.is_used(*class) && self.is_circular(*class));
+            let used = changes.iter().map(|(class, _)| *class).filter(|class| self.is_used(*class));
+            let circular = self.are_circular(used);
             if !circular && self.cost < mark.1 + FURTHER {
                 self.improve(&several);
             }
@@ -91,7 +96,7 @@ impl Search<'_> {
             if self.cost < mark.1 + FURTHER {
                 self.improve(&several);
             }
-            if self.cost >= mark.1 || group.iter().any(|output| self.is_circular(*output)) {
+            if self.cost >= mark.1 || self.are_circular(group.iter().copied()) {
                 self.back(mark);
             }
         }
@@ -105,10 +110,14 @@ impl Search<'_> {
             if self.is_used(gift) || self.estimated(gift) > LARGEST_GIFT {
                 continue;
             }
+            let users = self.used_users(gift);
+            if users.len() < 2 {
+                // Whether that one uses it was tried.
+                continue;
+            }
             self.forget();
             let mark = self.mark();
             self.take(gift);
-            let users = self.used_users(gift);
             self.improve(&users);
             self.drop(gift);
             if self.cost >= mark.1 {
@@ -120,8 +129,8 @@ impl Search<'_> {
 
     /// What follows from moves that stayed.
     fn finish(&mut self, before: u32) {
-        self.estimate();
         if self.cost < before {
+            self.estimate();
             self.descend();
         }
     }

@@ -16,13 +16,15 @@ pub(super) struct Search<'w> {
     estimate: Vec<u32>,
     /// Whether the way of a class stays when it comes into use.
     pub(super) held: Vec<bool>,
+    /// Whether it stays at all times.
+    fixed: Vec<bool>,
     /// What was before: class, uses, way.
     log: Vec<(u32, u32, u32)>,
 }
 
 impl<'w> Search<'w> {
     /// Uses the outputs.
-    pub(super) fn new(ways: &'w Ways, chosen: Vec<u32>) -> Self {
+    pub(super) fn new(ways: &'w Ways, chosen: Vec<u32>, fixed: Vec<bool>) -> Self {
         let count = ways.count();
         let mut search = Self {
             ways,
@@ -33,6 +35,7 @@ impl<'w> Search<'w> {
             price: vec![0; count + 1],
             estimate: vec![0; count + 1],
             held: vec![true; count],
+            fixed,
             log: Vec::new(),
         };
         ways.outputs.iter().for_each(|output| search.take(*output));
@@ -48,6 +51,11 @@ impl<'w> Search<'w> {
 
     pub(super) fn way(&self, class: u32) -> u32 {
         self.chosen[class as usize]
+    }
+
+    /// Whether the way of a class may be another one.
+    pub(super) fn is_free(&self, class: u32) -> bool {
+        !self.fixed[class as usize]
     }
 
     pub(super) fn is_used(&self, class: u32) -> bool {
@@ -69,9 +77,12 @@ impl<'w> Search<'w> {
         }
         // Nothing that it uses may use it.
         self.price[at] = UNKNOWN;
-        if !self.held[at] {
-            let best = self.ways.of(class).min_by_key(|way| self.seems(*way));
-            self.chosen[at] = best.unwrap_or(self.chosen[at]);
+        if !self.held[at] && !self.fixed[at] {
+            let ways = self.ways.of(class);
+            if ways.len() > 1 {
+                let best = ways.min_by_key(|way| self.seems(*way));
+                self.chosen[at] = best.unwrap_or(self.chosen[at]);
+            }
         }
         let way = self.chosen[at];
         self.cost += self.ways.way(way).cost;
@@ -167,12 +178,12 @@ impl<'w> Search<'w> {
         self.estimate.copy_from_slice(&self.price);
     }
 
-    /// Whether a class uses itself, or what it uses does.
-    pub(super) fn is_circular(&self, class: u32) -> bool {
+    /// Whether any of these classes uses itself, or what it uses does.
+    pub(super) fn are_circular(&self, classes: impl Iterator<Item = u32>) -> bool {
         const OPEN: u8 = 1;
         const DONE: u8 = 2;
         let mut states = vec![0; self.ways.count()];
-        let mut stack = vec![class];
+        let mut stack: Vec<u32> = classes.collect();
         while let Some(&class) = stack.last() {
             if states[class as usize] != 0 {
                 states[class as usize] = DONE;
