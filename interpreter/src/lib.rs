@@ -19,7 +19,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `tape` is a program with its registers packed; `lanes` evaluates it.
+//! `tape` is a program with its registers packed; `lanes` evaluates it. `bound` finds the largest value of a node over a box, with a
+//! proof.
+
+pub mod bound;
 
 mod interpreter;
 mod lanes;

@@ -79,24 +79,44 @@ impl Links {
     /// ```text
     /// ρ = p_T − p_i        take in ε_i at ρ        ρ ← t_i + R_i ρ, and what is accumulated ← R_i of it
     /// ```
-    pub(super) fn accumulate<A: Accumulated>(
+    pub(super) fn accumulate<A: Accumulated>(&self, graph: &mut Graph, errors: &[[Node; 6]], sum: A) -> A {
+        let (mut sum, mut lever) = self.behind(graph, errors, 0, sum);
+        if let [motions, ..] = &self.frames[..] {
+            motions.iter().rev().for_each(|motion| go_before(graph, motion, &mut sum, &mut lever));
+        }
+        sum
+    }
+
+    /// The same in the axes of a frame, from 0: what it and all behind it do; nothing behind the last one.
+    pub(super) fn accumulate_to<A: Accumulated>(
         &self,
         graph: &mut Graph,
         errors: &[[Node; 6]],
-        mut sum: A,
+        frame: usize,
+        sum: A,
     ) -> A {
+        self.behind(graph, errors, frame, sum).0
+    }
+
+    /// The same, and the tool point, in the axes of a frame.
+    fn behind<A: Accumulated>(
+        &self,
+        graph: &mut Graph,
+        errors: &[[Node; 6]],
+        frame: usize,
+        mut sum: A,
+    ) -> (A, Vector) {
         let mut lever = [graph.zero(); 3];
         for motion in self.tool.iter().rev() {
             lever = motion.point(graph, lever);
         }
-        for (motions, errors) in self.frames.iter().zip(errors).rev() {
+        for (i, (motions, errors)) in self.frames.iter().zip(errors).enumerate().skip(frame).rev() {
             sum.add(graph, *errors, lever);
-            for motion in motions.iter().rev() {
-                sum.turn(graph, motion);
-                lever = motion.point(graph, lever);
+            if i > frame {
+                motions.iter().rev().for_each(|motion| go_before(graph, motion, &mut sum, &mut lever));
             }
         }
-        sum
+        (sum, lever)
     }
 
     /// The x axis of the tool in `F_0`.
@@ -105,4 +125,10 @@ impl Links {
         let motions = self.frames.iter().chain([&self.tool]).flatten();
         motions.rev().fold([one, zero, zero], |axis, motion| motion.direction(graph, axis))
     }
+}
+
+/// Goes over to the axes before a motion.
+fn go_before<A: Accumulated>(graph: &mut Graph, motion: &Local, sum: &mut A, lever: &mut Vector) {
+    sum.turn(graph, motion);
+    *lever = motion.point(graph, *lever);
 }

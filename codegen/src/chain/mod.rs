@@ -4,9 +4,9 @@
 //! `moments`) and `symbol_jacobian` read their columns off these poses by the structured product rule; `rows` turns a
 //! small rotation into rows 4–6; `sources` gives ε, with `deviation` for errors of joints and parameters and `elastic`
 //! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
-//! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`. `real` is the exact
-//! chain with errors. [`Model`] holds the results. What else leads to the same, `ways` and `moving` state: a program
-//! takes what needs the fewest operations.
+//! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`, and `magnitudes`, whose
+//! largest values are sought. `real` is the exact chain with errors. [`Model`] holds the results. What else leads to the
+//! same, `ways` and `moving` state: a program takes what needs the fewest operations.
 
 mod accumulate;
 mod by_source;
@@ -17,6 +17,7 @@ mod elastic;
 mod error_jacobian;
 mod local;
 mod local_twist;
+mod magnitudes;
 mod model;
 mod moments;
 mod moving;
@@ -35,6 +36,7 @@ pub(crate) use displacement::Displacement;
 pub(crate) use error_jacobian::Columns;
 pub(crate) use local::Local;
 pub use local_twist::LocalTwist;
+pub use magnitudes::{Magnitude, Magnitudes};
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;
 pub(crate) use rows::Rows;

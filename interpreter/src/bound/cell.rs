@@ -1,0 +1,215 @@
+//! What is known of the node within one box.
+
+use std::cmp::Ordering;
+
+use super::form::{Form, UNIT, above};
+use super::growth::Growth;
+use super::search::Search;
+
+/// A box that may hold the largest value.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub(super) low: Vec<f64>,
+    pub(super) high: Vec<f64>,
+    /// What no value within exceeds.
+    pub(super) most: f64,
+    /// The name that is to be halved.
+    pub(super) split: usize,
+}
+
+/// A value, and where it is.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    /// No more than the value.
+    pub(super) value: f64,
+    pub(super) at: Vec<f64>,
+}
+
+/// How often a box that became smaller is looked at again at once.
+const PASSES: usize = 4;
+
+/// A name whose quarter moves the value by this share of what its whole range does says nothing by its slope.
+const SATURATED: f64 = 0.95;
+
+/// Where numbers are kept while boxes are looked at.
+pub(super) struct Workspace<const N: usize> {
+    registers: Vec<Form<N>>,
+    points: Vec<Form<0>>,
+}
+
+impl<const N: usize> Default for Workspace<N> {
+    fn default() -> Self {
+        Self { registers: Vec::new(), points: Vec::new() }
+    }
+}
+
+impl Search {
+    /// The value at a point: no more, and no less, than it is.
+    pub(super) fn value_at(&self, points: &mut Vec<Form<0>>, at: &[f64]) -> [f64; 2] {
+        self.value.evaluate(points, at, &vec![0.0; at.len()]).0[0].range()
+    }
+
+    /// Looks at a box. What of it cannot hold the largest value is taken away:
+    ///
+    /// - Where the value grows with a name everywhere, it is largest at the upper end of that name: of a box that is not at the
+    ///   end of the domain, nothing is left.
+    /// - Where a name is not at an end of the domain, its slope must be 0: names are confined to where it can be.
+    pub(super) fn look<const N: usize>(
+        &self,
+        mut cell: Cell,
+        workspace: &mut Workspace<N>,
+    ) -> (Option<Cell>, Point) {
+        let mut point = Point { value: f64::NEG_INFINITY, at: Vec::new() };
+        for pass in 1.. {
+            let (centres, halves) = cell.centres();
+            let (forms, jumps) = self.all.evaluate(&mut workspace.registers, &centres, &halves);
+            let [value, slopes @ ..] = &forms[..] else { return (Some(cell), point) };
+            if !jumps {
+                match self.confine(&mut cell, slopes, &centres, &halves) {
+                    Confined::Nothing => return (None, point),
+                    Confined::Less if pass < PASSES => continue,
+                    _ => {}
+                }
+            }
+            let (centres, halves) = cell.centres();
+            let [low, high] = self.value_at(&mut workspace.points, &centres);
+            if low.is_finite() {
+                point = Point { value: low, at: centres.clone() };
+            }
+            let mut most = value.range()[1];
+            let growth = Growth::new(slopes, &halves);
+            if !jumps {
+                let from_centre = high + above(growth.most() + UNIT * high.abs());
+                // A comparison with what is not a number is false.
+                if from_centre < most {
+                    most = from_centre;
+                }
+            }
+            cell.split = self.most_promising(&centres, &halves, &growth, workspace);
+            cell.most = if most.is_nan() { f64::INFINITY } else { cell.most.min(most) };
+            return (Some(cell), point);
+        }
+        (Some(cell), point)
+    }
+
+    /// The name that moves the value most by its slope: its halving promises most. But a slope says little of a fast sine: a
+    /// name that alone moves the value as much on a quarter of its range comes last. Where slopes have no end, a name comes first
+    /// that alone makes the value endless, and then the longest.
+    fn most_promising<const N: usize>(
+        &self,
+        centres: &[f64],
+        halves: &[f64],
+        growth: &Growth<N>,
+        workspace: &mut Workspace<N>,
+    ) -> usize {
+        let mut alone = vec![0.0; halves.len()];
+        let mut moved = |i: usize, part: f64| {
+            alone[i] = part * halves[i];
+            let radius = self.value.evaluate(&mut workspace.registers, centres, &alone).0[0].radius();
+            alone[i] = 0.0;
+            if radius.is_nan() { f64::INFINITY } else { radius }
+        };
+        let mut order: Vec<(usize, [f64; 3])> = (0..halves.len())
+            .filter(|i| halves[*i] > 0.0)
+            .map(|i| {
+                let ([low, high], share) = (self.domain[i], growth.of(i));
+                let key = match share.is_finite() {
+                    true => [share, 0.0, 0.0],
+                    false => [f64::INFINITY, moved(i, 1.0), halves[i] / (high - low)],
+                };
+                (i, key)
+            })
+            .collect();
+        order.sort_by(|(_, a), (_, b)| b.partial_cmp(a).unwrap_or(Ordering::Equal));
+        let mut is_promising = |i: usize| {
+            let whole = moved(i, 1.0);
+            !(whole.is_finite() && moved(i, 0.25) >= SATURATED * whole)
+        };
+        let names: Vec<usize> = order.into_iter().map(|(i, _)| i).collect();
+        names.iter().copied().find(|i| is_promising(*i)).or(names.first().copied()).unwrap_or(0)
+    }
+
+    fn confine<const N: usize>(
+        &self,
+        cell: &mut Cell,
+        slopes: &[Form<N>],
+        centres: &[f64],
+        halves: &[f64],
+    ) -> Confined {
+        let mut confined = Confined::Same;
+        for (i, slope) in slopes.iter().enumerate() {
+            if halves[i] == 0.0 {
+                continue;
+            }
+            let ([low, high], [first, last]) = (slope.range(), self.domain[i]);
+            let (at_first, at_last) = (cell.low[i] <= first, cell.high[i] >= last);
+            if low > 0.0 {
+                if !at_last {
+                    return Confined::Nothing;
+                }
+                cell.low[i] = cell.high[i];
+                confined = Confined::Less;
+            } else if high < 0.0 {
+                if !at_first {
+                    return Confined::Nothing;
+                }
+                cell.high[i] = cell.low[i];
+                confined = Confined::Less;
+            } else if !at_first && !at_last {
+                let Some([from, to]) = zero_of(slope, i) else { continue };
+                if from > to {
+                    return Confined::Nothing;
+                }
+                let margin = 4.0 * UNIT * (centres[i].abs() + halves[i]);
+                let low = (centres[i] + halves[i] * from - margin).max(cell.low[i]);
+                let high = (centres[i] + halves[i] * to + margin).min(cell.high[i]);
+                if high - low < 0.7 * (cell.high[i] - cell.low[i]) {
+                    (cell.low[i], cell.high[i]) = (low, high);
+                    confined = Confined::Less;
+                }
+            }
+        }
+        confined
+    }
+}
+
+/// What is left of a box.
+enum Confined {
+    Nothing,
+    Less,
+    Same,
+}
+
+/// Where on −1 … 1 a form can be 0 along a name, whatever the others are; nothing if everywhere.
+fn zero_of<const N: usize>(slope: &Form<N>, name: usize) -> Option<[f64; 2]> {
+    let own = slope.slopes[name];
+    let others =
+        above(slope.slopes.iter().enumerate().map(|(j, a)| if j == name { 0.0 } else { a.abs() }).sum());
+    let (middle, half) = (-slope.centre / own, above((others + slope.rest) / own.abs()));
+    let margin = above(4.0 * UNIT * (middle.abs() + half));
+    let (from, to) = ((middle - half - margin).max(-1.0), (middle + half + margin).min(1.0));
+    (middle.is_finite() && half.is_finite() && (from > -1.0 || to < 1.0)).then_some([from, to])
+}
+
+impl Cell {
+    /// Its middle, and how far it goes from there on both sides at least.
+    pub(super) fn centres(&self) -> (Vec<f64>, Vec<f64>) {
+        let centres: Vec<f64> = self.low.iter().zip(&self.high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
+        let ends = self.low.iter().zip(&self.high).zip(&centres);
+        let halves = ends.map(|((low, high), centre)| match low == high {
+            true => 0.0,
+            false => (high - centre).max(centre - low).next_up(),
+        });
+        let halves = halves.collect();
+        (centres, halves)
+    }
+
+    /// Both halves along the name that is to be halved.
+    pub(super) fn halves(&self) -> [Self; 2] {
+        let (mut lower, mut upper) = (self.clone(), self.clone());
+        let middle = 0.5 * self.low[self.split] + 0.5 * self.high[self.split];
+        lower.high[self.split] = middle;
+        upper.low[self.split] = middle;
+        [lower, upper]
+    }
+}

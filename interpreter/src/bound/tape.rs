@@ -1,0 +1,259 @@
+//! What some nodes of a graph are while names move: their operations on affine forms, one after the other.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use abbe_codegen::expr::{Function, Lookup, Symbol, Table};
+use abbe_codegen::graph::{Graph, Node, Op};
+
+use super::form::Form;
+
+type Register = usize;
+
+/// An operation on registers; numbers that no name moves are known when it is made.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    Known(Form<0>),
+    Neg(Register),
+    Add(Register, Register),
+    Sub(Register, Register),
+    Shift(Register, Form<0>),
+    Mul(Register, Register),
+    Scale(Register, Form<0>),
+    Div(Register, Register),
+    Power(Register, f64),
+    Angle(Register, Register),
+    Smaller(Register, Register),
+    Larger(Register, Register),
+    Call(Function, Register),
+    Lookup(Lookup, Register),
+    /// Sine, and in the next register cosine.
+    SinCos(Register),
+}
+
+/// Operations that compute some numbers from the values of names.
+#[derive(Clone, Debug)]
+pub(super) struct Tape {
+    steps: Vec<Step>,
+    outputs: Vec<Register>,
+    tables: Vec<Arc<Table>>,
+    /// Whether the derivative of an absolute value is part of a value, and not only of its slopes: it jumps.
+    pub(super) sides_jump: bool,
+}
+
+/// What a node is while the tape is made.
+#[derive(Clone, Copy)]
+enum Value {
+    Known(Form<0>),
+    At(Register),
+}
+
+/// A tape that is being made.
+struct Draft {
+    tape: Tape,
+    registers: usize,
+    turns: HashMap<Register, Register>,
+}
+
+impl Tape {
+    /// The values of some nodes from those of some names; all other symbols have the values that `fixed` says.
+    pub(super) fn new(
+        graph: &Graph,
+        nodes: &[Node],
+        names: &[Symbol],
+        fixed: impl Fn(Symbol) -> f64,
+    ) -> Self {
+        let count = nodes.iter().map(|node| node.index() + 1).max().unwrap_or(0);
+        let ops: Vec<Op> = graph.ops().take(count).collect();
+        let mut needed = vec![false; count];
+        nodes.iter().for_each(|node| needed[node.index()] = true);
+        for (index, op) in ops.iter().enumerate().rev() {
+            if needed[index] {
+                op.operands().for_each(|operand| needed[operand.index()] = true);
+            }
+        }
+        let tape = Self {
+            steps: Vec::new(),
+            outputs: Vec::new(),
+            tables: graph.tables().to_vec(),
+            sides_jump: false,
+        };
+        let mut draft = Draft { tape, registers: names.len(), turns: HashMap::new() };
+        let mut values: Vec<Value> = Vec::with_capacity(count);
+        for (op, needed) in ops.iter().zip(needed) {
+            values.push(match op {
+                _ if !needed => Value::Known(Form::known(f64::NAN, 0.0)),
+                Op::Constant(bits) => Value::Known(Form::known(f64::from_bits(*bits), 0.0)),
+                Op::Symbol(symbol) => match names.iter().position(|name| name == symbol) {
+                    Some(name) => Value::At(name),
+                    None => Value::Known(Form::known(fixed(*symbol), 0.0)),
+                },
+                _ => draft.operation(*op, |node| values[node.index()]),
+            });
+        }
+        draft.tape.outputs = nodes.iter().map(|node| draft.register(values[node.index()])).collect();
+        draft.tape
+    }
+
+    /// Whether it has derivatives of absolute values.
+    pub(super) fn has_sides(&self) -> bool {
+        self.steps.iter().any(|step| matches!(step, Step::Call(Function::Side, _)))
+    }
+
+    /// What the numbers are while each name is within its half width of its centre, and whether one of them may jump there.
+    pub(super) fn evaluate<const N: usize>(
+        &self,
+        registers: &mut Vec<Form<N>>,
+        centres: &[f64],
+        halves: &[f64],
+    ) -> (Vec<Form<N>>, bool) {
+        registers.clear();
+        let mut jumps = false;
+        for (i, (centre, half)) in centres.iter().zip(halves).enumerate() {
+            let mut slopes = [0.0; N];
+            match slopes.get_mut(i) {
+                Some(slope) => *slope = *half,
+                None if *half > 0.0 => return (vec![Form::anything(); self.outputs.len()], true),
+                None => {}
+            }
+            registers.push(Form { centre: *centre, slopes, spread: *half, rest: 0.0 });
+        }
+        for step in &self.steps {
+            let at = |register: Register| &registers[register];
+            let form = match *step {
+                Step::Known(number) => Form::known(number.centre, number.rest),
+                Step::Neg(a) => at(a).neg(),
+                Step::Add(a, b) => at(a).add(at(b)),
+                Step::Sub(a, b) => at(a).sub(at(b)),
+                Step::Shift(a, number) => at(a).shifted(&number),
+                Step::Mul(a, b) => at(a).mul(at(b)),
+                Step::Scale(a, number) => at(a).scaled(&number),
+                Step::Div(a, b) => at(a).mul(&at(b).reciprocal()),
+                Step::Power(a, exponent) => at(a).power(exponent),
+                Step::Smaller(a, b) => at(a).smaller(at(b)),
+                Step::Larger(a, b) => at(a).larger(at(b)),
+                Step::Angle(a, b) => {
+                    let (form, may_jump) = at(a).angle(at(b));
+                    jumps |= may_jump;
+                    form
+                }
+                Step::Call(function, a) => {
+                    let (form, may_jump) = at(a).call(function);
+                    let is_side = function == Function::Side && form.rest > 0.0;
+                    jumps |= may_jump || (is_side && self.sides_jump);
+                    form
+                }
+                Step::Lookup(Lookup { table, order }, a) => {
+                    at(a).look_up(&self.tables[usize::from(table)], u32::from(order))
+                }
+                Step::SinCos(a) => {
+                    let [sine, cosine] = at(a).sin_cos();
+                    registers.push(sine);
+                    cosine
+                }
+            };
+            registers.push(form);
+        }
+        (self.outputs.iter().map(|output| registers[*output]).collect(), jumps)
+    }
+}
+
+impl Draft {
+    fn push(&mut self, step: Step) -> Register {
+        self.tape.steps.push(step);
+        self.registers += 1;
+        self.registers - 1
+    }
+
+    /// Where a value stands.
+    fn register(&mut self, value: Value) -> Register {
+        match value {
+            Value::Known(number) => self.push(Step::Known(number)),
+            Value::At(register) => register,
+        }
+    }
+
+    fn operation(&mut self, op: Op, of: impl Fn(Node) -> Value) -> Value {
+        let is_known = |node: Node| matches!(of(node), Value::Known(_));
+        if op.operands().all(is_known) {
+            return Value::Known(self.number(op, of));
+        }
+        let step = match op {
+            Op::Call(function @ (Function::Sin | Function::Cos), a) => {
+                let angle = self.register(of(a));
+                let sine = match self.turns.get(&angle) {
+                    Some(sine) => *sine,
+                    None => {
+                        let sine = self.push(Step::SinCos(angle));
+                        self.registers += 1;
+                        self.turns.insert(angle, sine);
+                        sine
+                    }
+                };
+                return Value::At(sine + usize::from(function == Function::Cos));
+            }
+            Op::Add(a, b) => match (of(a), of(b)) {
+                (Value::At(a), Value::Known(number)) | (Value::Known(number), Value::At(a)) => {
+                    Step::Shift(a, number)
+                }
+                (a, b) => Step::Add(self.register(a), self.register(b)),
+            },
+            Op::Mul(a, b) => match (of(a), of(b)) {
+                (Value::At(a), Value::Known(number)) | (Value::Known(number), Value::At(a)) => {
+                    Step::Scale(a, number)
+                }
+                (a, b) => Step::Mul(self.register(a), self.register(b)),
+            },
+            Op::Sub(a, b) => match (of(a), of(b)) {
+                (Value::At(a), Value::Known(number)) => Step::Shift(a, number.neg()),
+                (a, b) => Step::Sub(self.register(a), self.register(b)),
+            },
+            Op::Div(a, b) => match (of(a), of(b)) {
+                (Value::At(a), Value::Known(number)) => Step::Scale(a, number.reciprocal()),
+                (a, b) => Step::Div(self.register(a), self.register(b)),
+            },
+            Op::Pow(a, b) => match of(b) {
+                Value::Known(exponent) => Step::Power(self.register(of(a)), exponent.centre),
+                // No graph has such a power: its exponents are numbers.
+                Value::At(_) => Step::Known(Form::anything()),
+            },
+            Op::Neg(a) => Step::Neg(self.register(of(a))),
+            Op::Atan2(a, b) => Step::Angle(self.register(of(a)), self.register(of(b))),
+            Op::Min(a, b) => Step::Smaller(self.register(of(a)), self.register(of(b))),
+            Op::Max(a, b) => Step::Larger(self.register(of(a)), self.register(of(b))),
+            Op::Call(function, a) => Step::Call(function, self.register(of(a))),
+            Op::Lookup(lookup, a) => Step::Lookup(lookup, self.register(of(a))),
+            Op::Constant(_) | Op::Symbol(_) => Step::Known(Form::anything()),
+        };
+        Value::At(self.push(step))
+    }
+
+    /// The result of an operation on numbers, by a tape of its own.
+    fn number(&self, op: Op, of: impl Fn(Node) -> Value) -> Form<0> {
+        let known = |node: Node| match of(node) {
+            Value::Known(number) => number,
+            Value::At(_) => Form::anything(),
+        };
+        match op {
+            Op::Neg(a) => known(a).neg(),
+            Op::Add(a, b) => known(a).add(&known(b)),
+            Op::Sub(a, b) => known(a).sub(&known(b)),
+            Op::Mul(a, b) => known(a).mul(&known(b)),
+            Op::Div(a, b) => known(a).mul(&known(b).reciprocal()),
+            Op::Pow(a, b) => known(a).power(known(b).centre),
+            Op::Atan2(a, b) => known(a).angle(&known(b)).0,
+            Op::Min(a, b) => known(a).smaller(&known(b)),
+            Op::Max(a, b) => known(a).larger(&known(b)),
+            Op::Call(function, a) => match (function, known(a)) {
+                // A sum of squares that are all 0 has the root 0, and no slope.
+                (Function::Sqrt, Form { centre: 0.0, rest: 0.0, .. }) => Form::known(0.0, 0.0),
+                (function, a) => a.call(function).0,
+            },
+            Op::Lookup(Lookup { table, order }, a) => {
+                known(a).look_up(&self.tape.tables[usize::from(table)], u32::from(order))
+            }
+            Op::Constant(bits) => Form::known(f64::from_bits(bits), 0.0),
+            Op::Symbol(_) => Form::anything(),
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! What is certified is never exceeded: random boxes on random robots, boxes that are chosen to break it, and cases that are solved
+//! by hand.
+
+mod robot;
+
+use abbe::{Class, Manipulator};
+use abbe_codegen::chain::{Magnitude, Magnitudes};
+use abbe_codegen::expr::Symbol;
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_interpreter::bound::{Bound, Effort, Moving, largest};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// A number with rounding of its own: errors are summed here from the columns of `J_e`, another way than the bounds are.
+const ROUNDING: f64 = 1e-12;
+
+fn moving(spec: &Spec) -> Vec<Moving> {
+    let joints = spec.variables.iter().enumerate().map(|(i, variable)| Moving {
+        symbol: Symbol::Variable(i),
+        range: variable.limits,
+        home: variable.home,
+    });
+    let inputs = spec.inputs.iter().enumerate().map(|(i, input)| Moving {
+        symbol: Symbol::Input(i),
+        range: input.range,
+        home: input.value,
+    });
+    joints.chain(inputs).collect()
+}
+
+fn home(symbol: Symbol, spec: &Spec) -> f64 {
+    match symbol {
+        Symbol::Variable(i) => spec.variables[i].home,
+        Symbol::Parameter(i) => spec.parameters[i].value,
+        Symbol::Input(i) => spec.inputs[i].value,
+        _ => f64::NAN,
+    }
+}
+
+fn bounded(
+    spec: &Spec,
+    magnitudes: &mut Magnitudes,
+    magnitude: Magnitude,
+    box_: &[Moving],
+    effort: &Effort,
+) -> Bound {
+    largest(&mut magnitudes.graph, magnitude, box_, |symbol| home(symbol, spec), effort, &mut |_| true)
+}
+
+/// Repeatable, random, both added; of each the norm, x, y, z, and the norm of rows 4–6.
+fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
+    let description = robot.description();
+    let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+    robot.error_jacobian(q, &[], &mut columns).ok()?;
+    let mut effects = vec![0.0; description.effects.len()];
+    robot.effects(q, &[], u, &mut effects).ok()?;
+    let mut moved = vec![[0.0; 6]; description.sources.len()];
+    for (effect, value) in description.effects.iter().zip(&effects) {
+        let column = &columns[6 * effect.frame + effect.component.index()];
+        for (sum, entry) in moved[effect.source].iter_mut().zip(column) {
+            *sum += value * entry;
+        }
+    }
+    let (mut repeatable, mut squares) = ([0.0; 6], [0.0; 6]);
+    for (source, moved) in description.sources.iter().zip(&moved) {
+        for i in 0..6 {
+            match source.class {
+                Class::Repeatable => repeatable[i] += moved[i],
+                Class::Random(_) => squares[i] += moved[i] * moved[i],
+            }
+        }
+    }
+    let norm = |squares: &[f64]| squares.iter().sum::<f64>().sqrt();
+    let own = repeatable.map(|value| value * value);
+    let five = |s: [f64; 6]| [norm(&s[..3]), s[0].sqrt(), s[1].sqrt(), s[2].sqrt(), norm(&s[3..])];
+    let (first, second) = (five(own), five(squares));
+    Some([first, second, std::array::from_fn(|i| first[i] + second[i])])
+}
+
+/// A box within that of the joints and inputs: often wide, sometimes narrow or a point, sometimes at an end.
+fn part(all: &[Moving], random: &mut impl Rng) -> Vec<Moving> {
+    all.iter()
+        .map(|name| {
+            let [low, high] = name.range;
+            let width = (high - low) * [0.0, 1e-9, 0.01, 0.3, 1.0][random.random_range(0..5)];
+            let low = match random.random_range(0..3) {
+                0 => low,
+                1 => high - width,
+                _ => low + random.random_range(0.0..=1.0) * (high - low - width),
+            };
+            Moving { range: [low, (low + width).min(high)], ..*name }
+        })
+        .collect()
+}
+
+/// A place in a box: anywhere, or with some joints at their ends.
+fn place(box_: &[Moving], random: &mut impl Rng) -> Vec<f64> {
+    let within = |name: &Moving, random: &mut dyn FnMut() -> f64| {
+        let [low, high] = name.range;
+        match random() {
+            r if r < 0.15 => low,
+            r if r > 0.85 => high,
+            _ => (low + random() * (high - low)).min(high),
+        }
+    };
+    box_.iter().map(|name| within(name, &mut || random.random_range(0.0..1.0))).collect()
+}
+
+fn is_sound(seed: u64, boxes: usize, samples: usize) {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let text = robot::spec(&mut random);
+    let spec = Spec::parse("robot.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
+    let robot = Interpreter::new(spec.clone());
+    let mut magnitudes = Magnitudes::new(&spec);
+    let all = moving(&spec);
+    for _ in 0..boxes {
+        let box_ = part(&all, &mut random);
+        let effort =
+            Effort { gap: 0.02, boxes: [1, 40, 400][random.random_range(0..3)], ..Effort::default() };
+        let places: Vec<Vec<f64>> = (0..samples).map(|_| place(&box_, &mut random)).collect();
+        let seen: Vec<[[f64; 5]; 3]> = places
+            .iter()
+            .filter_map(|place| {
+                let (q, u) = place.split_at(spec.variables.len());
+                sizes(&robot, q, u)
+            })
+            .collect();
+        let kinds = [magnitudes.repeatable, magnitudes.random, magnitudes.radius];
+        for (k, five) in kinds.into_iter().enumerate() {
+            for (i, magnitude) in five.into_iter().enumerate() {
+                let bound = bounded(&spec, &mut magnitudes, magnitude, &box_, &effort);
+                let most = seen.iter().map(|sizes| sizes[k][i]).fold(0.0, f64::max);
+                let slack = ROUNDING * (most + 1e-6);
+                assert!(
+                    most <= bound.certified + slack,
+                    "robot {seed}, {k} {i}: {most:e} above {bound:?}\n{box_:?}\n{text}"
+                );
+                assert!(bound.found <= bound.certified);
+                assert!(!bound.complete || bound.certified <= bound.found * 1.02 + 1e-9, "{bound:?}");
+                let (q, u) = bound.at.split_at(spec.variables.len());
+                if let Some(sizes) = sizes(&robot, q, u) {
+                    // Near an Euler singularity rounding alone moves it by far more than elsewhere.
+                    let found = sizes[k][i];
+                    assert!(
+                        (found - bound.found).abs() <= 1e-6 * (found + 1e-6),
+                        "robot {seed}, {k} {i}: {found:e} at {bound:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// `ABBE_BOXES` and `ABBE_SAMPLES` make it longer.
+#[test]
+fn nothing_exceeds_what_is_certified() {
+    let given = |name: &str, otherwise| {
+        std::env::var(name).ok().map_or(otherwise, |count: String| count.parse().expect("a number"))
+    };
+    let (boxes, samples) = (given("ABBE_BOXES", 2), given("ABBE_SAMPLES", 60));
+    for seed in 0..30 {
+        is_sound(seed, boxes, samples);
+    }
+}
+
+/// Two bars in a plane, of which each joint is off: `ΔX = e_1 (l_1 + l_2)` when stretched, and what follows from its box otherwise.
+fn two_bars(limits: &str) -> Spec {
+    let text = format!(
+        r#"
+        [manipulator]
+        name = "bars"
+        length = "mm"
+        [[frame]]
+        name = "shoulder"
+        variable = {{ name = "q1", kind = "revolute", limits = ["-180 deg", "180 deg"] }}
+        transform = "Rz(q1)"
+        [[frame]]
+        name = "elbow"
+        variable = {{ name = "q2", kind = "revolute", limits = {limits}, home = "90 deg" }}
+        transform = "Tx(400) Rz(q2)"
+        [tool]
+        transform = "Tx(300)"
+        [[source]]
+        name = "shoulder"
+        class = "repeatable"
+        joint = "q1"
+        error = "1 mrad"
+        [[source]]
+        name = "elbow"
+        class = "random"
+        distribution = "uniform"
+        joint = "q2"
+        error = "2 mrad"
+        "#
+    );
+    Spec::parse("bars.toml", &text).unwrap()
+}
+
+fn is(bound: &Bound, exact: f64) {
+    assert!(bound.complete, "{bound:?}");
+    assert!(
+        bound.found <= exact * (1.0 + 1e-15) && bound.certified >= exact * (1.0 - 1e-15),
+        "{exact}: {bound:?}"
+    );
+    assert!(
+        bound.certified <= exact * (1.0 + 1e-6) && bound.found >= exact * (1.0 - 1e-6),
+        "{exact}: {bound:?}"
+    );
+}
+
+#[test]
+fn maxima_that_are_known_exactly_are_enclosed() {
+    let effort = Effort { gap: 1e-7, boxes: 200_000, ..Effort::default() };
+    // ‖ΔX‖ = e √(l₁² + l₂² + 2 l₁ l₂ cos q₂): stretched 700 mm, at 60° and beyond √(400² + 300² + 400·300) mm.
+    for (limits, reach) in
+        [("[\"-150 deg\", \"150 deg\"]", 700.0), ("[\"60 deg\", \"150 deg\"]", 370_000.0_f64.sqrt())]
+    {
+        let spec = two_bars(limits);
+        let all = moving(&spec);
+        let mut magnitudes = Magnitudes::new(&spec);
+        let (repeatable, random, radius) = (magnitudes.repeatable, magnitudes.random, magnitudes.radius);
+        let mut bounded = |magnitude| bounded(&spec, &mut magnitudes, magnitude, &all, &effort);
+        is(&bounded(repeatable[0]), 1e-3 * reach);
+        is(&bounded(random[0]), 2e-3 * 300.0);
+        is(&bounded(radius[0]), 1e-3 * reach + 0.6);
+        is(&bounded(repeatable[4]), 1e-3);
+        // Along x, y of F_0 the first joint turns it wherever it is largest.
+        is(&bounded(repeatable[1]), 1e-3 * reach);
+        is(&bounded(random[2]), 0.6);
+        assert!(bounded(repeatable[3]).certified < 1e-150);
+    }
+}
+
+#[test]
+fn boxes_that_are_chosen_to_break_it_do_not() {
+    let spec = two_bars("[\"-150 deg\", \"150 deg\"]");
+    let mut magnitudes = Magnitudes::new(&spec);
+    let norm = magnitudes.repeatable[0];
+    let robot = Interpreter::new(spec.clone());
+    let at = |low: f64, high: f64| {
+        let all = moving(&spec);
+        vec![all[0], Moving { range: [low, high], ..all[1] }]
+    };
+    let degree = std::f64::consts::PI / 180.0;
+    let largest = [
+        // A point; neighbours of the stretched arm; a turn and more; both ends alike.
+        (at(0.3, 0.3), 0.3_f64),
+        (at(0.0, 0.0_f64.next_up()), 0.0),
+        (at(-f64::EPSILON, f64::EPSILON), 0.0),
+        (at(-10.0, 10.0), 0.0),
+        (at(-150.0 * degree, 150.0 * degree), 0.0),
+        (at(1e-8, 2e-8), 1e-8),
+    ];
+    for (box_, best) in largest {
+        let bound = bounded(&spec, &mut magnitudes, norm, &box_, &Effort { gap: 1e-9, ..Effort::default() });
+        let exact = sizes(&robot, &[0.0, best], &[]).unwrap()[0][0];
+        assert!(bound.certified >= exact * (1.0 - 1e-15), "{bound:?} {exact}");
+        assert!(bound.certified <= exact * (1.0 + 1e-8) && bound.complete, "{bound:?} {exact}");
+    }
+}
+
+/// Two large errors that cancel but for a little: the bound is that of the difference, as good as numbers of this size can be known.
+#[test]
+fn what_cancels_is_known_as_well_as_its_parts() {
+    let text = r#"
+        [manipulator]
+        name = "cancel"
+        length = "m"
+        [[frame]]
+        name = "slide"
+        variable = { name = "d", kind = "prismatic", limits = [0, 1] }
+        transform = "Tx(d)"
+        [[source]]
+        name = "one"
+        class = "repeatable"
+        frame = "slide"
+        e_x = "1e6 * d + 1e-6 m * sin(d/(1 m))"
+        [[source]]
+        name = "other"
+        class = "repeatable"
+        frame = "slide"
+        e_x = "-1e6 * d"
+    "#;
+    let spec = Spec::parse("cancel.toml", text).unwrap();
+    let mut magnitudes = Magnitudes::new(&spec);
+    let norm = magnitudes.repeatable[0];
+    let all = moving(&spec);
+    let bound = bounded(&spec, &mut magnitudes, norm, &all, &Effort::default());
+    let exact = 1e-6 * 1.0_f64.sin();
+    assert!(bound.certified >= exact && bound.found <= exact + 1e-9, "{bound:?}");
+}
