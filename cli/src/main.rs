@@ -6,6 +6,7 @@
 
 mod analyze;
 mod arguments;
+mod bound;
 mod check;
 mod compensate;
 mod completions;
@@ -55,6 +56,7 @@ fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Jacobian(arguments)) => jacobian::run(arguments),
         Some(Command::Analyze(arguments)) => analyze::run(arguments),
+        Some(Command::Bound(arguments)) => bound::run(arguments),
         Some(Command::Merge(arguments)) => merge::run(arguments),
         Some(Command::Import(arguments)) => import::run(arguments),
         Some(Command::Doctor(arguments)) => doctor::run(arguments),

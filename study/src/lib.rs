@@ -42,6 +42,7 @@
 //! run; [`study_file`] the study files, [`workspace`] the configurations that they ask for; [`data`] measurements.
 
 pub mod analyze;
+pub mod bound;
 pub mod check;
 pub mod compensate;
 pub mod doctor;

@@ -119,6 +119,22 @@ pub fn digits(value: f64, digits: usize) -> String {
     short(format!("{value:.decimals$e}").parse().unwrap_or(value))
 }
 
+/// A number with this many decimals that is not below it.
+pub fn rounded_up(value: f64, decimals: usize) -> String {
+    let step = 0.1_f64.powi(decimals as i32);
+    let nearest = fixed(value, decimals);
+    let is_less = nearest.parse::<f64>().is_ok_and(|nearest| nearest < value);
+    if is_less { fixed(value + step, decimals) } else { nearest }
+}
+
+/// A number with this many decimals that is not above it.
+pub fn rounded_down(value: f64, decimals: usize) -> String {
+    let step = 0.1_f64.powi(decimals as i32);
+    let nearest = fixed(value, decimals);
+    let is_more = nearest.parse::<f64>().is_ok_and(|nearest| nearest > value);
+    if is_more { fixed(value - step, decimals) } else { nearest }
+}
+
 /// A share in whole percent.
 pub fn percent(value: f64, of: f64) -> String {
     format!("{:.0} %", 100.0 * value / of)

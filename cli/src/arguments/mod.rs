@@ -3,6 +3,7 @@
 #[macro_use]
 mod help;
 mod analyze;
+mod bound;
 mod check;
 mod compensate;
 mod completions;
@@ -23,6 +24,7 @@ mod simulate;
 mod values;
 
 pub(crate) use analyze::Analyze;
+pub(crate) use bound::Bound;
 pub(crate) use check::Check;
 pub(crate) use compensate::Compensate;
 pub(crate) use completions::Completions;
@@ -77,6 +79,8 @@ pub(crate) enum Command {
     Jacobian(Jacobian),
     /// What every error source does over a workspace, alone and together
     Analyze(Analyze),
+    /// How large the errors are at most: a largest error that was found, and one that nothing exceeds, with a proof
+    Bound(Bound),
     /// The report of an analysis that was made in parts, on one machine or on many
     Merge(Merge),
     /// Generate code: pose, error Jacobian and sources in closed form

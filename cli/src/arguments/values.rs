@@ -29,6 +29,17 @@ pub(super) fn share(text: &str) -> Result<f64, String> {
     if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share is from 0 to 1".to_owned()) }
 }
 
+/// `1%` or `0.01`.
+pub(super) fn gap(text: &str) -> Result<f64, String> {
+    let (digits, unit) = match text.trim().strip_suffix('%') {
+        Some(digits) => (digits, 0.01),
+        None => (text, 1.0),
+    };
+    let value = digits.trim().parse::<f64>().map_err(|error| error.to_string())? * unit;
+    let is_gap = value > 0.0 && value < 10.0;
+    if is_gap { Ok(value) } else { Err("a gap is more than 0: `1%`, `0.1%`".to_owned()) }
+}
+
 pub(super) fn folds(text: &str) -> Result<usize, String> {
     let value = text.parse::<usize>().map_err(|error| error.to_string())?;
     if (2..=1000).contains(&value) { Ok(value) } else { Err("from 2 to 1000 parts".to_owned()) }

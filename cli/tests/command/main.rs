@@ -3,6 +3,7 @@
 mod abuse;
 mod analyze;
 mod bad_input;
+mod bound;
 mod check;
 mod compensate;
 mod documents;

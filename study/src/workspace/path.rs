@@ -16,7 +16,7 @@ use abbe_codegen::bounded::{Bounded, Unfit, not_text};
 use abbe_codegen::cell::meant;
 use abbe_codegen::diagnostic::Diagnostic;
 use abbe_codegen::document::{Document, Section};
-use abbe_codegen::expr::{Dimension, LARGEST, find_name, parse_value};
+use abbe_codegen::expr::{Dimension, LARGEST, Symbol, find_name, parse_value};
 use abbe_codegen::spec::{Input, Spec, VariableKind};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
@@ -76,6 +76,18 @@ impl Path {
         self.columns.iter().filter_map(|column| match column.place {
             Place::Input(i) => Some(i),
             Place::Variable(_) | Place::Parameter(_) => None,
+        })
+    }
+
+    /// What has a column, and its values.
+    pub(super) fn columns(&self) -> impl Iterator<Item = (Symbol, Vec<f64>)> {
+        self.columns.iter().enumerate().map(|(k, column)| {
+            let symbol = match column.place {
+                Place::Variable(i) => Symbol::Variable(i),
+                Place::Parameter(i) => Symbol::Parameter(i),
+                Place::Input(i) => Symbol::Input(i),
+            };
+            (symbol, self.configurations.iter().map(|values| values[k]).collect())
         })
     }
 

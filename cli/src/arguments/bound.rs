@@ -1,0 +1,33 @@
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+
+use super::shared::{Running, Subject};
+use super::values;
+
+#[derive(Args, Debug)]
+#[command(after_help = after_help!(
+    "  abbe bound pps
+  abbe bound arm.toml --gap 0.1%
+  abbe bound arm.toml --study cell.toml --set payload=5kg --json
+"))]
+pub(crate) struct Bound {
+    #[command(flatten)]
+    pub(crate) subject: Subject,
+    /// Study file: its workspace is the box. If not given as for `abbe analyze`; without any, the limits of the joints and the
+    /// ranges of the inputs
+    #[arg(long, value_name = "FILE")]
+    pub(crate) study: Option<PathBuf>,
+    /// How much more than the largest error that was found the certified one may be, in percent or as a share
+    #[arg(long, value_name = "GAP", default_value = "1%", value_parser = values::gap)]
+    pub(crate) gap: f64,
+    /// The most boxes that are looked at for each error
+    #[arg(long, value_name = "N", default_value_t = 300_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pub(crate) boxes: u64,
+    /// End after this time, with what is proved until then: `60s`, `5min`
+    #[arg(long, value_name = "TIME", value_parser = values::duration)]
+    pub(crate) time: Option<Duration>,
+    #[command(flatten)]
+    pub(crate) running: Running,
+}

@@ -1,0 +1,122 @@
+//! `abbe bound`: the shape of its JSON, what it prints, and that nothing that is sampled exceeds it.
+
+use serde_json::Value;
+use tempfile::tempdir;
+
+use crate::running::{abbe, json, prints, write};
+
+const KINDS: [&str; 3] = ["repeatable", "random", "radius"];
+const ERRORS: [&str; 5] = ["norm", "x", "y", "z", "orientation"];
+
+fn refused(arguments: &[&str], expected: &[&str]) {
+    let run = abbe(arguments);
+    assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{}", run.stderr);
+    for part in expected {
+        assert!(run.stderr.contains(part), "{part}\n{}", run.stderr);
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("a number: {value}"))
+}
+
+#[test]
+fn the_json_is_as_documented() {
+    let report = json(&["bound", "machine3", "--json"]);
+    assert_eq!((&report["manipulator"], &report["length"]), (&"machine3".into(), &"mm".into()));
+    assert_eq!((number(&report["gap"]), report["complete"].as_bool()), (0.01, Some(true)));
+    assert!(report["boxes"].as_u64().is_some() && report["contains_more"] == false);
+    assert_eq!(report["box"]["temperature_rise"], serde_json::json!([-15.0, 15.0]));
+    for kind in KINDS {
+        for error in ERRORS {
+            let largest = &report[kind][error];
+            let (found, certified) = (number(&largest["found"]), number(&largest["certified"]));
+            assert!(found <= certified && certified <= 1.01 * found + 1e-9, "{kind} {error}: {largest}");
+            let at: Vec<&String> = largest["at"].as_object().unwrap().keys().collect();
+            assert_eq!(at, ["temperature_rise", "x", "y", "z"]);
+        }
+    }
+}
+
+/// What the analysis samples lies below, where it is the box that it samples; and not far below.
+#[test]
+fn nothing_that_is_sampled_exceeds_it() {
+    for name in ["pps", "machine3", "puma560"] {
+        let analysis = json(&["analyze", name, "--json"]);
+        let bound = json(&["bound", name, "--json", "--gap", "5%"]);
+        for (sampled, kind) in ["repeatable_radius", "random_radius", "radius"].into_iter().zip(KINDS) {
+            let sampled = number(&analysis["combined"][sampled]);
+            let certified = number(&bound[kind]["norm"]["certified"]);
+            assert!(sampled <= certified * (1.0 + 1e-12), "{name} {kind}: {sampled} > {certified}");
+            assert!(sampled >= 0.7 * number(&bound[kind]["norm"]["found"]), "{name} {kind}: {sampled}");
+        }
+    }
+}
+
+/// The error at the place that is printed is the one that was found.
+#[test]
+fn the_place_has_the_error_that_was_found() {
+    let report = json(&["bound", "general6r", "--json", "--boxes", "500"]);
+    let norm = &report["repeatable"]["norm"];
+    let q: Vec<String> =
+        norm["at"].as_object().unwrap().values().map(|value| number(value).to_string()).collect();
+    let there = json(&["jacobian", "general6r", "--q", &q.join(","), "--json"]);
+    let errors: Vec<f64> = there["generalized_errors"].as_array().unwrap().iter().map(number).collect();
+    let row = |i: usize| -> f64 {
+        let row = there["error_jacobian"][i].as_array().unwrap().iter().map(number);
+        row.zip(&errors).map(|(entry, error)| entry * error).sum()
+    };
+    let size = (0..3).map(|i| row(i).powi(2)).sum::<f64>().sqrt();
+    assert!((size - number(&norm["found"])).abs() < 1e-9 * size, "{size} {norm}");
+}
+
+#[test]
+fn the_text_says_what_is_proved() {
+    let text = prints(&["bound", "machine3"]);
+    for part in
+        ["The box: x from 0 mm to 600 mm", "at least", "at most", "nothing in the box exceeds the second"]
+    {
+        assert!(
+            text.replace('\u{a0}', " ").split_whitespace().collect::<Vec<_>>().join(" ").contains(part),
+            "{part}\n{text}"
+        );
+    }
+    // Printed numbers are rounded to the safe side.
+    let report = json(&["bound", "machine3", "--json"]);
+    let line = text.lines().find(|line| line.trim_start().starts_with("norm")).unwrap();
+    let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    let norm = &report["repeatable"]["norm"];
+    assert!(
+        numbers[0] <= number(&norm["found"]) && numbers[1] >= number(&norm["certified"]),
+        "{line} {norm}"
+    );
+}
+
+#[test]
+fn what_is_not_reached_is_said() {
+    let outcome = abbe(&["bound", "ur5", "--boxes", "10"]);
+    assert!(outcome.stdout.contains("gap not reached"), "{}", outcome.stdout);
+    assert!(outcome.stderr.contains("what is certified holds"), "{}", outcome.stderr);
+    let report = json(&["bound", "ur5", "--boxes", "10", "--json"]);
+    assert_eq!(report["complete"], false);
+}
+
+#[test]
+fn threads_change_nothing() {
+    let one = abbe(&["bound", "puma560", "--threads", "1", "--json"]).stdout;
+    assert_eq!(one, abbe(&["bound", "puma560", "--threads", "3", "--json"]).stdout);
+}
+
+#[test]
+fn mistakes_have_a_way_out() {
+    let folder = tempdir().unwrap();
+    let spec = write(
+        folder.path(),
+        "endless.toml",
+        "[manipulator]\nname = \"endless\"\nlength = \"mm\"\n[[frame]]\nname = \"rail\"\nvariable = { name = \"d1\", kind = \"prismatic\" }\n\
+         transform = \"Tx(d1)\"\n",
+    );
+    refused(&["bound", spec.to_str().unwrap()], &["`d1` has no limits", "give it `limits` in the spec"]);
+    refused(&["bound", "pps", "--gap", "0"], &["a gap is more than 0"]);
+    refused(&["bound", "pps", "--gap", "x%"], &["invalid float"]);
+}

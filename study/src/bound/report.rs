@@ -1,0 +1,187 @@
+//! What is proved.
+
+use std::sync::Arc;
+
+use abbe_codegen::spec::{Class, Spec};
+use abbe_interpreter::bound::{self, Effort};
+use indexmap::IndexMap;
+use serde::Serialize;
+
+use crate::notes::Notes;
+use crate::number;
+use crate::study_file::Study;
+use crate::workspace::{Span, name};
+
+use super::home;
+
+/// What [`Bound`](super::Bound) proves. Lengths in the spec's unit, angles in rad; the true maximum of each error, to first
+/// order in the errors of the sources, lies between `found` and `certified`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The manipulator.
+    pub manipulator: String,
+    /// The unit of every length.
+    pub length: &'static str,
+    /// Which share of `found` `certified` may exceed it by.
+    pub gap: f64,
+    /// Of the repeatable sources, with their signs.
+    pub repeatable: Errors,
+    /// Root sum of squares of the random sources.
+    pub random: Errors,
+    /// Both, added.
+    pub radius: Errors,
+    /// From where to where everything goes that moves.
+    #[serde(rename = "box")]
+    pub spans: IndexMap<String, [f64; 2]>,
+    /// Whether the box holds more than the workspace of the study.
+    pub contains_more: bool,
+    /// How many boxes were looked at.
+    pub boxes: usize,
+    /// Whether the gap was reached everywhere.
+    pub complete: bool,
+    /// Of which manipulator, for names and units.
+    #[serde(skip)]
+    pub spec: Arc<Spec>,
+    /// The study.
+    #[serde(skip)]
+    pub study: Study,
+    /// The box.
+    #[serde(skip)]
+    pub moved: Vec<Span>,
+}
+
+/// Of which classes there are sources that are switched on.
+#[derive(Clone, Copy)]
+pub(super) struct Classes {
+    pub(super) repeatable: bool,
+    pub(super) random: bool,
+}
+
+impl Classes {
+    pub(super) fn of(spec: &Spec) -> Self {
+        let any = |repeatable: bool| {
+            spec.enabled_sources().any(|source| (source.class == Class::Repeatable) == repeatable)
+        };
+        Self { repeatable: any(true), random: any(false) }
+    }
+}
+
+/// Errors of one kind.
+#[derive(Clone, Debug, Serialize)]
+pub struct Errors {
+    /// ‖ΔX‖ of the position.
+    pub norm: Largest,
+    /// Along x of `F_0`.
+    pub x: Largest,
+    /// Along y.
+    pub y: Largest,
+    /// Along z.
+    pub z: Largest,
+    /// The norm of rows 4–6, rad.
+    pub orientation: Largest,
+}
+
+/// The largest size of an error.
+#[derive(Clone, Debug, Serialize)]
+pub struct Largest {
+    /// It is at least this.
+    pub found: f64,
+    /// It is at most this; none if nothing could be proved.
+    pub certified: Option<f64>,
+    /// Where `found` is: the value of every variable, and of every parameter and input that moves.
+    pub at: IndexMap<String, f64>,
+    /// How many boxes were looked at.
+    pub boxes: usize,
+    /// Whether the gap was reached.
+    pub complete: bool,
+    /// Where `found` is, but for what is at home.
+    #[serde(skip)]
+    pub place: String,
+}
+
+impl Report {
+    pub(super) fn new(
+        spec: Arc<Spec>,
+        study: &Study,
+        effort: &Effort,
+        moved: Vec<Span>,
+        [repeatable, random, radius]: [Errors; 3],
+    ) -> Self {
+        let all = || [&repeatable, &random, &radius].into_iter().flat_map(Errors::all);
+        let spans = moved.iter().map(|span| (name(span.symbol, &spec).to_owned(), span.range)).collect();
+        let (boxes, complete) =
+            (all().map(|largest| largest.boxes).sum(), all().all(|largest| largest.complete));
+        Self {
+            manipulator: spec.name.clone(),
+            length: spec.length.symbol(),
+            gap: effort.gap,
+            repeatable,
+            random,
+            radius,
+            spans,
+            contains_more: !study.region.is_box(),
+            boxes,
+            complete,
+            spec,
+            study: study.clone(),
+            moved,
+        }
+    }
+
+    /// The kinds of errors of which there are sources: what they are called, and how they are summed.
+    pub fn kinds(&self) -> Vec<(&'static str, &Errors)> {
+        let Classes { repeatable, random } = Classes::of(&self.spec);
+        let kinds = [
+            ("Repeatable sources, with their signs", &self.repeatable, repeatable),
+            ("Random sources at their bounds, root sum of squares", &self.random, random),
+            ("Both, added", &self.radius, repeatable && random),
+        ];
+        kinds.into_iter().filter(|(.., any)| *any).map(|(title, errors, _)| (title, errors)).collect()
+    }
+
+    pub(super) fn warn(&self, notes: &mut dyn Notes) {
+        if self.contains_more {
+            notes.note(
+                "the box contains more than the workspace of the study: what is certified holds for the workspace, too, but its \
+                 own maximum may be smaller",
+            );
+        }
+        if !self.complete {
+            notes.warn(&format!(
+                "the gap of {} was not reached everywhere: what is certified holds, but may be far more than the maximum; \
+                 --boxes allows more work",
+                number::percent(self.gap, 1.0)
+            ));
+        }
+    }
+}
+
+impl Errors {
+    /// All five, in the order of the report.
+    pub fn all(&self) -> [&Largest; 5] {
+        [&self.norm, &self.x, &self.y, &self.z, &self.orientation]
+    }
+}
+
+impl Largest {
+    pub(super) fn new(bound: &bound::Bound, spans: &[Span], spec: &Spec) -> Self {
+        let variables = spec.variables.iter().map(|variable| (variable.name.clone(), variable.home));
+        let mut at: IndexMap<String, f64> = variables.collect();
+        let mut place = Vec::new();
+        for (span, value) in spans.iter().zip(&bound.at) {
+            let name = name(span.symbol, spec);
+            at.insert(name.to_owned(), *value);
+            if *value != home(span.symbol, spec) {
+                place.push(format!("{name} = {}", number::of_symbol(*value, span.symbol, spec)));
+            }
+        }
+        Self {
+            found: bound.found,
+            certified: Some(bound.certified).filter(|certified| certified.is_finite()),
+            at,
+            boxes: bound.boxes,
+            complete: bound.complete,
+            place: place.join(", "),
+        }
+    }
+}
