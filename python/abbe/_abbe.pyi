@@ -107,6 +107,17 @@ class Machine:
         threads: int | None = None,
         progress: _Progress | None = None,
     ) -> Part: ...
+    def bound(
+        self,
+        study: _Path | None = None,
+        *,
+        study_text: str | None = None,
+        gap: float = 0.01,
+        boxes: int = 300_000,
+        time: float | None = None,
+        threads: int | None = None,
+        progress: _Progress | None = None,
+    ) -> Report: ...
     def measure(self, data: _Measured, map: _Path, *, new_station: bool = False, accept: str | None = None) -> Report: ...
     def identify(
         self,

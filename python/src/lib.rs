@@ -1,7 +1,7 @@
 //! The Python package `abbe`: what `abbe-study` and `abbe-interpreter` do, for NumPy arrays.
 //!
-//! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `doctor` and `exchange` those
-//! that take and give what is of others, `commands` single commands. `functions`
+//! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `bound` what is certified of it,
+//! `doctor` and `exchange` what takes and gives what is of others, `commands` single commands. `functions`
 //! evaluates: `layout` says where numbers go, `arrays` reads what users give, `measured` what they measured, `batch` runs over many
 //! configurations. `job` runs a job beside Python, `report` is what it found, `table` what Arrow reads of it, `part` a part of an
 //! analysis; `failure` makes exceptions of mistakes.
@@ -9,6 +9,7 @@
 mod arrays;
 mod asked;
 mod batch;
+mod bound;
 mod commands;
 mod doctor;
 mod evaluated;

@@ -2,6 +2,9 @@
 
 use super::form::{Form, UNIT};
 
+/// No sum here has more than 4096 roundings: those of 32 names, each with each, twice.
+const SUMS: f64 = 4096.0 * UNIT;
+
 /// With slopes `c_i + Σ_j a_ij t_j ± r_i` and half widths w
 ///
 /// ```text
@@ -40,7 +43,7 @@ impl<const N: usize> Growth<N> {
         Self { names, rest, quadratic: Quadratic { more: 4.0 * UNIT * rounding, first, second } }
     }
 
-    /// What it is at most, before the rounding of sums; not a number if any part of it is not.
+    /// What it is at most; not a number if any part of it is not.
     ///
     /// The least of what follows from the quadratic as it is and from those that are left when one name after the other, that
     /// with the strongest curve first, is eliminated.
@@ -60,7 +63,7 @@ impl<const N: usize> Growth<N> {
                 least = most;
             }
         }
-        least
+        least * (1.0 + SUMS)
     }
 
     /// What one name has to do with it.

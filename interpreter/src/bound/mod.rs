@@ -1,4 +1,5 @@
-//! The largest value of a node over a box of joints and inputs, with a proof: branch and bound on affine forms.
+//! The largest value of a node that is never negative, over a box of joints and inputs, with a proof: branch and bound on affine
+//! forms.
 //!
 //! `form` is a number while names move within their ranges, all roundings covered; `functions` and `tables` are what is
 //! done to it, `tape` the operations of a graph one after the other; `period` whether a joint comes round, `cell` what is known of the node
@@ -94,7 +95,7 @@ pub struct Progress {
     pub boxes: usize,
 }
 
-/// The largest value of a node over the box in which some names move, all others being as `fixed` says.
+/// The largest value of a node that is never negative over the box in which some names move, all others being as `fixed` says.
 ///
 /// The value is that in real numbers of the node with the numbers of the graph, which are taken for exact. `watch` is told
 /// after every round how far it is, and ends the search by `false`. Which boxes are looked at depends on nothing else than

@@ -1,0 +1,65 @@
+//! How large the errors of a machine are at most.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use abbe_codegen::document::Document;
+use abbe_interpreter::bound::Effort;
+use abbe_report::text;
+use abbe_study::Study;
+use abbe_study::bound::Bound as Job;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::failure::guarded;
+use crate::job::run;
+use crate::machine::Machine;
+use crate::report::Report;
+
+#[pymethods]
+impl Machine {
+    /// How large the errors are at most, over a box of joints, parameters and inputs, with a proof.
+    ///
+    /// `study`, `study_text`: as for `analyze`; the box is the one that contains its workspace. `gap`: by which share of what is found
+    /// what is certified may exceed it. `boxes`: the most that are looked at for each error; `time`: seconds, after which no more are.
+    ///
+    /// Of `.repeatable`, `.random` and `.radius`, the errors `.norm`, `.x`, `.y`, `.z` and `.orientation`: the true maximum, to first
+    /// order, lies between `.found`, at `.at`, and `.certified`, which is None if nothing could be proved. Lengths in the unit of the
+    /// spec, angles in rad, in F_0; fields as those of `abbe bound --json`.
+    ///
+    /// >>> import abbe
+    /// >>> norm = abbe.load("machine3").bound().repeatable.norm
+    /// >>> f"{norm.found:.3f} <= {norm.certified:.3f}", norm.complete
+    /// ('0.155 <= 0.156', True)
+    #[pyo3(signature = (study=None, *, study_text=None, gap=0.01, boxes=300_000, time=None, threads=None, progress=None))]
+    fn bound(
+        &self,
+        py: Python<'_>,
+        study: Option<PathBuf>,
+        study_text: Option<&str>,
+        gap: f64,
+        boxes: usize,
+        time: Option<f64>,
+        threads: Option<usize>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Report> {
+        if !(gap > 0.0 && gap.is_finite()) {
+            return Err(PyValueError::new_err("`gap` is more than 0, such as 0.01"));
+        }
+        let time = time.map(Duration::try_from_secs_f64).transpose();
+        let time = time.map_err(|error| PyValueError::new_err(format!("`time`: {error}")))?;
+        let (report, notes) = run(py, threads, progress, |notes| {
+            let machine = self.unchanged.clone();
+            let study = match (study_text, &study) {
+                (Some(text), None) => Study::read(Document::new("study_text", text), &machine.spec)?,
+                (_, file) => Study::find(file.as_deref(), &machine)?,
+            };
+            let mut job = Job::new(machine, study);
+            self.changes()?.iter().for_each(|changes| job.change(changes));
+            job.effort = Effort { gap, boxes, ..job.effort };
+            job.time = time;
+            job.run(notes)
+        })?;
+        Ok(Report::new("bound", &report, notes)?.printed(guarded(|| Ok(text::bound(&report)))?))
+    }
+}
