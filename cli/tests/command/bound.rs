@@ -38,6 +38,24 @@ fn the_json_is_as_documented() {
     }
 }
 
+/// The bound of a normal source is 3σ, as in the analysis: 0.3 mm/m · 400 mm.
+#[test]
+fn a_normal_source_stands_at_three_standard_deviations() {
+    let folder = tempdir().unwrap();
+    let spec = write(
+        folder.path(),
+        "arm.toml",
+        "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"a\"\n\
+         variable = { name = \"q1\", kind = \"revolute\", limits = [\"-90 deg\", \"90 deg\"] }\ntransform = \"Rz(q1)\"\n\
+         [tool]\ntransform = \"Tx(400)\"\n[[source]]\nname = \"encoder\"\nclass = \"random\"\ndistribution = \"normal\"\n\
+         joint = \"q1\"\nerror = \"0.1 mrad\"\n",
+    );
+    let norm = &json(&["bound", spec.to_str().unwrap(), "--json"])["random"]["norm"];
+    assert!(number(&norm["found"]) <= 0.12 + 1e-15 && number(&norm["certified"]) >= 0.12 - 1e-15, "{norm}");
+    let sampled = number(&json(&["analyze", spec.to_str().unwrap(), "--json"])["combined"]["random_radius"]);
+    assert!((sampled - 0.12).abs() < 1e-12, "{sampled}");
+}
+
 /// What the analysis samples lies below, where it is the box that it samples; and not far below.
 #[test]
 fn nothing_that_is_sampled_exceeds_it() {

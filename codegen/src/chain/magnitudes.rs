@@ -30,7 +30,7 @@ pub struct Magnitudes {
     pub graph: Graph,
     /// Of `Σ` of the enabled repeatable sources, with signs.
     pub repeatable: [Magnitude; 5],
-    /// Root sum of squares of the enabled random sources.
+    /// Root sum of squares of the enabled random sources at their bounds: of a normal one 3σ.
     pub random: [Magnitude; 5],
     /// Both, added.
     pub radius: [Magnitude; 5],
@@ -68,7 +68,11 @@ impl Magnitudes {
         let mut sums = [zero; 5];
         let errors = errors_by_source(zero, spec, &effects);
         for (source, errors) in spec.enabled_sources().zip(&errors) {
-            if source.class != Class::Repeatable {
+            if let Class::Random(distribution) = source.class {
+                let bound = g.constant(distribution.bound());
+                let errors: Vec<[Node; 6]> =
+                    errors.iter().map(|errors| errors.map(|error| g.mul(bound, error))).collect();
+                let errors = &errors;
                 let squares = Moved::by(g, spec, &links, &rows, errors).squares(g);
                 sums = std::array::from_fn(|i| g.add(sums[i], squares[i]));
             }

@@ -38,9 +38,17 @@ pub fn bound(report: &Report) -> String {
     for (title, errors) in &kinds {
         let _ = writeln!(text, "\n{title}\n{}", table(report, errors));
     }
+    let unknown =
+        kinds.iter().any(|(_, errors)| errors.all().iter().any(|largest| largest.certified.is_none()));
+    let unknown = match unknown {
+        true => {
+            " Where the second is not known nothing could be proved: perhaps something divides by 0 in the box."
+        }
+        false => "",
+    };
     let end = format!(
         "The true maximum of each error lies between both numbers: the first was found at this place, and nothing in the box exceeds \
-         the second. All to first order in the errors of the sources, ΔX = J_e ε. {} boxes were looked at.",
+         the second.{unknown} All to first order in the errors of the sources, ΔX = J_e ε. {} boxes were looked at.",
         report.boxes
     );
     let _ = writeln!(text, "{}", wrapped(&end, 0));

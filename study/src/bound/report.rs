@@ -149,7 +149,7 @@ impl Report {
         if !self.complete {
             notes.warn(&format!(
                 "the gap of {} was not reached everywhere: what is certified holds, but may be far more than the maximum; \
-                 --boxes allows more work",
+                 --boxes and --time allow more work",
                 number::percent(self.gap, 1.0)
             ));
         }

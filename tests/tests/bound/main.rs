@@ -67,7 +67,8 @@ fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
         for i in 0..6 {
             match source.class {
                 Class::Repeatable => repeatable[i] += moved[i],
-                Class::Random(_) => squares[i] += moved[i] * moved[i],
+                // At its bound: 3σ of a normal one.
+                Class::Random(distribution) => squares[i] += (distribution.bound() * moved[i]).powi(2),
             }
         }
     }

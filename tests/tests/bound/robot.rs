@@ -65,7 +65,10 @@ pub(crate) fn spec(random: &mut impl Rng) -> String {
     for k in 0..random.random_range(1..=5) {
         let class = match random.random_bool(0.5) {
             true => "class = \"repeatable\"",
-            false => "class = \"random\"\ndistribution = \"uniform\"",
+            false => {
+                let distribution = *["uniform", "normal", "arcsine"].choose(random).unwrap();
+                &format!("class = \"random\"\ndistribution = \"{distribution}\"")
+            }
         };
         let (joint, is_slide) = joints.choose(random).unwrap();
         let q = if *is_slide { format!("({joint}/(1 m))") } else { joint.clone() };
