@@ -68,7 +68,9 @@ impl Jacobian {
         let mut errors = vec![[0.0; 6]; description.frames.len()];
         let pose = interpreter
             .error_jacobian(&q, &s, &mut columns)
-            .and_then(|pose| interpreter.generalized_errors(&q, &s, &u, &mut errors).map(|()| pose))
+            .and_then(|_| interpreter.generalized_errors(&q, &s, &u, &mut errors))
+            // With the bits of every other pose: that beside J_e is computed in another order.
+            .and_then(|()| interpreter.pose(&q, &s))
             .map_err(|error| {
                 let error = first_effect(&interpreter, [&q, &s, &u], error);
                 mistake::not_evaluated(
