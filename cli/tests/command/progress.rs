@@ -20,7 +20,7 @@ use crate::workshop::Workshop;
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// How many rows a run has that takes long.
-const ROWS: usize = 100_000;
+const ROWS: usize = 400_000;
 
 /// Runs that take minutes: they are ended as soon as they have told.
 const LONG: [&str; 4] = [
