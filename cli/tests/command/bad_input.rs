@@ -7,7 +7,7 @@ use tempfile::tempdir;
 
 use crate::running::{abbe, write};
 
-fn refused<S: AsRef<std::ffi::OsStr> + std::fmt::Debug>(arguments: &[S], expected: &[&str]) {
+pub(crate) fn refused<S: AsRef<std::ffi::OsStr> + std::fmt::Debug>(arguments: &[S], expected: &[&str]) {
     let run = abbe(arguments);
     assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{arguments:?}\n{}", run.stderr);
     for expected in expected {

@@ -3,18 +3,11 @@
 use serde_json::Value;
 use tempfile::tempdir;
 
+use crate::bad_input::refused;
 use crate::running::{abbe, json, prints, write};
 
 const KINDS: [&str; 3] = ["repeatable", "random", "radius"];
 const ERRORS: [&str; 5] = ["norm", "x", "y", "z", "orientation"];
-
-fn refused(arguments: &[&str], expected: &[&str]) {
-    let run = abbe(arguments);
-    assert_eq!((run.status, run.stdout.as_str()), (2, ""), "{}", run.stderr);
-    for part in expected {
-        assert!(run.stderr.contains(part), "{part}\n{}", run.stderr);
-    }
-}
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("a number: {value}"))
@@ -123,6 +116,30 @@ fn what_is_not_reached_is_said() {
 fn threads_change_nothing() {
     let one = abbe(&["bound", "puma560", "--threads", "1", "--json"]).stdout;
     assert_eq!(one, abbe(&["bound", "puma560", "--threads", "3", "--json"]).stdout);
+}
+
+/// Errors that were identified on less than the box are not certified in silence, and what cannot be proved is not tried.
+#[test]
+fn what_is_extrapolated_and_what_is_too_much_is_said() {
+    let folder = tempdir().unwrap();
+    let source = "[[source]]\nname = \"scale\"\nclass = \"repeatable\"\nframe = \"1\"\ne_x = \"1e-4 * q1\"\n";
+    let chain = |frames: usize| abbe_tests::chains::revolute_chain(frames) + source;
+    let ranges = |end: &str| format!("[fitted]\nq1 = [\"-150 deg\", \"{end} deg\"]\n");
+    for (end, warns) in [("150", false), ("100", true)] {
+        let fitted = write(folder.path(), "found.toml", &(chain(2) + &ranges(end)));
+        let run = abbe(&["bound", fitted.to_str().unwrap()]);
+        assert_eq!(
+            (run.status, run.stderr.contains("extrapolated beyond it: q1 beyond -150° … 100°")),
+            (0, warns),
+            "{}",
+            run.stderr
+        );
+    }
+    let long = write(folder.path(), "long.toml", &chain(33));
+    refused(
+        &["bound", long.to_str().unwrap()],
+        &["33 joints", "of more than 32 at once nothing can be proved", "grid"],
+    );
 }
 
 #[test]

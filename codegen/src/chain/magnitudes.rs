@@ -8,7 +8,6 @@ use super::by_source::errors_by_source;
 use super::displacement::Displacement;
 use super::rows::Rows;
 use super::sources;
-use super::walk::walk;
 use crate::expr::Function;
 use crate::graph::{Graph, Node, Vector};
 use crate::spec::{Class, Orientation, Spec};
@@ -49,15 +48,8 @@ struct Moved {
 impl Magnitudes {
     /// Those of a checked spec.
     pub fn new(spec: &Spec) -> Self {
-        let mut graph = Graph::with_tables(&spec.tables);
+        let (mut graph, effects) = sources::effects(spec);
         let g = &mut graph;
-        let mut at = g.identity();
-        let mut frames = Vec::new();
-        for frame in &spec.frames {
-            at = walk(g, at, &frame.factors, &mut Vec::new());
-            frames.push(at);
-        }
-        let (effects, _) = sources::effects_in(g, spec, &frames);
         let zero = g.zero();
         let links = Links::new(g, spec);
         let first_axis = links.first_axis(g);
@@ -70,10 +62,9 @@ impl Magnitudes {
         for (source, errors) in spec.enabled_sources().zip(&errors) {
             if let Class::Random(distribution) = source.class {
                 let bound = g.constant(distribution.bound());
-                let errors: Vec<[Node; 6]> =
-                    errors.iter().map(|errors| errors.map(|error| g.mul(bound, error))).collect();
-                let errors = &errors;
-                let squares = Moved::by(g, spec, &links, &rows, errors).squares(g);
+                let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
+                let at_bound: Vec<[Node; 6]> = at_bound.collect();
+                let squares = Moved::by(g, spec, &links, &rows, &at_bound).squares(g);
                 sums = std::array::from_fn(|i| g.add(sums[i], squares[i]));
             }
         }

@@ -22,9 +22,14 @@ impl Fitted {
             Symbol::Input(i) => u.get(i),
             _ => None,
         };
+        value.is_some_and(|value| !self.contains(*value))
+    }
+
+    /// Whether a value is within the range, or beyond it by no more than its last written digit.
+    pub fn contains(&self, value: f64) -> bool {
         let [lower, upper] = self.range;
         let digit = 1e-6 * lower.abs().max(upper.abs());
-        value.is_some_and(|value| !(lower - digit..=upper + digit).contains(value))
+        (lower - digit..=upper + digit).contains(&value)
     }
 
     /// The name of the variable or input.

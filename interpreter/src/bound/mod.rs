@@ -40,6 +40,9 @@ use abbe_codegen::graph::{Graph, Node};
 use search::Search;
 use tape::Tape;
 
+/// How many names may move: of a node that more of them move nothing is proved.
+pub const MOST_MOVING: usize = 32;
+
 /// A name that moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moving {
@@ -139,7 +142,7 @@ pub fn largest(
         5..=6 => search.run::<6>(watch),
         7..=8 => search.run::<8>(watch),
         9..=16 => search.run::<16>(watch),
-        _ => search.run::<32>(watch),
+        _ => search.run::<MOST_MOVING>(watch),
     };
     let mut found = bound.at.iter();
     let at = moving.iter().map(|name| {

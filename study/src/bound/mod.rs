@@ -10,10 +10,11 @@ use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::Graph;
 use abbe_codegen::spec::Spec;
-use abbe_interpreter::bound::{self, Effort, Moving, Progress};
+use abbe_interpreter::bound::{self, Effort, MOST_MOVING, Moving, Progress};
 
 use crate::changes::Changes;
 use crate::machine::Machine;
+use crate::mistake;
 use crate::notes::Notes;
 use crate::reads::Reads;
 use crate::study_file::Study;
@@ -60,6 +61,16 @@ impl Bound {
         let Self { machine, study, .. } = self;
         let spec = &machine.spec;
         let spans = study.region.spans(spec, &machine.origin)?;
+        let moving = spans.iter().filter(|span| span.range[0] < span.range[1]).count();
+        if moving > MOST_MOVING {
+            return Err(mistake::with_help(
+                &machine.origin,
+                format!(
+                    "{moving} joints, parameters and inputs move: of more than {MOST_MOVING} at once nothing can be proved"
+                ),
+                "hold some of them: a study whose workspace is a `grid` moves those that it names, `--set` holds inputs",
+            ));
+        }
         let Magnitudes { mut graph, repeatable, random, radius } = Magnitudes::new(spec);
         let begun = Instant::now();
         let mut sought = Sought { job: self, spans: &spans, begun, done: 0 };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_codegen::spec::{Class, Spec};
+use abbe_codegen::spec::{Class, Fitted, Spec};
 use abbe_interpreter::bound::{self, Effort};
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -107,7 +107,10 @@ impl Report {
         moved: Vec<Span>,
         [repeatable, random, radius]: [Errors; 3],
     ) -> Self {
-        let all = || [&repeatable, &random, &radius].into_iter().flat_map(Errors::all);
+        let of_both = matches!(Classes::of(&spec), Classes { repeatable: true, random: true });
+        // Of one class alone the last kind is a copy.
+        let kinds = [Some(&repeatable), Some(&random), of_both.then_some(&radius)];
+        let all = || kinds.into_iter().flatten().flat_map(Errors::all);
         let spans = moved.iter().map(|span| (name(span.symbol, &spec).to_owned(), span.range)).collect();
         let (boxes, complete) =
             (all().map(|largest| largest.boxes).sum(), all().all(|largest| largest.complete));
@@ -139,7 +142,22 @@ impl Report {
         kinds.into_iter().filter(|(.., any)| *any).map(|(title, errors, _)| (title, errors)).collect()
     }
 
+    /// How far the box goes beyond the range on which errors were fitted, if it does.
+    fn beyond(&self, fitted: &Fitted) -> Option<String> {
+        let span = self.moved.iter().find(|span| span.symbol == fitted.symbol)?;
+        let [first, last] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, &self.spec));
+        let is_within = span.range.into_iter().all(|end| fitted.contains(end));
+        (!is_within).then(|| format!("{} beyond {first} … {last}", fitted.name(&self.spec)))
+    }
+
     pub(super) fn warn(&self, notes: &mut dyn Notes) {
+        let beyond: Vec<String> = self.spec.fitted.iter().filter_map(|fitted| self.beyond(fitted)).collect();
+        if !beyond.is_empty() {
+            notes.warn(&format!(
+                "the errors were identified on less than the box, and are extrapolated beyond it: {}",
+                beyond.join(", ")
+            ));
+        }
         if self.contains_more {
             notes.note(
                 "the box contains more than the workspace of the study: what is certified holds for the workspace, too, but its \

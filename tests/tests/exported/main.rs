@@ -1,0 +1,63 @@
+//! What was found of a machine in other formats: each read back by other means, and held against the machine.
+//!
+//! `dh` is tables of Denavit-Hartenberg numbers, `urdf` descriptions and calibrations of robots, `slides` tables of machines whose axes
+//! slide, `trunnion` those of a machine with axes that turn the workpiece.
+
+mod dh;
+mod slides;
+mod trunnion;
+mod urdf;
+
+use abbe::analysis::{Workspace, random_joint_samples, sampling};
+use abbe::{Manipulator, Pose, drawn_pose, repeatable_magnitudes};
+use abbe_codegen::spec::Spec;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use abbe_study::Machine;
+use abbe_study::export::{Export, Format, Report, SAMPLES};
+use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
+
+/// A shipped spec with sources of its own.
+pub(crate) fn machine(name: &str, sources: &str) -> Machine {
+    let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).unwrap();
+    let text = format!("{}\n{sources}", shipped.spec);
+    Machine::of_spec(Spec::parse(&format!("{name}.toml"), &text).unwrap(), name)
+}
+
+pub(crate) fn exported(machine: &Machine, format: Format) -> Report {
+    Export { machine: machine.clone(), format, samples: SAMPLES, seed: 0 }.run(&mut ()).unwrap()
+}
+
+/// The largest distance and turn between a model and the real tool, at other configurations than those of the report.
+pub(crate) fn difference(machine: &Machine, model: impl Fn(&[f64]) -> Matrix4<f64>) -> [f64; 2] {
+    let arm = Interpreter::new(machine.spec.clone());
+    let description = arm.description();
+    let moved: Vec<usize> = (0..description.variables.len()).collect();
+    let workspace = random_joint_samples(&arm, &moved, 300, 7).unwrap();
+    let magnitudes = repeatable_magnitudes(description);
+    let s = sampling::nominal_parameters(description);
+    let u = sampling::nominal_inputs(description);
+    let mut largest = [0.0_f64; 2];
+    for index in 0..workspace.len() {
+        let q = workspace.configuration(index).unwrap().q;
+        let real = matrix(&drawn_pose(&arm, &q, &s, &u, &magnitudes).unwrap());
+        let model = model(&q);
+        let shift = (real - model).fixed_view::<3, 1>(0, 3).norm();
+        let turn = (real - model).fixed_view::<3, 3>(0, 0).norm() / 2_f64.sqrt();
+        largest = [largest[0].max(shift), largest[1].max(turn)];
+    }
+    largest
+}
+
+pub(crate) fn matrix(pose: &Pose) -> Matrix4<f64> {
+    let rows = pose.rows();
+    Matrix4::from_fn(|i, j| rows[i][j])
+}
+
+pub(crate) fn about(axis: Vector3<f64>, turn: f64, along: f64) -> Isometry3<f64> {
+    let axis = nalgebra::Unit::new_normalize(axis);
+    Isometry3::from_parts(
+        Translation3::from(axis.into_inner() * along),
+        UnitQuaternion::from_axis_angle(&axis, turn),
+    )
+}
