@@ -32,6 +32,7 @@ impl Machine {
     /// >>> f"{norm.found:.3f} <= {norm.certified:.3f}", norm.complete
     /// ('0.155 <= 0.156', True)
     #[pyo3(signature = (study=None, *, study_text=None, gap=0.01, boxes=300_000, time=None, threads=None, progress=None))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn bound(
         &self,
         py: Python<'_>,

@@ -122,7 +122,7 @@ fn threads_change_nothing() {
 #[test]
 fn what_is_extrapolated_and_what_is_too_much_is_said() {
     let folder = tempdir().unwrap();
-    let source = "[[source]]\nname = \"scale\"\nclass = \"repeatable\"\nframe = \"1\"\ne_x = \"1e-4 * q1\"\n";
+    let source = "[[source]]\nname = \"scale\"\nclass = \"repeatable\"\nframe = \"1\"\ne_x = \"0.1 mm * q1 / 1 rad\"\n";
     let chain = |frames: usize| abbe_tests::chains::revolute_chain(frames) + source;
     let ranges = |end: &str| format!("[fitted]\nq1 = [\"-150 deg\", \"{end} deg\"]\n");
     for (end, warns) in [("150", false), ("100", true)] {
