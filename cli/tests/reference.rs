@@ -7,10 +7,14 @@ use std::process::{Command, ExitCode};
 use abbe_tests::needs::{Missing, Test, run};
 
 fn main() -> ExitCode {
-    run([("random_specs_are_as_plain_python_has_them", random_specs as Test)])
+    run([
+        ("random_specs_are_as_plain_python_has_them", (|| compared("first")) as Test),
+        ("further_ones_and_the_paper_are_as_plain_python_has_them", || compared("second")),
+    ])
 }
 
-fn random_specs() -> Result<(), Missing> {
+/// Half of what is compared, for two cores.
+fn compared(half: &str) -> Result<(), Missing> {
     // TOML is read since Python 3.11.
     let python = Command::new("python3").args(["-c", "import tomllib"]).output();
     if !python.is_ok_and(|python| python.status.success()) {
@@ -18,8 +22,9 @@ fn random_specs() -> Result<(), Missing> {
     }
     let compare = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/reference/compare.py");
     // `-B`: no compiled modules beside the sources.
-    let output = Command::new("python3").arg("-B").arg(compare).arg(env!("CARGO_BIN_EXE_abbe")).output();
-    let output = output.expect("python3 has just run");
+    let mut python = Command::new("python3");
+    python.arg("-B").arg(compare).arg(env!("CARGO_BIN_EXE_abbe")).args(["--half", half]);
+    let output = python.output().expect("python3 has just run");
     let printed = [output.stdout, output.stderr].concat();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&printed));
     Ok(())

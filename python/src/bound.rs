@@ -24,7 +24,8 @@ impl Machine {
     /// what is certified may exceed it. `boxes`: the most that are looked at for each error; `time`: seconds, after which no more are.
     ///
     /// Of `.repeatable`, `.random` and `.radius`, the errors `.norm`, `.x`, `.y`, `.z` and `.orientation`: the true maximum, to first
-    /// order, lies between `.found`, at `.at`, and `.certified`, which is None if nothing could be proved. Lengths in the unit of the
+    /// order, lies between `.found`, at `.at`, and `.certified`, which is None if nothing could be proved. `.remainder.certified`: how far
+    /// the exact chain of the repeatable sources differs from first order at most. Lengths in the unit of the
     /// spec, angles in rad, in F_0; fields as those of `abbe bound --json`.
     ///
     /// >>> import abbe

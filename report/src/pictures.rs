@@ -61,7 +61,9 @@ pub fn analysis(report: &Report) -> Result<Vec<File>, Diagnostics> {
     let Figures { figures, left_out } = report.figures.as_ref().unwrap_or(&none);
     let figures = Named::all(figures, report);
     let drawings = figures.iter().map(|figure| drawn(figure, report)).collect::<Result<Vec<_>, _>>()?;
-    let page = html::page(&figures, &drawings, left_out, report);
+    let at_most = svg::at_most(report)
+        .map_err(|error| mistake::with_help(PAGE, error, "ask for the analysis without a page"))?;
+    let page = html::page(&figures, &drawings, at_most.as_deref(), left_out, report);
     let names = figures.iter().map(|figure| format!("{}.svg", figure.name));
     let mut files = names.zip(drawings).map(|(name, text)| File { name, text }).collect::<Vec<_>>();
     files.push(File { name: PAGE.to_owned(), text: page });

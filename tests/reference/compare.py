@@ -56,18 +56,21 @@ def main():
     arguments.add_argument("command")
     arguments.add_argument("--specs", type=int, default=30, help="how many")
     arguments.add_argument("--only", type=int, metavar="SEED")
+    arguments.add_argument("--half", choices=["first", "second"], help="of the specs; the paper's robot is in the second")
     arguments.add_argument("--keep", type=pathlib.Path, metavar="FOLDER")
     options = arguments.parse_args()
     comparison, used = Comparison(options.command), set()
+    halves = {"first": range(options.specs // 2), "second": range(options.specs // 2, options.specs)}
+    asked = halves.get(options.half, range(options.specs))
     with tempfile.TemporaryDirectory() as folder:
         folder = options.keep or pathlib.Path(folder)
         for seed in range(options.specs):
-            if options.only in (None, seed):
+            if seed in asked and options.only in (None, seed):
                 comparison.attempt(random_spec, random_specs.Writer(seed, used), folder)
             else:
                 # What later ones use depends on it.
                 random_specs.Writer(seed, used).everything(folder)
-        if options.only is None:
+        if options.only is None and options.half != "first":
             comparison.attempt(shipped.paper)
             comparison.attempt(shipped.some_configurations, folder)
             comparison.attempt(textbook.readme, folder)

@@ -29,7 +29,7 @@ fn counted() -> BTreeMap<String, u64> {
         "bench",
         "--quiet",
         "-p",
-        "abbe-tests",
+        "abbe-instructions",
         "--bench",
         "instructions",
         "--features",

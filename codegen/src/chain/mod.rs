@@ -5,7 +5,7 @@
 //! small rotation into rows 4–6; `sources` gives ε, with `deviation` for errors of joints and parameters and `elastic`
 //! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
 //! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`, and `magnitudes`, whose
-//! largest values are sought. `real` is the exact chain with errors. [`Model`] holds the results. What else leads to the
+//! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it. [`Model`] holds the results. What else leads to the
 //! same, `ways` and `moving` state: a program takes what needs the fewest operations.
 
 mod accumulate;
@@ -22,6 +22,7 @@ mod model;
 mod moments;
 mod moving;
 mod real;
+mod remainder;
 mod rows;
 mod six;
 mod sources;
@@ -39,6 +40,7 @@ pub use local_twist::LocalTwist;
 pub use magnitudes::{Magnitude, Magnitudes};
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;
+pub use remainder::Remainder;
 pub(crate) use rows::Rows;
 pub use sources::{EffectNode, effects};
 pub(crate) use symbol_jacobian::swing;

@@ -11,10 +11,11 @@
 //! the file; then the sum of all errors of the frame itself. To first order no order matters.
 
 use super::accumulate::Links;
+use super::local::Local;
 use super::sources::Causes;
 use super::walk::{Step, apply_with, transform, walk};
 use crate::expr::{Expression, Motion, Symbol, motion};
-use crate::graph::{Frame, Graph, Node};
+use crate::graph::{Frame, Graph, Node, Vector};
 use crate::spec::{ChainNumber, Component, Factor, Spec};
 
 /// The chain with the errors of all sources, each times its magnitude.
@@ -64,6 +65,38 @@ impl<'a> RealChain<'a> {
         let links: Vec<Frame> =
             (0..=self.spec.frames.len()).map(|link| self.behind(graph, identity, link)).collect();
         Links::of(graph, &links)
+    }
+
+    /// The tool point of the real machine, as seen from the first frame that is not where it should be: in the nominal axes of
+    /// that frame, or of the one before it if a number of its transform is off. Zero if everything is where it should be.
+    pub(super) fn tool_point_from_first_error(&self, graph: &mut Graph) -> Vector {
+        let (zero, last) = (graph.zero(), self.spec.frames.len());
+        let mut point = [zero; 3];
+        let is_off =
+            |graph: &mut Graph, link| self.is_changed(link) || link < last && self.has_errors(graph, link);
+        let Some(first) = (0..=last).find(|&link| is_off(graph, link)) else { return point };
+        for link in (first..=last).rev() {
+            let mut motions = Vec::new();
+            let start = graph.identity();
+            if self.is_changed(link) {
+                let nominal = self.nominal(graph, start, link);
+                motions.extend(Local::of(graph, &nominal));
+            } else if link > first {
+                motions.extend(Local::motions(graph, self.factors(link)));
+            }
+            if link < last && self.has_errors(graph, link) {
+                let errors = self.displaced(graph, start, link);
+                motions.extend(Local::of(graph, &errors));
+            }
+            point = motions.iter().rev().fold(point, |point, motion| motion.point(graph, point));
+        }
+        point
+    }
+
+    /// Whether something follows the `A_i` of a frame.
+    fn has_errors(&self, graph: &mut Graph, frame: usize) -> bool {
+        let none = [graph.zero(); 6];
+        self.plain(graph, frame) != none || !self.located(graph, frame).is_empty()
     }
 
     /// The six errors of every frame that make the nominal chain the real one: `E_i` is all that follows the nominal `A_i`,

@@ -63,6 +63,12 @@ pub(super) struct DeviationNode {
 
 /// The effects of every enabled source by themselves, and the graph they are in.
 pub fn effects(spec: &Spec) -> (Graph, Vec<EffectNode>) {
+    let (graph, effects, _) = effects_and_causes(spec);
+    (graph, effects)
+}
+
+/// The same, and what causes them.
+pub(super) fn effects_and_causes(spec: &Spec) -> (Graph, Vec<EffectNode>, Causes) {
     let mut graph = Graph::with_tables(&spec.tables);
     let mut at = graph.identity();
     let mut frames = Vec::new();
@@ -70,8 +76,8 @@ pub fn effects(spec: &Spec) -> (Graph, Vec<EffectNode>) {
         at = walk(&mut graph, at, &frame.factors, &mut Vec::new());
         frames.push(at);
     }
-    let (effects, _) = effects_in(&mut graph, spec, &frames);
-    (graph, effects)
+    let (effects, causes) = effects_in(&mut graph, spec, &frames);
+    (graph, effects, causes)
 }
 
 /// The effects of every enabled source, source by source, without those that are always zero, and what causes them.

@@ -12,13 +12,22 @@ use abbe_study::number::{percent, trimmed};
 const STYLE: &str = include_str!("style.css");
 
 /// The report, with its figures in their order, each with its drawing; `left_out` are sources that are switched off and had one.
-pub(crate) fn page(figures: &[Named], drawings: &[String], left_out: &[String], report: &Report) -> String {
+///
+/// `at_most` is the drawing of what is certified, if anything is.
+pub(crate) fn page(
+    figures: &[Named],
+    drawings: &[String],
+    at_most: Option<&str>,
+    left_out: &[String],
+    report: &Report,
+) -> String {
     let parts = [
         heading(report),
         covered::verdict(report),
         summary(report),
         section("Every source alone", &format!("{METRICS}\n{}", ledger::sources(report))),
         section("All together", &(ledger::combined(report) + &conclusions(report))),
+        certified(at_most, report),
         section("Ledger", &format!("{LEDGER}\n{}", ledger::listed(&analyze::ledger(report)))),
         covered::turns(report),
         allowed(report),
@@ -124,6 +133,26 @@ fn conclusions(report: &Report) -> String {
     report.conclusions().iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect()
 }
 
+/// What was sampled, and what is certified.
+fn certified(drawing: Option<&str>, report: &Report) -> String {
+    let (Some(drawing), Some(listing)) = (drawing, analyze::at_most(report)) else { return String::new() };
+    let unit = report.spec.length.symbol();
+    let body = format!(
+        "<figure>\n<div class=\"picture\">{}</div>\n<figcaption>Bars: what was sampled, a lower bound. The true maximum lies between the \
+         two lines: the first was found, and nothing in the box that contains the workspace exceeds the second, to first order. \
+         Where both fall together it is one line{}.</figcaption>\n</figure>\n<p>In {unit}.</p>\n{}",
+        inline(drawing),
+        if report.study.tolerance.is_some() { "; the dashed line is the tolerance" } else { "" },
+        ledger::listed(&listing)
+    );
+    section("At most", &body)
+}
+
+/// A drawing in a page, where it needs no name of a format.
+fn inline(drawing: &str) -> String {
+    drawing.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)
+}
+
 /// The budget backwards.
 fn allowed(report: &Report) -> String {
     let about = "<p><i>Alone at most</i>: how much larger a source may be if it is the only one. <i>Equal shares</i>: how \
@@ -164,8 +193,8 @@ fn drawn(figures: &[Named], drawings: &[String], left_out: &[String], report: &R
              <div class=\"drawing\">{}</div>\n<figcaption>{} <a href=\"{file}\">{file}</a></figcaption>\n</figure>\n",
             i + 1,
             escaped(&figure.title),
-            // On paper, where nothing turns; a page needs no name of a format.
-            drawing.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1),
+            // On paper, where nothing turns.
+            inline(drawing),
             words.trim(),
             file = format_args!("{}.svg", figure.name),
         );

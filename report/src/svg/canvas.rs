@@ -72,6 +72,12 @@ impl Sheet {
         }
     }
 
+    /// A sheet of its own, that no study asks for.
+    pub(super) fn titled(size: (u32, u32), title: &str, subtitle: &str, caption: &str) -> Self {
+        let [title, subtitle, caption] = [title, subtitle, caption].map(str::to_owned);
+        Self { size, title, subtitle, caption }
+    }
+
     /// Draws below the headings.
     pub(super) fn draw(&self, picture: impl FnOnce(&Area) -> Result<(), Failed>) -> Result<String, Failed> {
         let (width, height) = (self.size.0, self.size.1 + Self::HEAD);

@@ -1,5 +1,6 @@
 //! The figures as SVG, one file each.
 
+mod at_most;
 mod canvas;
 mod cloud;
 mod histogram;
@@ -14,6 +15,7 @@ use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Gathered;
 use abbe_study::study_file::Content;
 
+pub(super) use at_most::draw as at_most;
 use canvas::{Failed, Sheet};
 
 /// Draws a figure.

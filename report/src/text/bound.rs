@@ -52,7 +52,25 @@ pub fn bound(report: &Report) -> String {
         report.boxes
     );
     let _ = writeln!(text, "{}", wrapped(&end, 0));
+    if let Some(sentence) = left_out(report) {
+        let _ = writeln!(text, "{}", wrapped(&sentence, 0));
+    }
     text
+}
+
+/// What first order leaves out, in a sentence; none if there is nothing to say.
+fn left_out(report: &Report) -> Option<String> {
+    let Some(certified) = report.remainder.as_ref()?.certified else {
+        return Some("How far the exact chain differs from first order could not be proved.".to_owned());
+    };
+    // Two digits: it is no closer than that.
+    let decimals = decimals(certified).saturating_sub(3);
+    Some(format!(
+        "Nowhere in the box does the exact chain A_1 E_1 … A_n E_n T of the repeatable sources have the tool point more than {} {} \
+         from where first order has it.",
+        number::rounded_up(certified, decimals),
+        report.length
+    ))
 }
 
 /// As many decimals as five digits take.

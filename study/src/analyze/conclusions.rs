@@ -2,6 +2,7 @@
 
 use abbe::analysis::{Measurand, RemainingErrors};
 
+use super::at_most;
 use super::report::Report;
 use super::unit;
 use crate::number::{self, percent, short};
@@ -16,6 +17,7 @@ impl Report {
             ellipsoid(self),
             published_residual(self),
             self.budget.compensation.as_ref().map(|compensation| residual(self, compensation)),
+            at_most::sentence(self),
             Some(first_order(self)),
         ];
         sentences.into_iter().flatten().collect()

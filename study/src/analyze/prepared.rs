@@ -15,6 +15,7 @@ use super::first_order::FirstOrder;
 use super::judged::Judged;
 use super::report::{Drawn, Places, Report};
 use super::stated::Stated;
+use crate::bound::Norms;
 use crate::finite::finite;
 use crate::mistake;
 use crate::notes::Notes;
@@ -141,6 +142,7 @@ impl Prepared<'_> {
             }
             None => None,
         };
+        let certified = Norms::over(machine, study, notes);
         notes.go_on()?;
         let figures = figures.map(|data| self.figures(data)).transpose()?;
         let report = Report {
@@ -159,6 +161,7 @@ impl Prepared<'_> {
             stated,
             budget,
             first_order,
+            certified,
             monte_carlo: drawn,
             figures,
         };

@@ -10,6 +10,7 @@ use super::figures::Figures;
 use super::first_order::FirstOrder;
 use super::judged::Judged;
 use super::stated::Stated;
+use crate::bound::Norms;
 use crate::notes::Notes;
 use crate::number::{self, Named};
 use crate::study_file::Study;
@@ -36,6 +37,8 @@ pub struct Report {
     pub budget: Budget,
     /// What first order neglects.
     pub first_order: FirstOrder,
+    /// What the norms of all errors are at most; none if the workspace has no box, or too many names move.
+    pub certified: Option<Norms>,
     /// What the tolerance of the study allows.
     pub admissible: Option<Admissible>,
     /// What its tolerance of the orientation allows.

@@ -1,5 +1,9 @@
 //! How large the errors of the tool point are at most: over a box of joints, parameters and inputs, with a proof.
+//!
+//! `domain` is the box in which everything is sought; `norms` are those of the position's errors alone, for an analysis.
 
+mod domain;
+mod norms;
 mod report;
 
 use std::path::PathBuf;
@@ -7,21 +11,19 @@ use std::time::{Duration, Instant};
 
 use abbe_codegen::chain::{Magnitude, Magnitudes};
 use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::Graph;
-use abbe_codegen::spec::Spec;
-use abbe_interpreter::bound::{self, Effort, MOST_MOVING, Moving, Progress};
+use abbe_interpreter::bound::{Effort, Progress};
 
 use crate::changes::Changes;
 use crate::machine::Machine;
-use crate::mistake;
 use crate::notes::Notes;
 use crate::reads::Reads;
 use crate::study_file::Study;
-use crate::workspace::Span;
 
+use domain::Domain;
+pub use norms::Norms;
 use report::Classes;
-pub use report::{Errors, Largest, Report};
+pub use report::{Errors, Largest, Remainder, Report};
 
 /// How large are the errors at most?
 #[derive(Clone)]
@@ -59,44 +61,34 @@ impl Bound {
     /// Looks at boxes until each error is known to the gap.
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
-        let spec = &machine.spec;
-        let spans = study.region.spans(spec, &machine.origin)?;
-        let moving = spans.iter().filter(|span| span.range[0] < span.range[1]).count();
-        if moving > MOST_MOVING {
-            return Err(mistake::with_help(
-                &machine.origin,
-                format!(
-                    "{moving} joints, parameters and inputs move: of more than {MOST_MOVING} at once nothing can be proved"
-                ),
-                "hold some of them: a study whose workspace is a `grid` moves those that it names, `--set` holds inputs",
-            ));
-        }
-        let Magnitudes { mut graph, repeatable, random, radius } = Magnitudes::new(spec);
-        let begun = Instant::now();
-        let mut sought = Sought { job: self, spans: &spans, begun, done: 0 };
+        let domain = Domain::new(machine, study)?;
+        let Magnitudes { mut graph, repeatable, random, radius } = Magnitudes::new(&domain.spec);
+        let mut sought = Sought { job: self, domain: &domain, begun: Instant::now(), done: 0 };
         let repeatable = sought.errors(&mut graph, repeatable, notes)?;
         let random = sought.errors(&mut graph, random, notes)?;
         // Of one class alone both together are that one.
-        let radius = match Classes::of(spec) {
+        let radius = match Classes::of(&domain.spec) {
             Classes { repeatable: true, random: true } => sought.errors(&mut graph, radius, notes)?,
             Classes { random: true, .. } => random.clone(),
             _ => repeatable.clone(),
         };
-        let report = Report::new(spec.clone(), study, &self.effort, spans, [repeatable, random, radius]);
+        let remainder = sought.one(notes, |_, watch| domain.remainder(&self.effort, watch))?;
+        let errors = [repeatable, random, radius];
+        let report = Report::new(domain, study, &self.effort, errors, remainder);
         report.warn(notes);
         Ok(report)
     }
 }
 
-/// How many errors are looked for: five of each of three kinds.
-const ERRORS: usize = 15;
+/// How much is looked for: five errors of each of three kinds, and the remainder.
+const SOUGHT: usize = 16;
 
 /// What is being looked for.
 struct Sought<'a> {
     job: &'a Bound,
-    spans: &'a [Span],
+    domain: &'a Domain,
     begun: Instant,
-    /// How many errors are known.
+    /// How much is known.
     done: usize,
 }
 
@@ -112,49 +104,26 @@ impl Sought<'_> {
             // No part of a position's error is larger than its norm.
             let norm = if (1..4).contains(&i) { largest[0].certified } else { None };
             let effort = Effort { at_most: norm.unwrap_or(f64::INFINITY), ..self.job.effort };
-            largest.push(self.largest(graph, magnitude, &effort, notes));
-            self.done += 1;
-            notes.progress(self.done, ERRORS);
-            notes.go_on()?;
+            largest.push(self.one(notes, |domain, watch| domain.largest(graph, magnitude, &effort, watch))?);
         }
         let [norm, x, y, z, orientation] = <[Largest; 5]>::try_from(largest).expect("five errors");
         Ok(Errors { norm, x, y, z, orientation })
     }
 
-    fn largest(
-        &self,
-        graph: &mut Graph,
-        magnitude: Magnitude,
-        effort: &Effort,
+    /// One of what is looked for, while there is time.
+    fn one<T>(
+        &mut self,
         notes: &mut dyn Notes,
-    ) -> Largest {
-        let Self { job, spans, begun, done } = *self;
-        let spec = &job.machine.spec;
-        let moving: Vec<Moving> = spans
-            .iter()
-            .map(|Span { symbol, range }| Moving {
-                symbol: *symbol,
-                range: *range,
-                home: home(*symbol, spec),
-            })
-            .collect();
-        let mut watch = |_: &Progress| {
-            notes.progress(done, ERRORS);
+        search: impl FnOnce(&Domain, &mut dyn FnMut(&Progress) -> bool) -> T,
+    ) -> Result<T, Diagnostics> {
+        let Self { job, domain, begun, done } = *self;
+        let found = search(domain, &mut |_| {
+            notes.progress(done, SOUGHT);
             !notes.stop() && job.time.is_none_or(|time| begun.elapsed() < time)
-        };
-        let bound =
-            bound::largest(graph, magnitude, &moving, |symbol| home(symbol, spec), effort, &mut watch);
-        Largest::new(&bound, spans, spec)
-    }
-}
-
-/// Where something stands that does not move.
-fn home(symbol: Symbol, spec: &Spec) -> f64 {
-    match symbol {
-        Symbol::Variable(i) => spec.variables[i].home,
-        Symbol::Parameter(i) => spec.parameters[i].value,
-        Symbol::Input(i) => spec.inputs[i].value,
-        // No error of the spec's own sources depends on anything else.
-        _ => f64::NAN,
+        });
+        self.done += 1;
+        notes.progress(self.done, SOUGHT);
+        notes.go_on()?;
+        Ok(found)
     }
 }

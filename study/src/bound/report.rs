@@ -12,7 +12,7 @@ use crate::number;
 use crate::study_file::Study;
 use crate::workspace::{Span, name};
 
-use super::home;
+use super::domain::{Domain, home};
 
 /// What [`Bound`](super::Bound) proves. Lengths in the spec's unit, angles in rad; the true maximum of each error, to first
 /// order in the errors of the sources, lies between `found` and `certified`.
@@ -30,6 +30,8 @@ pub struct Report {
     pub random: Errors,
     /// Both, added.
     pub radius: Errors,
+    /// What first order leaves out of the repeatable sources; none if there are no such sources.
+    pub remainder: Option<Remainder>,
     /// From where to where everything goes that moves.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
@@ -99,21 +101,38 @@ pub struct Largest {
     pub place: String,
 }
 
+/// What first order leaves out: how far the exact chain `A_1 E_1 … A_n E_n T` has the tool point from where `ΔX = J_e ε` of the
+/// repeatable sources has it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Remainder {
+    /// No more than this, anywhere in the box; none if nothing could be proved.
+    pub certified: Option<f64>,
+    /// How many boxes were looked at.
+    pub boxes: usize,
+}
+
+impl Remainder {
+    pub(super) fn new(bound: &bound::Bound) -> Self {
+        Self { certified: known(bound.certified), boxes: bound.boxes }
+    }
+}
+
 impl Report {
     pub(super) fn new(
-        spec: Arc<Spec>,
+        Domain { spec, spans: moved }: Domain,
         study: &Study,
         effort: &Effort,
-        moved: Vec<Span>,
         [repeatable, random, radius]: [Errors; 3],
+        remainder: Option<Remainder>,
     ) -> Self {
         let of_both = matches!(Classes::of(&spec), Classes { repeatable: true, random: true });
         // Of one class alone the last kind is a copy.
         let kinds = [Some(&repeatable), Some(&random), of_both.then_some(&radius)];
         let all = || kinds.into_iter().flatten().flat_map(Errors::all);
         let spans = moved.iter().map(|span| (name(span.symbol, &spec).to_owned(), span.range)).collect();
-        let (boxes, complete) =
-            (all().map(|largest| largest.boxes).sum(), all().all(|largest| largest.complete));
+        let boxes: usize = all().map(|largest| largest.boxes).sum();
+        let boxes = boxes + remainder.as_ref().map_or(0, |remainder| remainder.boxes);
+        let complete = all().all(|largest| largest.complete);
         Self {
             manipulator: spec.name.clone(),
             length: spec.length.symbol(),
@@ -121,6 +140,7 @@ impl Report {
             repeatable,
             random,
             radius,
+            remainder,
             spans,
             contains_more: !study.region.is_box(),
             boxes,
@@ -195,11 +215,16 @@ impl Largest {
         }
         Self {
             found: bound.found,
-            certified: Some(bound.certified).filter(|certified| certified.is_finite()),
+            certified: known(bound.certified),
             at,
             boxes: bound.boxes,
             complete: bound.complete,
             place: place.join(", "),
         }
     }
+}
+
+/// What is certified, if anything is.
+fn known(certified: f64) -> Option<f64> {
+    Some(certified).filter(|certified| certified.is_finite())
 }

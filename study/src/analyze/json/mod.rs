@@ -16,6 +16,7 @@ use super::stated::Stated;
 use super::unreachable;
 use allowed::Allowed;
 
+use crate::bound::Norms;
 use crate::number::{self, Named};
 use crate::study_file::{CombinedFigure, Metric, Subject};
 
@@ -40,6 +41,8 @@ struct Shape<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     after_compensation: Option<AfterCompensation>,
     first_order: FirstOrder,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified: Option<&'a Norms>,
     unreachable_reasons: Vec<unreachable::Reason>,
     not_reproducible: &'a [String],
     ledger: ledger::Ledger<'a>,
@@ -174,6 +177,7 @@ fn shape(report: &Report) -> Shape<'_> {
             configurations: first_order.checked,
             largest_difference: first_order.largest,
         },
+        certified: report.certified.as_ref(),
         unreachable_reasons: unreachable::reasons(&budget.unreachable, spec),
         not_reproducible: &study.not_reproducible,
         ledger: ledger::of(report),

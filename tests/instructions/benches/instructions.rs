@@ -1,7 +1,7 @@
 //! Instruction counts, which do not depend on what else the machine does: generated functions (`long` is a chain of 40
-//! frames), a batch by the interpreter, and generation. `tests/instructions.rs` holds them against `golden/instructions.txt`.
+//! frames), a batch by the interpreter, and generation. `tests/tests/instructions.rs` holds them against `tests/golden/instructions.txt`.
 //!
-//! `cargo bench -p abbe-tests --bench instructions --features instructions`, with valgrind and the gungraun-runner of the same version as the crate.
+//! `cargo bench -p abbe-instructions --bench instructions --features instructions`, with valgrind and the gungraun-runner of the same version as the crate.
 #![allow(missing_docs)] // of what gungraun's macros make
 
 use std::hint::black_box;

@@ -1,0 +1,45 @@
+//! What first order leaves out, as a node whose largest value is sought.
+
+use super::magnitudes::Magnitude;
+use super::real::RealChain;
+use super::sources;
+use crate::expr::Symbol;
+use crate::graph::Graph;
+use crate::spec::{Class, Spec};
+
+/// What `J_e ε` of the repeatable sources leaves out of the position of the tool point.
+///
+/// With t times their errors the exact chain has the tool point at p(t), and `p'(0)` is `J_e ε`. So
+///
+/// ```text
+/// p(1) − p(0) − J_e ε  =  ∫₀¹ (1 − t) p″(t) dt        which is no longer than ½ ‖p″(t)‖ is anywhere in 0 ≤ t ≤ 1
+/// ```
+#[derive(Clone, Debug)]
+pub struct Remainder {
+    /// The graph it is a node of.
+    pub graph: Graph,
+    /// ½ ‖p″(t)‖.
+    pub magnitude: Magnitude,
+    /// t.
+    pub share: Symbol,
+}
+
+impl Remainder {
+    /// That of a checked spec.
+    pub fn new(spec: &Spec) -> Self {
+        let (mut graph, _, causes) = sources::effects_and_causes(spec);
+        let g = &mut graph;
+        let share = Symbol::Magnitude(0);
+        let [t, zero, half] = [g.symbol(share), g.zero(), g.constant(0.5)];
+        let magnitudes = spec.enabled_sources().map(|source| match source.class {
+            Class::Repeatable => t,
+            Class::Random(_) => zero,
+        });
+        let point = RealChain::new(g, spec, &causes, magnitudes.collect()).tool_point_from_first_error(g);
+        let speed = g.diff_all(&point, share);
+        let half_curvature = g.diff_all(&speed, share).into_iter().map(|part| g.mul(half, part));
+        let [x, y, z] = <[_; 3]>::try_from(half_curvature.collect::<Vec<_>>()).expect("three parts");
+        let node = g.dot([x, y, z], [x, y, z]);
+        Self { graph, magnitude: Magnitude { node, squared: true }, share }
+    }
+}
