@@ -129,6 +129,15 @@ fn the_text_says_what_is_proved() {
     );
 }
 
+/// The first joint of this arm turns all round, and everything with it: along x and y the error is as large as across z.
+#[test]
+fn along_x_and_y_it_is_as_large_as_across_z() {
+    let random = &json(&["bound", "ur5", "--json", "--boxes", "100000"])["random"];
+    let [x, y] = ["x", "y"].map(|row| number(&random[row]["found"]));
+    assert!((x - y).abs() < 1e-9 * x, "{x} {y}");
+    assert!(["x", "y"].iter().all(|row| random[row]["complete"] == true), "{random}");
+}
+
 #[test]
 fn what_is_not_reached_is_said() {
     let outcome = abbe(&["bound", "ur5", "--boxes", "10"]);

@@ -87,6 +87,23 @@ impl Links {
         sum
     }
 
+    /// The same, but before the shifts and turns about z that `A_1` begins with: what is along z and across z is as large as in
+    /// `F_0`, and does not depend on the angles of these turns.
+    pub(super) fn accumulate_before_turns<A: Accumulated>(
+        &self,
+        graph: &mut Graph,
+        errors: &[[Node; 6]],
+        sum: A,
+    ) -> A {
+        let (mut sum, mut lever) = self.behind(graph, errors, 0, sum);
+        if let [motions, ..] = &self.frames[..] {
+            let keeps_z = |motion: &&Local| matches!(motion, Local::Shift(_) | Local::Turn { axis: 2, .. });
+            let first = motions.iter().take_while(keeps_z).count();
+            motions[first..].iter().rev().for_each(|motion| go_before(graph, motion, &mut sum, &mut lever));
+        }
+        sum
+    }
+
     /// The same in the axes of a frame, from 0: what it and all behind it do; nothing behind the last one.
     pub(super) fn accumulate_to<A: Accumulated>(
         &self,

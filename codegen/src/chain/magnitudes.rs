@@ -33,6 +33,9 @@ pub struct Magnitudes {
     pub random: [Magnitude; 5],
     /// Both, added.
     pub radius: [Magnitude; 5],
+    /// Of each kind what the errors along x and along y do not exceed: the norm of both, or of random sources the largest root
+    /// sum of squares along a direction across z. Turns about z that the chain begins with change nothing of it.
+    pub across_z: [Magnitude; 3],
 }
 
 /// What some errors of frames do to the tool point.
@@ -41,6 +44,8 @@ struct Moved {
     shift: Node,
     /// δ in `F_0`.
     along: Vector,
+    /// x and y of δ before the turns about z that the chain begins with.
+    across_z: [Node; 2],
     /// The square of the norm of rows 4–6.
     turn: Node,
 }
@@ -58,14 +63,20 @@ impl Magnitudes {
         let errors = sources::generalized_errors(g, spec, &effects);
         let repeatable = Moved::by(g, spec, &links, &rows, &errors);
         let mut sums = [zero; 5];
+        // Σ x², Σ y², Σ x y.
+        let mut spread = [zero; 3];
         let errors = errors_by_source(zero, spec, &effects);
         for (source, errors) in spec.enabled_sources().zip(&errors) {
             if let Class::Random(distribution) = source.class {
                 let bound = g.constant(distribution.bound());
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
                 let at_bound: Vec<[Node; 6]> = at_bound.collect();
-                let squares = Moved::by(g, spec, &links, &rows, &at_bound).squares(g);
+                let moved = Moved::by(g, spec, &links, &rows, &at_bound);
+                let squares = moved.squares(g);
                 sums = std::array::from_fn(|i| g.add(sums[i], squares[i]));
+                let [x, y] = moved.across_z;
+                let products = [(x, x), (y, y), (x, y)].map(|(a, b)| g.mul(a, b));
+                spread = std::array::from_fn(|i| g.add(spread[i], products[i]));
             }
         }
         let sizes = repeatable.sizes(g);
@@ -73,10 +84,25 @@ impl Magnitudes {
             let random = g.sqrt(sums[i]);
             Magnitude { node: g.add(sizes[i], random), squared: false }
         });
+        let across = repeatable.across_z.map(|part| g.mul(part, part));
+        let across = [g.add(across[0], across[1]), largest_eigenvalue(g, spread)];
+        let both = across.map(|square| g.sqrt(square));
+        let both = Magnitude { node: g.add(both[0], both[1]), squared: false };
         let squared = |node| Magnitude { node, squared: true };
         let repeatable = repeatable.squares(g).map(squared);
-        Self { graph, repeatable, random: sums.map(squared), radius }
+        let across_z = [squared(across[0]), squared(across[1]), both];
+        Self { graph, repeatable, random: sums.map(squared), radius, across_z }
     }
+}
+
+/// `(a + b)/2 + √(((a − b)/2)² + c²)` of the matrix (a c; c b).
+fn largest_eigenvalue(graph: &mut Graph, [a, b, c]: [Node; 3]) -> Node {
+    let half = graph.constant(0.5);
+    let [sum, difference] = [graph.add(a, b), graph.sub(a, b)].map(|node| graph.mul(half, node));
+    let squares = [difference, c].map(|node| graph.mul(node, node));
+    let radicand = graph.add(squares[0], squares[1]);
+    let root = graph.sqrt(radicand);
+    graph.add(sum, root)
 }
 
 impl Moved {
@@ -88,10 +114,12 @@ impl Moved {
         let [shift, mut turn] = own.squares(graph);
         let none = Displacement::none(graph);
         let [x, y, z, four, five, six] = links.accumulate(graph, errors, none).column(graph, rows);
+        let none = Displacement::none(graph);
+        let [before_x, before_y, _] = links.accumulate_before_turns(graph, errors, none).shift;
         if spec.orientation == Orientation::EulerYzx {
             turn = graph.dot([four, five, six], [four, five, six]);
         }
-        Self { shift, along: [x, y, z], turn }
+        Self { shift, along: [x, y, z], across_z: [before_x, before_y], turn }
     }
 
     fn squares(&self, graph: &mut Graph) -> [Node; 5] {

@@ -13,8 +13,8 @@ const CLIMBS: usize = 6;
 const STEPS: usize = 60;
 
 impl Search {
-    /// The largest value that some climbs from points all over the box lead to.
-    pub(super) fn start<const N: usize>(&self) -> Point {
+    /// The largest value that climbs from where it begins, and from points all over the box, lead to.
+    pub(super) fn first<const N: usize>(&self) -> Point {
         let mut points = Vec::new();
         let mut samples: Vec<Point> = (0..SAMPLES)
             .map(|sample| {
@@ -24,7 +24,9 @@ impl Search {
             .filter(|point| point.value.is_finite())
             .collect();
         samples.sort_by(|a, b| b.value.total_cmp(&a.value));
-        let climbs = samples.into_iter().take(CLIMBS).map(|point| self.climb::<N>(point));
+        let start = Point { value: self.value_at(&mut points, &self.start)[0], at: self.start.clone() };
+        let starts = Some(start).filter(|point| point.value.is_finite()).into_iter();
+        let climbs = starts.chain(samples.into_iter().take(CLIMBS)).map(|point| self.climb::<N>(point));
         let none = Point { value: f64::NEG_INFINITY, at: self.domain.iter().map(|range| range[0]).collect() };
         climbs.fold(none, |best, point| if point.value > best.value { point } else { best })
     }

@@ -17,7 +17,7 @@
 //! let one = graph.constant(1.0);
 //! let rest = graph.sub(one, x);
 //! let node = graph.mul(x, rest);
-//! let x = Moving { symbol: Symbol::Variable(0), range: [0.0, 1.0], home: 0.0 };
+//! let x = Moving { symbol: Symbol::Variable(0), range: [0.0, 1.0], home: 0.0, start: 0.0 };
 //! let bound = largest(&mut graph, Magnitude { node, squared: false }, &[x], |_| 0.0, &Effort::default(), &mut |_| true);
 //! assert!(bound.complete && bound.found <= 0.25 && bound.certified >= 0.25);
 //! assert!(bound.certified <= 1.01 * bound.found);
@@ -52,6 +52,8 @@ pub struct Moving {
     pub range: [f64; 2],
     /// Where it is if it does not matter.
     pub home: f64,
+    /// Where the search begins, before it looks elsewhere.
+    pub start: f64,
 }
 
 /// How much is done.
@@ -134,7 +136,8 @@ pub fn largest(
     let value = Tape::new(graph, &[node], &symbols, still);
     let mut slopes = Tape::new(graph, &all, &symbols, still);
     slopes.sides_jump = value.has_sides();
-    let search = Search { value, all: slopes, domain, squared: magnitude.squared, effort: *effort };
+    let start = active.iter().zip(&domain).map(|(name, [low, high])| name.start.clamp(*low, *high)).collect();
+    let search = Search { value, all: slopes, domain, start, squared: magnitude.squared, effort: *effort };
     // As many slopes as there are names, or a few more: each number is compiled by itself.
     let bound = match active.len() {
         0..=2 => search.run::<2>(watch),

@@ -22,6 +22,8 @@ pub(super) struct Search {
     pub(super) all: Tape,
     /// Where each name can be.
     pub(super) domain: Vec<[f64; 2]>,
+    /// Where it begins.
+    pub(super) start: Vec<f64>,
     /// Whether the value is the square of what is asked for.
     pub(super) squared: bool,
     pub(super) effort: Effort,
@@ -55,7 +57,7 @@ impl Eq for Waiting {}
 
 impl Search {
     pub(super) fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bound {
-        let mut best = self.start::<N>();
+        let mut best = self.first::<N>();
         let whole = Cell {
             low: self.domain.iter().map(|range| range[0]).collect(),
             high: self.domain.iter().map(|range| range[1]).collect(),

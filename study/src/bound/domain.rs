@@ -5,7 +5,7 @@ use std::sync::Arc;
 use abbe_codegen::chain::{self, Magnitude};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::Symbol;
-use abbe_codegen::graph::Graph;
+use abbe_codegen::graph::{Graph, Node};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::bound::{self, Effort, MOST_MOVING, Moving, Progress};
 
@@ -14,7 +14,7 @@ use crate::mistake;
 use crate::study_file::Study;
 use crate::workspace::Span;
 
-use super::report::{Classes, Largest, Remainder};
+use super::report::{Classes, Remainder};
 
 /// What first order leaves out is small: it is known closely enough when it is known to a half, or after so many boxes.
 const OF_REMAINDER: Effort = Effort { gap: 0.5, boxes: 20_000, at_most: f64::INFINITY };
@@ -45,17 +45,31 @@ impl Domain {
         Ok(domain)
     }
 
-    /// The largest size of an error in it.
+    /// The largest size of an error in it; the search begins at `start`, or at home.
     pub(super) fn largest(
         &self,
         graph: &mut Graph,
         magnitude: Magnitude,
+        start: Option<&[f64]>,
         effort: &Effort,
         watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Largest {
+    ) -> bound::Bound {
         let still = |symbol| home(symbol, &self.spec);
-        let bound = bound::largest(graph, magnitude, &self.names(), still, effort, watch);
-        Largest::new(&bound, &self.spans, &self.spec)
+        let mut names = self.names();
+        for (name, start) in names.iter_mut().zip(start.unwrap_or_default()) {
+            name.start = *start;
+        }
+        bound::largest(graph, magnitude, &names, still, effort, watch)
+    }
+
+    /// Whether fewer of the names that move move the first node than the second.
+    pub(super) fn moves_less(&self, graph: &Graph, nodes: [Node; 2]) -> bool {
+        let [first, second] = nodes.map(|node| {
+            let symbols = graph.symbols(&[node]);
+            let moving = self.spans.iter().filter(|span| span.range[0] < span.range[1]);
+            moving.filter(|span| symbols.contains(&span.symbol)).count()
+        });
+        first < second
     }
 
     /// What first order leaves out of the repeatable sources' position; none if there are no such sources.
@@ -69,7 +83,7 @@ impl Domain {
         }
         let chain::Remainder { mut graph, magnitude, share } = chain::Remainder::new(&self.spec);
         let mut moving = self.names();
-        moving.push(Moving { symbol: share, range: [0.0, 1.0], home: 0.0 });
+        moving.push(Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 });
         let gap = asked.gap.max(OF_REMAINDER.gap);
         let effort = Effort { gap, boxes: asked.boxes.min(OF_REMAINDER.boxes), ..OF_REMAINDER };
         let still = |symbol| home(symbol, &self.spec);
@@ -86,6 +100,7 @@ impl Domain {
             symbol: *symbol,
             range: *range,
             home: home(*symbol, &self.spec),
+            start: home(*symbol, &self.spec),
         });
         names.collect()
     }

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::graph::Graph;
-use abbe_interpreter::bound::{Effort, Progress};
+use abbe_interpreter::bound::{Bound as Proved, Effort, Progress};
 
 use crate::changes::Changes;
 use crate::machine::Machine;
@@ -62,13 +62,15 @@ impl Bound {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
         let domain = Domain::new(machine, study)?;
-        let Magnitudes { mut graph, repeatable, random, radius } = Magnitudes::new(&domain.spec);
+        let Magnitudes { mut graph, repeatable, random, radius, across_z } = Magnitudes::new(&domain.spec);
         let mut sought = Sought { job: self, domain: &domain, begun: Instant::now(), done: 0 };
-        let repeatable = sought.errors(&mut graph, repeatable, notes)?;
-        let random = sought.errors(&mut graph, random, notes)?;
+        let repeatable = sought.errors(&mut graph, repeatable, across_z[0], notes)?;
+        let random = sought.errors(&mut graph, random, across_z[1], notes)?;
         // Of one class alone both together are that one.
         let radius = match Classes::of(&domain.spec) {
-            Classes { repeatable: true, random: true } => sought.errors(&mut graph, radius, notes)?,
+            Classes { repeatable: true, random: true } => {
+                sought.errors(&mut graph, radius, across_z[2], notes)?
+            }
             Classes { random: true, .. } => random.clone(),
             _ => repeatable.clone(),
         };
@@ -80,8 +82,8 @@ impl Bound {
     }
 }
 
-/// How much is looked for: five errors of each of three kinds, and the remainder.
-const SOUGHT: usize = 16;
+/// How much is looked for: five errors of each of three kinds and what those along x and y do not exceed, and the remainder.
+const SOUGHT: usize = 19;
 
 /// What is being looked for.
 struct Sought<'a> {
@@ -96,18 +98,49 @@ impl Sought<'_> {
     fn errors(
         &mut self,
         graph: &mut Graph,
-        magnitudes: [Magnitude; 5],
+        [norm, x, y, z, orientation]: [Magnitude; 5],
+        across_z: Magnitude,
         notes: &mut dyn Notes,
     ) -> Result<Errors, Diagnostics> {
-        let mut largest: Vec<Largest> = Vec::with_capacity(5);
-        for (i, magnitude) in magnitudes.into_iter().enumerate() {
-            // No part of a position's error is larger than its norm.
-            let norm = if (1..4).contains(&i) { largest[0].certified } else { None };
-            let effort = Effort { at_most: norm.unwrap_or(f64::INFINITY), ..self.job.effort };
-            largest.push(self.one(notes, |domain, watch| domain.largest(graph, magnitude, &effort, watch))?);
-        }
-        let [norm, x, y, z, orientation] = <[Largest; 5]>::try_from(largest).expect("five errors");
-        Ok(Errors { norm, x, y, z, orientation })
+        let effort = self.job.effort;
+        let norm = self.largest(graph, norm, None, &effort, notes)?;
+        // No part of a position's error is larger than its norm.
+        let of_part = Effort { at_most: norm.certified, ..effort };
+        // Where a joint turns both about z, the largest part across z is soon known and leads to those along x and y.
+        let across = match self.domain.moves_less(graph, [across_z.node, x.node]) {
+            true => {
+                let effort = Effort { boxes: effort.boxes / 4, ..of_part };
+                Some(self.largest(graph, across_z, None, &effort, notes)?)
+            }
+            false => None,
+        };
+        let start = across.as_ref().map(|across| &across.at[..]);
+        let at_most = across.as_ref().map_or(norm.certified, |across| across.certified);
+        let of_row = Effort { at_most, ..effort };
+        let mut x = self.largest(graph, x, start, &of_row, notes)?;
+        x.boxes += across.as_ref().map_or(0, |across| across.boxes);
+        let y = self.largest(graph, y, start, &of_row, notes)?;
+        let z = self.largest(graph, z, None, &of_part, notes)?;
+        let orientation = self.largest(graph, orientation, None, &effort, notes)?;
+        let largest = |bound| Largest::new(&bound, self.domain);
+        Ok(Errors {
+            norm: largest(norm),
+            x: largest(x),
+            y: largest(y),
+            z: largest(z),
+            orientation: largest(orientation),
+        })
+    }
+
+    fn largest(
+        &mut self,
+        graph: &mut Graph,
+        magnitude: Magnitude,
+        start: Option<&[f64]>,
+        effort: &Effort,
+        notes: &mut dyn Notes,
+    ) -> Result<Proved, Diagnostics> {
+        self.one(notes, |domain, watch| domain.largest(graph, magnitude, start, effort, watch))
     }
 
     /// One of what is looked for, while there is time.

@@ -1,7 +1,7 @@
 //! The norms of the position's errors alone, beside what an analysis samples.
 
 use abbe_codegen::chain::Magnitudes;
-use abbe_interpreter::bound::Effort;
+use abbe_interpreter::bound::{Effort, Progress};
 use serde::Serialize;
 
 use crate::machine::Machine;
@@ -43,7 +43,11 @@ impl Norms {
         let boxes = WORK / (magnitudes.graph.len() * moving * moving).max(1);
         let effort = Effort { boxes: boxes.min(20_000), ..Effort::default() };
         let mut largest = |i: usize, any: bool| {
-            any.then(|| domain.largest(&mut magnitudes.graph, norms[i], &effort, &mut |_| !notes.stop()))
+            any.then(|| {
+                let mut go_on = |_: &Progress| !notes.stop();
+                let bound = domain.largest(&mut magnitudes.graph, norms[i], None, &effort, &mut go_on);
+                Largest::new(&bound, &domain)
+            })
         };
         Some(Self {
             repeatable: largest(0, repeatable),

@@ -202,7 +202,7 @@ impl Errors {
 }
 
 impl Largest {
-    pub(super) fn new(bound: &bound::Bound, spans: &[Span], spec: &Spec) -> Self {
+    pub(super) fn new(bound: &bound::Bound, Domain { spec, spans }: &Domain) -> Self {
         let variables = spec.variables.iter().map(|variable| (variable.name.clone(), variable.home));
         let mut at: IndexMap<String, f64> = variables.collect();
         let mut place = Vec::new();

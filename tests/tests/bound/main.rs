@@ -21,11 +21,13 @@ fn moving(spec: &Spec) -> Vec<Moving> {
         symbol: Symbol::Variable(i),
         range: variable.limits,
         home: variable.home,
+        start: variable.home,
     });
     let inputs = spec.inputs.iter().enumerate().map(|(i, input)| Moving {
         symbol: Symbol::Input(i),
         range: input.range,
         home: input.value,
+        start: input.value,
     });
     joints.chain(inputs).collect()
 }
@@ -128,6 +130,17 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
                 sizes(&robot, q, u)
             })
             .collect();
+        // Neither x nor y is more than what is across z.
+        for k in 0..3 {
+            let across_z = magnitudes.across_z[k];
+            let bound = bounded(&spec, &mut magnitudes, across_z, &box_, &effort);
+            let most = seen.iter().map(|sizes| sizes[k][1].max(sizes[k][2])).fold(0.0, f64::max);
+            let slack = ROUNDING * (most + 1e-6);
+            assert!(
+                most <= bound.certified + slack,
+                "robot {seed}, {k} across z: {most:e} above {bound:?}\n{box_:?}\n{text}"
+            );
+        }
         let kinds = [magnitudes.repeatable, magnitudes.random, magnitudes.radius];
         for (k, five) in kinds.into_iter().enumerate() {
             for (i, magnitude) in five.into_iter().enumerate() {
@@ -222,6 +235,7 @@ fn maxima_that_are_known_exactly_are_enclosed() {
         let all = moving(&spec);
         let mut magnitudes = Magnitudes::new(&spec);
         let (repeatable, random, radius) = (magnitudes.repeatable, magnitudes.random, magnitudes.radius);
+        let across_z = magnitudes.across_z;
         let mut bounded = |magnitude| bounded(&spec, &mut magnitudes, magnitude, &all, &effort);
         is(&bounded(repeatable[0]), 1e-3 * reach);
         is(&bounded(random[0]), 2e-3 * 300.0);
@@ -230,6 +244,9 @@ fn maxima_that_are_known_exactly_are_enclosed() {
         // Along x, y of F_0 the first joint turns it wherever it is largest.
         is(&bounded(repeatable[1]), 1e-3 * reach);
         is(&bounded(random[2]), 0.6);
+        is(&bounded(across_z[0]), 1e-3 * reach);
+        is(&bounded(across_z[1]), 0.6);
+        is(&bounded(across_z[2]), 1e-3 * reach + 0.6);
         assert!(bounded(repeatable[3]).certified < 1e-150);
     }
 }
