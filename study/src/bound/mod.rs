@@ -108,10 +108,7 @@ impl Sought<'_> {
         let of_part = Effort { at_most: norm.certified, ..effort };
         // Where a joint turns both about z, the largest part across z is soon known and leads to those along x and y.
         let across = match self.domain.moves_less(graph, [across_z.node, x.node]) {
-            true => {
-                let effort = Effort { boxes: effort.boxes / 4, ..of_part };
-                Some(self.largest(graph, across_z, None, &effort, notes)?)
-            }
+            true => Some(self.largest(graph, across_z, None, &of_part, notes)?),
             false => None,
         };
         let start = across.as_ref().map(|across| &across.at[..]);
