@@ -7,6 +7,7 @@ use super::accumulate::Links;
 use super::by_source::errors_by_source;
 use super::displacement::Displacement;
 use super::rows::Rows;
+use super::six::vectors;
 use super::sources;
 use crate::expr::Function;
 use crate::graph::{Graph, Node, Vector};
@@ -36,6 +37,28 @@ pub struct Magnitudes {
     /// Of each kind what the errors along x and along y do not exceed: the norm of both, or of random sources the largest root
     /// sum of squares along a direction across z. Turns about z that the chain begins with change nothing of it.
     pub across_z: [Magnitude; 3],
+    /// The parts of all of them.
+    pub apart: Apart,
+}
+
+/// The parts of the errors of the tool point, each by itself: squares of norms, which depend on few joints.
+#[derive(Clone, Debug)]
+pub struct Apart {
+    /// ‖t_k‖², from the origin of each frame to that of the next, and from the last one to the tool point.
+    pub links: Vec<Node>,
+    /// ‖d_i‖² and ‖θ_i‖² of the errors of each frame: of all repeatable sources.
+    pub repeatable: Vec<[Node; 2]>,
+    /// Of each random source at its bound.
+    pub random: Vec<Vec<[Node; 2]>>,
+}
+
+/// ‖d‖² and ‖θ‖² of the errors of each frame.
+fn squares_apart(graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<[Node; 2]> {
+    let squares = |errors: &[Node; 6]| {
+        let (shift, turn) = vectors(*errors);
+        [shift, turn].map(|vector| graph.dot(vector, vector))
+    };
+    errors.iter().map(squares).collect()
 }
 
 /// What some errors of frames do to the tool point.
@@ -61,6 +84,13 @@ impl Magnitudes {
         let rows = Rows::new(g, spec.orientation, first_axis);
 
         let errors = sources::generalized_errors(g, spec, &effects);
+        let axes = g.identity().axes;
+        let shifts: Vec<Vector> = (1..=spec.frames.len()).map(|link| links.shift(g, link, &axes)).collect();
+        let mut apart = Apart {
+            links: shifts.into_iter().map(|shift| g.dot(shift, shift)).collect(),
+            repeatable: squares_apart(g, &errors),
+            random: Vec::new(),
+        };
         let repeatable = Moved::by(g, spec, &links, &rows, &errors);
         let mut sums = [zero; 5];
         // Σ x², Σ y², Σ x y.
@@ -71,6 +101,7 @@ impl Magnitudes {
                 let bound = g.constant(distribution.bound());
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
                 let at_bound: Vec<[Node; 6]> = at_bound.collect();
+                apart.random.push(squares_apart(g, &at_bound));
                 let moved = Moved::by(g, spec, &links, &rows, &at_bound);
                 let squares = moved.squares(g);
                 sums = std::array::from_fn(|i| g.add(sums[i], squares[i]));
@@ -91,7 +122,7 @@ impl Magnitudes {
         let squared = |node| Magnitude { node, squared: true };
         let repeatable = repeatable.squares(g).map(squared);
         let across_z = [squared(across[0]), squared(across[1]), both];
-        Self { graph, repeatable, random: sums.map(squared), radius, across_z }
+        Self { graph, repeatable, random: sums.map(squared), radius, across_z, apart }
     }
 }
 

@@ -37,7 +37,7 @@ pub(crate) use displacement::Displacement;
 pub(crate) use error_jacobian::Columns;
 pub(crate) use local::Local;
 pub use local_twist::LocalTwist;
-pub use magnitudes::{Magnitude, Magnitudes};
+pub use magnitudes::{Apart, Magnitude, Magnitudes};
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;
 pub use remainder::Remainder;

@@ -3,7 +3,8 @@
 //!
 //! `form` is a number while names move within their ranges, all roundings covered; `functions` and `tables` are what is
 //! done to it, `tape` the operations of a graph one after the other; `period` whether a joint comes round, `cell` what is known of the node
-//! within one box, and `search` goes from box to box, the one that may hold most first.
+//! within one box, and `search` goes from box to box, the one that may hold most first. `apart` is what sums cannot exceed because of
+//! their parts.
 //!
 //! ```
 //! use abbe_codegen::chain::Magnitude;
@@ -23,6 +24,7 @@
 //! assert!(bound.certified <= 1.01 * bound.found);
 //! ```
 
+mod apart;
 mod cell;
 mod climb;
 mod form;
@@ -37,6 +39,7 @@ use abbe_codegen::chain::Magnitude;
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
 
+pub use apart::{Limits, limits};
 use search::Search;
 use tape::Tape;
 

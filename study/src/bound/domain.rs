@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use abbe_codegen::chain::{self, Magnitude};
+use abbe_codegen::chain::{self, Apart, Magnitude};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
 use abbe_codegen::spec::Spec;
-use abbe_interpreter::bound::{self, Effort, MOST_MOVING, Moving, Progress};
+use abbe_interpreter::bound::{self, Effort, Limits, MOST_MOVING, Moving, Progress};
 
 use crate::machine::Machine;
 use crate::mistake;
@@ -60,6 +60,11 @@ impl Domain {
             name.start = *start;
         }
         bound::largest(graph, magnitude, &names, still, effort, watch)
+    }
+
+    /// What norms cannot exceed because of their parts.
+    pub(super) fn limits(&self, graph: &mut Graph, apart: &Apart) -> Limits {
+        bound::limits(graph, apart, &self.names(), |symbol| home(symbol, &self.spec))
     }
 
     /// Whether fewer of the names that move move the first node than the second.

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
 use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::graph::Graph;
+use abbe_codegen::spec::Orientation;
 use abbe_interpreter::bound::{Bound as Proved, Effort, Progress};
 
 use crate::changes::Changes;
@@ -62,14 +63,22 @@ impl Bound {
     pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
         let Self { machine, study, .. } = self;
         let domain = Domain::new(machine, study)?;
-        let Magnitudes { mut graph, repeatable, random, radius, across_z } = Magnitudes::new(&domain.spec);
+        let Magnitudes { mut graph, repeatable, random, radius, across_z, apart } =
+            Magnitudes::new(&domain.spec);
+        let limits = domain.limits(&mut graph, &apart);
+        // Rows 4–6 are no rotation vector there.
+        let is_rotation = domain.spec.orientation == Orientation::RotationVector;
+        let at_most = |kind: usize| {
+            let rotation = if is_rotation { limits.rotation[kind] } else { f64::INFINITY };
+            [limits.position[kind], rotation]
+        };
         let mut sought = Sought { job: self, domain: &domain, begun: Instant::now(), done: 0 };
-        let repeatable = sought.errors(&mut graph, repeatable, across_z[0], notes)?;
-        let random = sought.errors(&mut graph, random, across_z[1], notes)?;
+        let repeatable = sought.errors(&mut graph, repeatable, across_z[0], at_most(0), notes)?;
+        let random = sought.errors(&mut graph, random, across_z[1], at_most(1), notes)?;
         // Of one class alone both together are that one.
         let radius = match Classes::of(&domain.spec) {
             Classes { repeatable: true, random: true } => {
-                sought.errors(&mut graph, radius, across_z[2], notes)?
+                sought.errors(&mut graph, radius, across_z[2], at_most(2), notes)?
             }
             Classes { random: true, .. } => random.clone(),
             _ => repeatable.clone(),
@@ -100,12 +109,13 @@ impl Sought<'_> {
         graph: &mut Graph,
         [norm, x, y, z, orientation]: [Magnitude; 5],
         across_z: Magnitude,
+        at_most: [f64; 2],
         notes: &mut dyn Notes,
     ) -> Result<Errors, Diagnostics> {
-        let effort = self.job.effort;
-        let norm = self.largest(graph, norm, None, &effort, notes)?;
+        let [of_norm, of_turn] = at_most.map(|at_most| Effort { at_most, ..self.job.effort });
+        let norm = self.largest(graph, norm, None, &of_norm, notes)?;
         // No part of a position's error is larger than its norm.
-        let of_part = Effort { at_most: norm.certified, ..effort };
+        let of_part = Effort { at_most: norm.certified, ..of_norm };
         // Where a joint turns both about z, the largest part across z is soon known and leads to those along x and y.
         let across = match self.domain.moves_less(graph, [across_z.node, x.node]) {
             true => Some(self.largest(graph, across_z, None, &of_part, notes)?),
@@ -113,12 +123,12 @@ impl Sought<'_> {
         };
         let start = across.as_ref().map(|across| &across.at[..]);
         let at_most = across.as_ref().map_or(norm.certified, |across| across.certified);
-        let of_row = Effort { at_most, ..effort };
+        let of_row = Effort { at_most, ..of_part };
         let mut x = self.largest(graph, x, start, &of_row, notes)?;
         x.boxes += across.as_ref().map_or(0, |across| across.boxes);
         let y = self.largest(graph, y, start, &of_row, notes)?;
         let z = self.largest(graph, z, None, &of_part, notes)?;
-        let orientation = self.largest(graph, orientation, None, &effort, notes)?;
+        let orientation = self.largest(graph, orientation, None, &of_turn, notes)?;
         let largest = |bound| Largest::new(&bound, self.domain);
         Ok(Errors {
             norm: largest(norm),

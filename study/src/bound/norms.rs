@@ -42,7 +42,9 @@ impl Norms {
         let moving = domain.moving();
         let boxes = WORK / (magnitudes.graph.len() * moving * moving).max(1);
         let effort = Effort { boxes: boxes.min(20_000), ..Effort::default() };
+        let limits = domain.limits(&mut magnitudes.graph, &magnitudes.apart).position;
         let mut largest = |i: usize, any: bool| {
+            let effort = Effort { at_most: limits[i], ..effort };
             any.then(|| {
                 let mut go_on = |_: &Progress| !notes.stop();
                 let bound = domain.largest(&mut magnitudes.graph, norms[i], None, &effort, &mut go_on);

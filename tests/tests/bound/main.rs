@@ -7,9 +7,9 @@ mod robot;
 use abbe::{Class, Manipulator};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
 use abbe_codegen::expr::Symbol;
-use abbe_codegen::spec::Spec;
+use abbe_codegen::spec::{Orientation, Spec};
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::{Bound, Effort, Moving, largest};
+use abbe_interpreter::bound::{Bound, Effort, Moving, largest, limits};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -130,6 +130,20 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
                 sizes(&robot, q, u)
             })
             .collect();
+        // Nor more than the parts allow.
+        let apart = magnitudes.apart.clone();
+        let limits = limits(&mut magnitudes.graph, &apart, &box_, |symbol| home(symbol, &spec));
+        for k in 0..3 {
+            let most = |row: usize| seen.iter().map(|sizes| sizes[k][row]).fold(0.0, f64::max);
+            let slack = ROUNDING * (most(0) + 1e-6);
+            assert!(most(0) <= limits.position[k] + slack, "robot {seed}, {k}: {limits:?}\n{box_:?}\n{text}");
+            let is_rotation = spec.orientation == Orientation::RotationVector;
+            let slack = ROUNDING * (most(4) + 1e-6);
+            assert!(
+                !is_rotation || most(4) <= limits.rotation[k] + slack,
+                "robot {seed}, {k}: {limits:?}\n{box_:?}\n{text}"
+            );
+        }
         // Neither x nor y is more than what is across z.
         for k in 0..3 {
             let across_z = magnitudes.across_z[k];
@@ -249,6 +263,26 @@ fn maxima_that_are_known_exactly_are_enclosed() {
         is(&bounded(across_z[2]), 1e-3 * reach + 0.6);
         assert!(bounded(repeatable[3]).certified < 1e-150);
     }
+}
+
+/// Nine joints are too many for boxes: what is certified comes from the parts, and is less than two and a half times the largest error that is found.
+#[test]
+fn of_many_joints_the_parts_are_known() {
+    let mut text = abbe_tests::chains::revolute_chain(9);
+    for frame in 1..=9 {
+        text += &format!(
+            "[[source]]\nname = \"{frame}\"\nclass = \"repeatable\"\nframe = \"{frame}\"\ne_x = \"0.05 mm\"\ne_y = \"-0.03 mm\"\n\
+             e_s = \"0.05 mrad\"\ne_r = \"-0.04 mrad\"\ne_p = \"0.03 mrad\"\n"
+        );
+    }
+    let spec = Spec::parse("chain.toml", &text).unwrap();
+    let mut magnitudes = Magnitudes::new(&spec);
+    let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone(), magnitudes.repeatable[0]);
+    let limits = limits(&mut magnitudes.graph, &apart, &all, |symbol| home(symbol, &spec));
+    let effort = Effort { boxes: 100, at_most: limits.position[0], ..Effort::default() };
+    let bound = bounded(&spec, &mut magnitudes, norm, &all, &effort);
+    assert_eq!(bound.certified, limits.position[0]);
+    assert!(bound.found > 0.4 * bound.certified, "{bound:?}");
 }
 
 #[test]
