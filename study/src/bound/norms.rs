@@ -1,6 +1,7 @@
 //! The norms of the position's errors alone, beside what an analysis samples.
 
 use abbe_codegen::chain::Magnitudes;
+use abbe_codegen::spec::Class;
 use abbe_interpreter::bound::{Effort, Progress};
 use serde::Serialize;
 
@@ -14,6 +15,8 @@ use super::report::{Classes, Largest};
 /// An analysis does not wait for more: what is certified by then holds. In operations, about: those of a box are the nodes of the
 /// error and of its slopes, with a term for each name that moves.
 const WORK: usize = 400_000_000;
+/// Each random source has an error of its own through all frames; of more of both together the expressions become too many.
+const MOST_RANDOM: usize = 2_000;
 
 /// The largest norms ‖ΔX‖ of the position's errors over the box that contains a workspace: each at least `found`, and at most
 /// `certified`.
@@ -30,11 +33,13 @@ pub struct Norms {
 }
 
 impl Norms {
-    /// Those of a machine and a study with all changes; none if there is no such box, or nothing to bound.
+    /// Those of a machine and a study with all changes; none if there is no such box, nothing to bound, or too much.
     pub(crate) fn over(machine: &Machine, study: &Study, notes: &dyn Notes) -> Option<Self> {
         let domain = Domain::new(machine, study).ok()?;
         let Classes { repeatable, random } = Classes::of(&domain.spec);
-        if !repeatable && !random {
+        let sources =
+            domain.spec.enabled_sources().filter(|source| source.class != Class::Repeatable).count();
+        if !repeatable && !random || sources * domain.spec.frames.len() > MOST_RANDOM {
             return None;
         }
         let mut magnitudes = Magnitudes::new(&domain.spec);
