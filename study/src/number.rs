@@ -119,6 +119,12 @@ pub fn digits(value: f64, digits: usize) -> String {
     short(format!("{value:.decimals$e}").parse().unwrap_or(value))
 }
 
+/// How many decimals show so many digits of a number that is not negative; never more than 12.
+pub fn decimals(value: f64, digits: usize) -> usize {
+    let first = if value > 0.0 { value.log10().floor() } else { 0.0 };
+    (digits as f64 - 1.0 - first).clamp(0.0, 12.0) as usize
+}
+
 /// A number with this many decimals that is not below it.
 pub fn rounded_up(value: f64, decimals: usize) -> String {
     let step = 0.1_f64.powi(decimals as i32);

@@ -80,27 +80,33 @@ impl Links {
     /// ρ = p_T − p_i        take in ε_i at ρ        ρ ← t_i + R_i ρ, and what is accumulated ← R_i of it
     /// ```
     pub(super) fn accumulate<A: Accumulated>(&self, graph: &mut Graph, errors: &[[Node; 6]], sum: A) -> A {
-        let (mut sum, mut lever) = self.behind(graph, errors, 0, sum);
-        if let [motions, ..] = &self.frames[..] {
-            motions.iter().rev().for_each(|motion| go_before(graph, motion, &mut sum, &mut lever));
-        }
-        sum
+        self.accumulate_past(graph, errors, 0, sum)
     }
 
-    /// The same, but before the shifts and turns about z that `A_1` begins with: what is along z and across z is as large as in
+    /// The same, but behind the shifts and turns about z that `A_1` begins with: what is along z and across z is as large as in
     /// `F_0`, and does not depend on the angles of these turns.
-    pub(super) fn accumulate_before_turns<A: Accumulated>(
+    pub(super) fn accumulate_behind_turns<A: Accumulated>(
         &self,
         graph: &mut Graph,
         errors: &[[Node; 6]],
         sum: A,
     ) -> A {
+        let keeps_z = |motion: &&Local| matches!(motion, Local::Shift(_) | Local::Turn { axis: 2, .. });
+        let turns = self.frames.first().map_or(0, |motions| motions.iter().take_while(keeps_z).count());
+        self.accumulate_past(graph, errors, turns, sum)
+    }
+
+    /// The same in the axes behind the first so many motions of `A_1`.
+    fn accumulate_past<A: Accumulated>(
+        &self,
+        graph: &mut Graph,
+        errors: &[[Node; 6]],
+        skipped: usize,
+        sum: A,
+    ) -> A {
         let (mut sum, mut lever) = self.behind(graph, errors, 0, sum);
-        if let [motions, ..] = &self.frames[..] {
-            let keeps_z = |motion: &&Local| matches!(motion, Local::Shift(_) | Local::Turn { axis: 2, .. });
-            let first = motions.iter().take_while(keeps_z).count();
-            motions[first..].iter().rev().for_each(|motion| go_before(graph, motion, &mut sum, &mut lever));
-        }
+        let motions = self.frames.first().into_iter().flat_map(|motions| &motions[skipped..]);
+        motions.rev().for_each(|motion| go_before(graph, motion, &mut sum, &mut lever));
         sum
     }
 

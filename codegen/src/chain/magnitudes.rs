@@ -67,7 +67,7 @@ struct Moved {
     shift: Node,
     /// δ in `F_0`.
     along: Vector,
-    /// x and y of δ before the turns about z that the chain begins with.
+    /// x and y of δ behind the turns about z that the chain begins with.
     across_z: [Node; 2],
     /// The square of the norm of rows 4–6.
     turn: Node,
@@ -146,11 +146,11 @@ impl Moved {
         let none = Displacement::none(graph);
         let [x, y, z, four, five, six] = links.accumulate(graph, errors, none).column(graph, rows);
         let none = Displacement::none(graph);
-        let [before_x, before_y, _] = links.accumulate_before_turns(graph, errors, none).shift;
+        let [across_x, across_y, _] = links.accumulate_behind_turns(graph, errors, none).shift;
         if spec.orientation == Orientation::EulerYzx {
             turn = graph.dot([four, five, six], [four, five, six]);
         }
-        Self { shift, along: [x, y, z], across_z: [before_x, before_y], turn }
+        Self { shift, along: [x, y, z], across_z: [across_x, across_y], turn }
     }
 
     fn squares(&self, graph: &mut Graph) -> [Node; 5] {

@@ -5,8 +5,8 @@
 //! small rotation into rows 4–6; `sources` gives ε, with `deviation` for errors of joints and parameters and `elastic`
 //! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
 //! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`, and `magnitudes`, whose
-//! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it. [`Model`] holds the results. What else leads to the
-//! same, `ways` and `moving` state: a program takes what needs the fewest operations.
+//! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it. [`Model`]
+//! holds the results. What else leads to the same, `ways` and `moving` state: a program takes what needs the fewest operations.
 
 mod accumulate;
 mod by_source;

@@ -7,7 +7,7 @@ use super::canvas::{Failed, Sheet, Side, line, panel, px, rgb, text};
 use crate::axis::{Axis, BAR, INK, TOLERANCE, XYZ};
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{Report, Sampled};
-use abbe_study::number::{fixed, rounded_down, rounded_up};
+use abbe_study::number::{decimals, fixed, rounded_down, rounded_up};
 
 /// How high the part of a kind of errors is, pixels.
 const ROW: u32 = 52;
@@ -41,7 +41,7 @@ pub(crate) fn draw(report: &Report) -> Result<Option<String>, Failed> {
             let ends = [(tolerance, y.range[0]), (tolerance, y.range[1])];
             chart.draw_series(DashedLineSeries::new(ends, px(5.0), px(4.0), line(TOLERANCE, 1.2)))?;
         }
-        for (i, Sampled { of, sampled, largest }) in rows.iter().enumerate() {
+        for (i, Sampled { sources, sampled, largest }) in rows.iter().enumerate() {
             let middle = -(i as f64);
             let (low, high) = (middle - 0.36, middle + 0.06);
             let sampled = axis.show(*sampled);
@@ -52,11 +52,11 @@ pub(crate) fn draw(report: &Report) -> Result<Option<String>, Failed> {
                 chart
                     .draw_series([PathElement::new(vec![(value, low), (value, high)], line(XYZ[0], 2.0))])?;
             }
-            let decimals = decimals(found);
+            let decimals = decimals(found, 4);
             let at_most =
                 certified.map_or_else(|| "not known".to_owned(), |value| rounded_up(value, decimals));
             let label = format!(
-                "{of}: {} {unit} sampled; at least {} {unit}, at most {at_most} {unit}",
+                "{sources}: {} {unit} sampled; at least {} {unit}, at most {at_most} {unit}",
                 fixed(sampled, decimals),
                 rounded_down(found, decimals),
                 unit = axis.unit,
@@ -68,9 +68,4 @@ pub(crate) fn draw(report: &Report) -> Result<Option<String>, Failed> {
         Ok(())
     })?;
     Ok(Some(drawn))
-}
-
-/// As many decimals as four digits take.
-fn decimals(value: f64) -> usize {
-    if value > 0.0 { (3.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 3 }
 }

@@ -64,7 +64,7 @@ fn left_out(report: &Report) -> Option<String> {
         return Some("How far the exact chain differs from first order could not be proved.".to_owned());
     };
     // Two digits: it is no closer than that.
-    let decimals = decimals(certified).saturating_sub(3);
+    let decimals = number::decimals(certified, 2);
     Some(format!(
         "Nowhere in the box does the exact chain A_1 E_1 … A_n E_n T of the repeatable sources have the tool point more than {} {} \
          from where first order has it.",
@@ -73,18 +73,13 @@ fn left_out(report: &Report) -> Option<String> {
     ))
 }
 
-/// As many decimals as five digits take.
-fn decimals(value: f64) -> usize {
-    if value > 0.0 { (4.0 - value.log10().floor()).clamp(0.0, 12.0) as usize } else { 4 }
-}
-
 fn table(report: &Report, errors: &Errors) -> Table {
     let unit = report.length;
     let mut table = Table::new(&["error", "at least", "at most", "unit", "found at"]);
     let names = ["norm", "x", "y", "z", "orientation"];
     for (name, largest) in names.into_iter().zip(errors.all()) {
         let (factor, unit) = if name == "orientation" { (1e3, "mrad") } else { (1.0, unit) };
-        let decimals = decimals(factor * largest.found);
+        let decimals = number::decimals(factor * largest.found, 5);
         let certified = match largest.certified {
             None => "not known".to_owned(),
             Some(certified) => number::rounded_up(factor * certified, decimals),

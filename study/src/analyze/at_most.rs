@@ -7,11 +7,11 @@ use crate::number::{self, unbroken};
 
 /// The norm of one kind of errors: what was sampled, and what is certified.
 pub struct Sampled<'a> {
-    /// Of which sources.
-    pub of: &'static str,
-    /// The largest that was sampled.
+    /// The sources that make it, in words.
+    pub sources: &'static str,
+    /// The largest ‖ΔX‖ that was sampled, in the length unit.
     pub sampled: f64,
-    /// What is certified.
+    /// What is certified over the box that contains the workspace, in the same unit.
     pub largest: &'a Largest,
 }
 
@@ -25,8 +25,8 @@ impl Report {
             ("the random sources", combined.random_radius, random),
             ("all sources together", combined.radius, radius),
         ];
-        let known = kinds.into_iter().filter_map(|(of, sampled, largest)| {
-            Some(Sampled { of, sampled: sampled.value, largest: largest.as_ref()? })
+        let known = kinds.into_iter().filter_map(|(sources, sampled, largest)| {
+            Some(Sampled { sources, sampled: sampled.value, largest: largest.as_ref()? })
         });
         known.collect()
     }
@@ -45,11 +45,11 @@ impl Report {
 /// Sampled and certified norms as a table; none if nothing is certified.
 pub fn at_most(report: &Report) -> Option<Listing> {
     let decimals = report.decimals();
-    let row = |Sampled { of, sampled, largest }: Sampled| {
+    let row = |Sampled { sources, sampled, largest }: Sampled| {
         let certified = largest.certified.map(|certified| number::rounded_up(certified, decimals));
         let place = if largest.place.is_empty() { "home" } else { &largest.place };
         vec![
-            of.to_owned(),
+            sources.to_owned(),
             number::fixed(sampled, decimals),
             number::rounded_down(largest.found, decimals),
             certified.unwrap_or_else(|| "not known".to_owned()),
@@ -64,9 +64,12 @@ pub fn at_most(report: &Report) -> Option<Listing> {
 /// What is certified, in a sentence; none if nothing is.
 pub(super) fn sentence(report: &Report) -> Option<String> {
     let unit = report.spec.length.symbol();
-    let known = report.sampled().into_iter().filter_map(|Sampled { of, sampled, largest }| {
+    let known = report.sampled().into_iter().filter_map(|Sampled { sources, sampled, largest }| {
         let certified = number::rounded_up(largest.certified?, report.decimals());
-        Some(format!("{certified} {unit} of {of} ({} sampled)", number::fixed(sampled, report.decimals())))
+        Some(format!(
+            "{certified} {unit} of {sources} ({} sampled)",
+            number::fixed(sampled, report.decimals())
+        ))
     });
     let known: Vec<String> = known.collect();
     (!known.is_empty()).then(|| {

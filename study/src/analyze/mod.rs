@@ -2,8 +2,8 @@
 //!
 //! `job` is the question, `prepared` how it is answered, `parts` the same on several machines, `report` the answer. The sweep runs
 //! once; `figures` gathers on the way what the figures show.
-//! `first_order` compares with the exact chain, `at_most` with what is certified, `agreement` with published figures; `ledger` ranks the sources,
-//! `judged` holds them against the tolerance,
+//! `first_order` compares with the exact chain, `at_most` with what is certified, `agreement` with published figures;
+//! `ledger` ranks the sources, `judged` holds them against the tolerance,
 //! `summary` answers in a few sentences and `verdict` says so, `stated` are budgets after the GUM and `uncertainty` their tables,
 //! `unreachable` says what could not be had and why, `conclusions` puts the results into sentences; `json` is the report as
 //! machines read it.

@@ -17,9 +17,9 @@ use crate::workspace::Span;
 use super::report::{Classes, Remainder};
 
 /// What first order leaves out is small: it is known closely enough when it is known to a half, or after so many boxes.
-const OF_REMAINDER: Effort = Effort { gap: 0.5, boxes: 20_000, at_most: f64::INFINITY };
+const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, at_most: f64::INFINITY };
 /// How many names may move: the search for the remainder moves one more.
-const MOST: usize = MOST_MOVING - 1;
+const MOST_NAMES: usize = MOST_MOVING - 1;
 
 /// The box of joints, parameters and inputs that contains the workspace of a study.
 pub(super) struct Domain {
@@ -33,11 +33,11 @@ impl Domain {
         let spans = study.region.spans(&machine.spec, &machine.origin)?;
         let domain = Self { spec: machine.spec.clone(), spans };
         let moving = domain.moving();
-        if moving > MOST {
+        if moving > MOST_NAMES {
             return Err(mistake::with_help(
                 &machine.origin,
                 format!(
-                    "{moving} joints, parameters and inputs move: of more than {MOST} at once nothing can be proved"
+                    "{moving} joints, parameters and inputs move: of more than {MOST_NAMES} at once nothing can be proved"
                 ),
                 "hold some of them: a study whose workspace is a `grid` moves those that it names, `--set` holds inputs",
             ));
@@ -89,8 +89,8 @@ impl Domain {
         let chain::Remainder { mut graph, magnitude, share } = chain::Remainder::new(&self.spec);
         let mut moving = self.names();
         moving.push(Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 });
-        let gap = asked.gap.max(OF_REMAINDER.gap);
-        let effort = Effort { gap, boxes: asked.boxes.min(OF_REMAINDER.boxes), ..OF_REMAINDER };
+        let gap = asked.gap.max(REMAINDER_EFFORT.gap);
+        let effort = Effort { gap, boxes: asked.boxes.min(REMAINDER_EFFORT.boxes), ..REMAINDER_EFFORT };
         let still = |symbol| home(symbol, &self.spec);
         Some(Remainder::new(&bound::largest(&mut graph, magnitude, &moving, still, &effort, watch)))
     }
