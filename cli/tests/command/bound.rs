@@ -84,6 +84,12 @@ fn an_analysis_says_it_too() {
     assert!(said.contains(certified), "{said}");
     assert!(shown.contains("<h2>At most</h2>") && shown.contains("<title>Sampled and certified</title>"));
     assert!(shown.contains("the dashed line is the tolerance"), "pps has one");
+    // What is found in a box that holds more is no lower bound of the workspace.
+    let of_box = shown.split("<h2>At most</h2>").nth(1).unwrap().split("</section>").next().unwrap();
+    assert!(of_box.contains("whose own maximum may be smaller") && !of_box.contains("at least"), "{of_box}");
+    let (_, shown) = page("machine3", &folder.path().join("machine3"));
+    let of_box = shown.split("<h2>At most</h2>").nth(1).unwrap().split("</section>").next().unwrap();
+    assert!(!of_box.contains("may be smaller") && of_box.contains("at least"), "{of_box}");
     let source = "[[source]]\nname = \"off\"\nclass = \"repeatable\"\nframe = \"1\"\ne_x = \"0.1 mm\"\n";
     let long = write(folder.path(), "long.toml", &(abbe_tests::chains::revolute_chain(33) + source));
     let (said, shown) = page(long.to_str().unwrap(), &folder.path().join("long"));

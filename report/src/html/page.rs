@@ -137,12 +137,21 @@ fn conclusions(report: &Report) -> String {
 fn certified(drawing: Option<&str>, report: &Report) -> String {
     let (Some(drawing), Some(listing)) = (drawing, analyze::at_most(report)) else { return String::new() };
     let unit = report.spec.length.symbol();
+    let lines = match report.box_contains_more() {
+        true => {
+            "The line: what nothing in the box that contains the workspace exceeds, to first order. The box holds more than the \
+             workspace, whose own maximum may be smaller"
+        }
+        false => {
+            "The true maximum lies between the two lines: the first was found, and nothing in the box of the workspace exceeds the \
+             second, to first order. Where both fall together it is one line"
+        }
+    };
+    let tolerance = if report.study.tolerance.is_some() { "; the dashed line is the tolerance" } else { "" };
     let body = format!(
-        "<figure>\n<div class=\"picture\">{}</div>\n<figcaption>Bars: what was sampled, a lower bound. The true maximum lies between the \
-         two lines: the first was found, and nothing in the box that contains the workspace exceeds the second, to first order. \
-         Where both fall together it is one line{}.</figcaption>\n</figure>\n<p>In {unit}.</p>\n{}",
+        "<figure>\n<div class=\"picture\">{}</div>\n<figcaption>Bars: what was sampled, a lower bound. {lines}{tolerance}.\
+         </figcaption>\n</figure>\n<p>In {unit}.</p>\n{}",
         inline(drawing),
-        if report.study.tolerance.is_some() { "; the dashed line is the tolerance" } else { "" },
         ledger::listed(&listing)
     );
     section("At most", &body)

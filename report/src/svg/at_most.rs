@@ -23,8 +23,17 @@ pub(crate) fn draw(report: &Report) -> Result<Option<String>, Failed> {
     let tolerance = report.study.tolerance.map(|tolerance| axis.show(tolerance));
     let ends = rows.iter().map(|row| axis.show(row.largest.certified.unwrap_or(row.largest.found)));
     let most = ends.chain(tolerance).fold(0.0, f64::max);
-    let caption = "Bars: what was sampled. Between the two lines, which may be one, lies the true maximum: the first was found, and \
-                   nothing in the box exceeds the second.";
+    // What was found in a larger box says nothing of the workspace.
+    let contains_more = report.box_contains_more();
+    let caption = match contains_more {
+        true => {
+            "Bars: what was sampled. The line: what nothing in a box that holds more than the workspace exceeds."
+        }
+        false => {
+            "Bars: what was sampled. Between the two lines, which may be one, lies the true maximum: the first was found, and \
+             nothing in the box exceeds the second."
+        }
+    };
     let size = (900, ROW * rows.len() as u32 + 60);
     let sheet = Sheet::titled(size, "Sampled and certified", &report.spec.title, caption);
     let drawn = sheet.draw(|area| {
@@ -48,19 +57,21 @@ pub(crate) fn draw(report: &Report) -> Result<Option<String>, Failed> {
             chart.draw_series([Rectangle::new([(0.0, low), (sampled, high)], rgb(BAR).filled())])?;
             let found = axis.show(largest.found);
             let certified = largest.certified.map(|certified| axis.show(certified));
-            for value in [Some(found), certified].into_iter().flatten() {
+            let found_here = Some(found).filter(|_| !contains_more);
+            for value in [found_here, certified].into_iter().flatten() {
                 chart
                     .draw_series([PathElement::new(vec![(value, low), (value, high)], line(XYZ[0], 2.0))])?;
             }
             let decimals = decimals(found, 4);
             let at_most =
                 certified.map_or_else(|| "not known".to_owned(), |value| rounded_up(value, decimals));
-            let label = format!(
-                "{sources}: {} {unit} sampled; at least {} {unit}, at most {at_most} {unit}",
-                fixed(sampled, decimals),
-                rounded_down(found, decimals),
-                unit = axis.unit,
-            );
+            let unit = &axis.unit;
+            let at_least = match contains_more {
+                true => String::new(),
+                false => format!("at least {} {unit}, ", rounded_down(found, decimals)),
+            };
+            let sampled = fixed(sampled, decimals);
+            let label = format!("{sources}: {sampled} {unit} sampled; {at_least}at most {at_most} {unit}");
             let style = text(11.5, INK, HPos::Left, VPos::Bottom);
             let text = Text::new(label, (px(4.0), -px(3.0)), style);
             chart.draw_series([EmptyElement::at((0.0, high)) + text])?;

@@ -31,13 +31,16 @@ impl Report {
         known.collect()
     }
 
+    /// Whether the box of the certified norms holds more than the workspace, so that what was found may lie outside of it.
+    pub fn box_contains_more(&self) -> bool {
+        self.certified.as_ref().is_some_and(|norms| norms.contains_more)
+    }
+
     /// In what the certified norms hold.
     fn certified_in(&self) -> &'static str {
-        match &self.certified {
-            Some(Norms { contains_more: true, .. }) => {
-                "the box that contains the workspace, which holds more than it,"
-            }
-            _ => "the whole box of the workspace",
+        match self.box_contains_more() {
+            true => "the box that contains the workspace, which holds more than it,",
+            false => "the whole box of the workspace",
         }
     }
 }
@@ -57,7 +60,8 @@ pub fn at_most(report: &Report) -> Option<Listing> {
         ]
     };
     let rows: Vec<Vec<String>> = report.sampled().into_iter().map(row).collect();
-    let header = vec!["norm of", "sampled", "at least", "at most", "found at"];
+    let found = if report.box_contains_more() { "found in the box" } else { "at least" };
+    let header = vec!["norm of", "sampled", found, "at most", "found at"];
     if rows.is_empty() { None } else { Some(Listing { header, rows, numbers: 1..4 }) }
 }
 
