@@ -10,11 +10,14 @@ impl<const N: usize> Form<N> {
     pub(super) fn look_up(&self, table: &Table, order: u32) -> Self {
         let range = self.range();
         let [first, last] = table.ends();
-        let is_known = table.outside == Outside::Hold || (range[0] >= first && range[1] <= last);
+        let is_inside = range[0] >= first && range[1] <= last;
+        let is_known = table.outside == Outside::Hold || is_inside;
         if !(range[0].is_finite() && range[1].is_finite() && is_known) {
             return Self::anything();
         }
-        let is_continuous = order == 0 || (order == 1 && table.interpolation == Interpolation::Cubic);
+        // Where a table ends that is held, its slope jumps.
+        let is_continuous =
+            order == 0 || (order == 1 && table.interpolation == Interpolation::Cubic && is_inside);
         if !is_continuous {
             let [low, high] = extent(table, order, range);
             return Self::between(low, high);

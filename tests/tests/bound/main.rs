@@ -313,6 +313,37 @@ fn boxes_that_are_chosen_to_break_it_do_not() {
     }
 }
 
+/// Where a held table begins, the error has a kink; and there it is largest: 1 mm/m until 0, and 2 mm/m less behind it.
+#[test]
+fn a_kink_at_the_end_of_a_table_may_be_the_maximum() {
+    let text = r#"
+        [manipulator]
+        name = "slide"
+        length = "m"
+        [tables.falls]
+        x = [0, 1, 2]
+        y = [0, -2e-3, -4e-3]
+        interpolation = "cubic"
+        outside = "hold"
+        [[frame]]
+        name = "slide"
+        variable = { name = "d", kind = "prismatic", limits = [-1.3, 1.7] }
+        transform = "Tx(d)"
+        [[source]]
+        name = "scale"
+        class = "repeatable"
+        frame = "slide"
+        e_x = "2e-3 m + 1e-3 * d + 1 m * falls(d/(1 m))"
+    "#;
+    let spec = Spec::parse("slide.toml", text).unwrap();
+    let mut magnitudes = Magnitudes::new(&spec);
+    let norm = magnitudes.repeatable[0];
+    for range in [[-1.3, 1.7], [-1.0, 1.0], [-0.7, 0.1], [-0.01, 1.9]] {
+        let all = [Moving { range, ..moving(&spec)[0] }];
+        is(&bounded(&spec, &mut magnitudes, norm, &all, &Effort { gap: 1e-7, ..Effort::default() }), 2e-3);
+    }
+}
+
 /// Two large errors that cancel but for a little: the bound is that of the difference, as good as numbers of this size can be known.
 #[test]
 fn what_cancels_is_known_as_well_as_its_parts() {
