@@ -25,8 +25,8 @@ impl Machine {
     ///
     /// Of `.repeatable`, `.random` and `.radius`, the errors `.norm`, `.x`, `.y`, `.z` and `.orientation`: the true maximum, to first
     /// order, lies between `.found`, at `.at`, and `.certified`, which is None if nothing could be proved. `.remainder.certified`: how far
-    /// the exact chain of the repeatable sources differs from first order at most. Lengths in the unit of the
-    /// spec, angles in rad, in F_0; fields as those of `abbe bound --json`.
+    /// the exact chain of the repeatable sources differs from first order at most; `.after_one_step.position` and `.orientation`: what is left
+    /// of these sources at most after one step of compensation. Lengths in the unit of the spec, angles in rad, in F_0; fields as those of `abbe bound --json`.
     ///
     /// >>> import abbe
     /// >>> norm = abbe.load("machine3").bound().repeatable.norm

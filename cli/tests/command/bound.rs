@@ -177,6 +177,26 @@ fn what_first_order_leaves_out_is_certified() {
     assert!(!prints(&["bound", "puma560"]).contains("Nowhere in the box"));
 }
 
+/// What compensation leaves is certified where the joints can do it, and where they cannot that is said.
+#[test]
+fn what_compensation_leaves_is_certified() {
+    for (name, orients) in [("machine3", false), ("pps", true)] {
+        let report = json(&["bound", name, "--json"]);
+        let (before, left) = (&report["repeatable"], &report["after_one_step"]);
+        let position = number(&left["position"]);
+        assert!(position < 0.01 * number(&before["norm"]["found"]), "{name}: {left}");
+        assert_eq!(left["orientation"].is_number(), orients, "{name}: {left}");
+        let text = prints(&["bound", name]).split_whitespace().collect::<Vec<_>>().join(" ");
+        let (_, printed) = text.split_once("J_q⁻¹ J_e ε, leaves no more than ").unwrap();
+        let printed: f64 = printed.split(' ').next().unwrap().parse().unwrap();
+        assert!(printed >= position && printed < 1.2 * position, "{name}: {printed} {position}");
+    }
+    assert!(json(&["bound", "puma560", "--json"])["after_one_step"].is_null());
+    let outcome =
+        prints(&["bound", "scara", "--boxes", "200"]).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(outcome.contains("compensation leaves could not be proved: near q1"), "{outcome}");
+}
+
 /// Errors that were identified on less than the box are not certified in silence, and what cannot be proved is not tried.
 #[test]
 fn what_is_extrapolated_and_what_is_too_much_is_said() {

@@ -5,7 +5,8 @@
 //! small rotation into rows 4–6; `sources` gives ε, with `deviation` for errors of joints and parameters and `elastic`
 //! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
 //! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`, and `magnitudes`, whose
-//! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it. [`Model`]
+//! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it, `joint_step` (by `minors`) what takes
+//! the errors back to first order, and `residual` what is left then. [`Model`]
 //! holds the results. What else leads to the same, `ways` and `moving` state: a program takes what needs the fewest operations.
 
 mod accumulate;
@@ -15,14 +16,17 @@ mod deviation;
 mod displacement;
 mod elastic;
 mod error_jacobian;
+mod joint_step;
 mod local;
 mod local_twist;
 mod magnitudes;
+mod minors;
 mod model;
 mod moments;
 mod moving;
 mod real;
 mod remainder;
+mod residual;
 mod rows;
 mod six;
 mod sources;
@@ -41,6 +45,7 @@ pub use magnitudes::{Apart, Magnitude, Magnitudes};
 pub use model::{Jacobian, Model};
 pub(crate) use real::displaced;
 pub use remainder::Remainder;
+pub use residual::Residual;
 pub(crate) use rows::Rows;
 pub use sources::{EffectNode, effects};
 pub(crate) use symbol_jacobian::swing;

@@ -37,6 +37,14 @@ pub(super) struct Causes {
     pub(super) deviations: Vec<DeviationNode>,
 }
 
+impl Causes {
+    /// Every error.
+    pub(super) fn errors_mut(&mut self) -> impl Iterator<Item = &mut Node> {
+        let of_numbers = self.deviations.iter_mut().map(|deviation| &mut deviation.error);
+        self.errors.iter_mut().flat_map(|placed| &mut placed.errors).chain(of_numbers)
+    }
+}
+
 /// Six errors at a place.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedErrors {

@@ -44,8 +44,25 @@ impl Graph {
         self.reached_from(nodes).into_iter().filter_map(symbol).collect()
     }
 
+    /// Whether a node may jump, or have a kink, along one of the chosen symbols: then it is not what its derivative sums up to.
+    pub(crate) fn may_have_kinks(&self, node: Node, chosen: impl Fn(Symbol) -> bool) -> bool {
+        let depends = self.depends(node, chosen);
+        self.reached_from(&[node]).into_iter().filter(|node| depends[node.index()]).any(|node| {
+            let function = match self.op(node) {
+                Op::Call(function, _) => function,
+                op => return matches!(op, Op::Min(..) | Op::Max(..) | Op::Atan2(..) | Op::Lookup(..)),
+            };
+            matches!(function, Function::Abs | Function::Sign | Function::Side)
+        })
+    }
+
+    /// How many nodes some nodes are made of.
+    pub(crate) fn size(&self, nodes: &[Node]) -> usize {
+        self.reached_from(nodes).len()
+    }
+
     /// The nodes that some nodes are made of, they themselves among them, in ascending order.
-    fn reached_from(&self, nodes: &[Node]) -> Vec<Node> {
+    pub(super) fn reached_from(&self, nodes: &[Node]) -> Vec<Node> {
         let mut reached: HashSet<Node> = nodes.iter().copied().collect();
         let mut open: Vec<Node> = reached.iter().copied().collect();
         while let Some(node) = open.pop() {

@@ -1,7 +1,7 @@
 //! The symbolic core: expressions as a graph in which equal subexpressions are one node.
 //!
 //! [`Graph`] holds the nodes; the rules by which they simplify are its constructors (`arithmetic`,
-//! `functions`), and what takes other operations to the same value is stated in `equal`; `diff` is the derivative of any node by any symbol, `evaluate` its value, `vector` three-dimensional arithmetic, and
+//! `functions`), and what takes other operations to the same value is stated in `equal`; `diff` is the derivative of any node by any symbol, `evaluate` its value, `substitute` puts nodes in the place of symbols, `vector` is three-dimensional arithmetic, and
 //! `lower` brings a checked expression in.
 
 mod arena;
@@ -12,6 +12,7 @@ mod evaluate;
 mod functions;
 mod hash;
 mod lower;
+mod substitute;
 mod vector;
 
 pub use arena::{Graph, Node, Op};

@@ -52,7 +52,7 @@ pub fn bound(report: &Report) -> String {
         report.boxes
     );
     let _ = writeln!(text, "{}", wrapped(&end, 0));
-    if let Some(sentence) = left_out(report) {
+    for sentence in [left_out(report), after_one_step(report)].into_iter().flatten() {
         let _ = writeln!(text, "{}", wrapped(&sentence, 0));
     }
     text
@@ -70,6 +70,33 @@ fn left_out(report: &Report) -> Option<String> {
          from where first order has it.",
         number::rounded_up(certified, decimals),
         report.length
+    ))
+}
+
+/// What one step of compensation leaves, in a sentence; none if there is nothing to say.
+fn after_one_step(report: &Report) -> Option<String> {
+    let left = report.after_one_step.as_ref()?;
+    let is_known = left.orientation.is_some() || !left.corrects_orientation;
+    let Some(position) = left.position.filter(|_| is_known) else {
+        let why = match &left.hardly {
+            Some(place) => format!(
+                ": near {} the joints can hardly move the tool in every direction",
+                unbroken(if place.is_empty() { "home" } else { place })
+            ),
+            None => String::new(),
+        };
+        return Some(format!("What one step of compensation leaves could not be proved{why}."));
+    };
+    let shown = |value: f64| number::rounded_up(value, number::decimals(value, 2));
+    let turned = left
+        .orientation
+        .map(|angle| format!(", and its orientation is off by no more than {} mrad", shown(1e3 * angle)));
+    Some(format!(
+        "Compensation of the repeatable sources by one step of the joints, q − J_q⁻¹ J_e ε, leaves no more than {} {} of the tool point's \
+         error{} in the exact chain, wherever the limits of the joints allow the step.",
+        shown(position),
+        report.length,
+        turned.unwrap_or_default()
     ))
 }
 

@@ -8,15 +8,18 @@ use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::bound::{self, Effort, Limits, MOST_MOVING, Moving, Progress};
+use indexmap::IndexMap;
 
 use crate::machine::Machine;
 use crate::mistake;
+use crate::number;
 use crate::study_file::Study;
-use crate::workspace::Span;
+use crate::workspace::{Span, name};
 
-use super::report::{Classes, Remainder};
+use super::report::{AfterStep, Classes, Remainder};
 
-/// What first order leaves out is small: it is known closely enough when it is known to a half, or after so many boxes.
+/// What first order leaves out, and a step of compensation leaves, is small: it is known closely enough when it is known to a half, or
+/// after so many boxes.
 const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, at_most: f64::INFINITY };
 /// How many names may move: the search for the remainder moves one more.
 const MOST_NAMES: usize = MOST_MOVING - 1;
@@ -87,12 +90,60 @@ impl Domain {
             return None;
         }
         let chain::Remainder { mut graph, magnitude, share } = chain::Remainder::new(&self.spec);
+        Some(Remainder::new(&self.curve(&mut graph, magnitude, share, asked, watch)))
+    }
+
+    /// What one step of compensation leaves of the repeatable sources; none if there are no such sources, or too few joints. Where it
+    /// may leave more than `before`, what the sources do without it, nothing is sought any longer.
+    pub(super) fn after_step(
+        &self,
+        asked: &Effort,
+        before: [f64; 2],
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Option<AfterStep> {
+        if !Classes::of(&self.spec).repeatable {
+            return None;
+        }
+        let chain::Residual { mut graph, point, turn, share } = chain::Residual::new(&self.spec)?;
+        let mut largest = |magnitude, before: f64| {
+            let mut watch = |progress: &Progress| progress.found <= before && watch(progress);
+            self.curve(&mut graph, magnitude, share, asked, &mut watch)
+        };
+        let point = largest(point, before[0]);
+        let turn = turn.map(|turn| largest(turn, before[1]));
+        Some(AfterStep::new(self, &[Some(point), turn], before))
+    }
+
+    /// The largest size along a curve that leads to the errors, anywhere in the box.
+    fn curve(
+        &self,
+        graph: &mut Graph,
+        magnitude: Magnitude,
+        share: Symbol,
+        asked: &Effort,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> bound::Bound {
         let mut moving = self.names();
         moving.push(Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 });
         let gap = asked.gap.max(REMAINDER_EFFORT.gap);
         let effort = Effort { gap, boxes: asked.boxes.min(REMAINDER_EFFORT.boxes), ..REMAINDER_EFFORT };
-        let still = |symbol| home(symbol, &self.spec);
-        Some(Remainder::new(&bound::largest(&mut graph, magnitude, &moving, still, &effort, watch)))
+        bound::largest(graph, magnitude, &moving, |symbol| home(symbol, &self.spec), &effort, watch)
+    }
+
+    /// The value of every variable and of all else that moves, and in words those of what is not at home.
+    pub(super) fn place(&self, values: &[f64]) -> (IndexMap<String, f64>, String) {
+        let Self { spec, spans } = self;
+        let variables = spec.variables.iter().map(|variable| (variable.name.clone(), variable.home));
+        let mut at: IndexMap<String, f64> = variables.collect();
+        let mut place = Vec::new();
+        for (span, value) in spans.iter().zip(values) {
+            let name = name(span.symbol, spec);
+            at.insert(name.to_owned(), *value);
+            if *value != home(span.symbol, spec) {
+                place.push(format!("{name} = {}", number::of_symbol(*value, span.symbol, spec)));
+            }
+        }
+        (at, place.join(", "))
     }
 
     /// How many names move.

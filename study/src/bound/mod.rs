@@ -24,7 +24,7 @@ use crate::study_file::Study;
 use domain::Domain;
 pub use norms::Norms;
 use report::Classes;
-pub use report::{Errors, Largest, Remainder, Report};
+pub use report::{AfterStep, Errors, Largest, Remainder, Report};
 
 /// How large are the errors at most?
 #[derive(Clone)]
@@ -84,15 +84,19 @@ impl Bound {
             _ => repeatable.clone(),
         };
         let remainder = sought.one(notes, |_, watch| domain.remainder(&self.effort, watch))?;
+        let before = [&repeatable.norm, &repeatable.orientation];
+        let before = before.map(|largest| largest.certified.unwrap_or(f64::INFINITY));
+        let left = sought.one(notes, |_, watch| domain.after_step(&self.effort, before, watch))?;
         let errors = [repeatable, random, radius];
-        let report = Report::new(domain, study, &self.effort, errors, remainder);
+        let report = Report::new(domain, study, &self.effort, errors, (remainder, left));
         report.warn(notes);
         Ok(report)
     }
 }
 
-/// How much is looked for: five errors of each of three kinds and what those along x and y do not exceed, and the remainder.
-const SOUGHT: usize = 19;
+/// How much is looked for: five errors of each of three kinds and what those along x and y do not exceed, the remainder, and what a step of
+/// compensation leaves.
+const SOUGHT: usize = 20;
 
 /// What is being looked for.
 struct Sought<'a> {

@@ -12,7 +12,7 @@ use crate::number;
 use crate::study_file::Study;
 use crate::workspace::{Span, name};
 
-use super::domain::{Domain, home};
+use super::domain::Domain;
 
 /// What [`Bound`](super::Bound) proves. Lengths in the spec's unit, angles in rad; the true maximum of each error, to first
 /// order in the errors of the sources, lies between `found` and `certified`.
@@ -32,6 +32,8 @@ pub struct Report {
     pub radius: Errors,
     /// What first order leaves out of the repeatable sources; none if there are no such sources.
     pub remainder: Option<Remainder>,
+    /// What one step of compensation leaves of the repeatable sources; none if there are no such sources, or fewer than three joints.
+    pub after_one_step: Option<AfterStep>,
     /// From where to where everything goes that moves.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
@@ -111,6 +113,43 @@ pub struct Remainder {
     pub boxes: usize,
 }
 
+/// What is left of the repeatable sources after one step of compensation, `q′ = q − J_q⁻¹ J_e ε`: how far the exact chain at q′ has the
+/// tool from where the ideal one is at q.
+#[derive(Clone, Debug, Serialize)]
+pub struct AfterStep {
+    /// Of the tool point no more than this, anywhere in the box; none if nothing could be proved.
+    pub position: Option<f64>,
+    /// The tool is turned by no more than this, rad; none if nothing could be proved, or of fewer than six joints, which correct the
+    /// tool point alone.
+    pub orientation: Option<f64>,
+    /// How many boxes were looked at.
+    pub boxes: usize,
+    /// Whether six joints or more correct the orientation, too.
+    #[serde(skip)]
+    pub corrects_orientation: bool,
+    /// Where joints can hardly do it, if there is such a place.
+    #[serde(skip)]
+    pub hardly: Option<String>,
+}
+
+impl AfterStep {
+    /// From the largest sizes of position and orientation, and what these are without the step.
+    pub(super) fn new(domain: &Domain, bounds: &[Option<bound::Bound>; 2], before: [f64; 2]) -> Self {
+        let [point, turn] = bounds;
+        let certified =
+            |bound: &Option<bound::Bound>| bound.as_ref().and_then(|bound| known(bound.certified));
+        let all = bounds.iter().flatten().zip(before);
+        let hard = all.clone().find(|(bound, before)| bound.found > *before);
+        Self {
+            position: certified(point),
+            orientation: certified(turn),
+            boxes: all.map(|(bound, _)| bound.boxes).sum(),
+            corrects_orientation: turn.is_some(),
+            hardly: hard.map(|(bound, _)| domain.place(&bound.at).1),
+        }
+    }
+}
+
 impl Remainder {
     pub(super) fn new(bound: &bound::Bound) -> Self {
         Self { certified: known(bound.certified), boxes: bound.boxes }
@@ -123,7 +162,7 @@ impl Report {
         study: &Study,
         effort: &Effort,
         [repeatable, random, radius]: [Errors; 3],
-        remainder: Option<Remainder>,
+        (remainder, after_one_step): (Option<Remainder>, Option<AfterStep>),
     ) -> Self {
         let of_both = matches!(Classes::of(&spec), Classes { repeatable: true, random: true });
         // Of one class alone the last kind is a copy.
@@ -132,6 +171,7 @@ impl Report {
         let spans = moved.iter().map(|span| (name(span.symbol, &spec).to_owned(), span.range)).collect();
         let boxes: usize = all().map(|largest| largest.boxes).sum();
         let boxes = boxes + remainder.as_ref().map_or(0, |remainder| remainder.boxes);
+        let boxes = boxes + after_one_step.as_ref().map_or(0, |left| left.boxes);
         let complete = all().all(|largest| largest.complete);
         Self {
             manipulator: spec.name.clone(),
@@ -141,6 +181,7 @@ impl Report {
             random,
             radius,
             remainder,
+            after_one_step,
             spans,
             contains_more: !study.region.is_box(),
             boxes,
@@ -202,24 +243,15 @@ impl Errors {
 }
 
 impl Largest {
-    pub(super) fn new(bound: &bound::Bound, Domain { spec, spans }: &Domain) -> Self {
-        let variables = spec.variables.iter().map(|variable| (variable.name.clone(), variable.home));
-        let mut at: IndexMap<String, f64> = variables.collect();
-        let mut place = Vec::new();
-        for (span, value) in spans.iter().zip(&bound.at) {
-            let name = name(span.symbol, spec);
-            at.insert(name.to_owned(), *value);
-            if *value != home(span.symbol, spec) {
-                place.push(format!("{name} = {}", number::of_symbol(*value, span.symbol, spec)));
-            }
-        }
+    pub(super) fn new(bound: &bound::Bound, domain: &Domain) -> Self {
+        let (at, place) = domain.place(&bound.at);
         Self {
             found: bound.found,
             certified: known(bound.certified),
             at,
             boxes: bound.boxes,
             complete: bound.complete,
-            place: place.join(", "),
+            place,
         }
     }
 }

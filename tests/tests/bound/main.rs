@@ -2,6 +2,7 @@
 //! by hand.
 
 mod remainder;
+mod residual;
 mod robot;
 
 use abbe::{Class, Manipulator};

@@ -1,0 +1,75 @@
+//! Minors of a matrix of nodes, and what follows from them: linear equations without a pivot that may be 0.
+
+use crate::graph::{Graph, Node};
+
+/// The minors of all rows together, for each set of as many columns; sets are masks of bits.
+///
+/// Those of the first k rows come from those of the first k − 1 (Laplace):
+///
+/// ```text
+/// M_k(S) = Σ_{c ∈ S} (−1)^(k − 1 + place of c in S) a_kc M_{k−1}(S without c)
+/// ```
+///
+/// So six rows of seven columns take 448 products where nothing is 0, and hold the determinant and all that Cramer's rule divides
+/// by it.
+pub(super) fn minors(graph: &mut Graph, rows: &[Vec<Node>]) -> Vec<Node> {
+    let zero = graph.zero();
+    let columns = rows.first().map_or(0, Vec::len);
+    let mut known = vec![zero; 1 << columns];
+    known[0] = graph.constant(1.0);
+    for (k, row) in rows.iter().enumerate() {
+        let mut next = vec![zero; 1 << columns];
+        for (set, minor) in next.iter_mut().enumerate().filter(|(set, _)| set.count_ones() as usize == k + 1)
+        {
+            let members = (0..columns).filter(|column| set >> column & 1 == 1);
+            for (place, column) in members.enumerate() {
+                let product = graph.mul(row[column], known[set & !(1 << column)]);
+                *minor = match (k + place) % 2 {
+                    0 => graph.add(*minor, product),
+                    _ => graph.sub(*minor, product),
+                };
+            }
+        }
+        known = next;
+    }
+    known
+}
+
+/// x of `A x = b` by Cramer's rule; `rows` are those of the square matrix A.
+pub(super) fn solve(graph: &mut Graph, rows: &[Vec<Node>], b: &[Node]) -> Vec<Node> {
+    let count = rows.len();
+    let extended: Vec<Vec<Node>> = rows.iter().zip(b).map(|(row, b)| [&row[..], &[*b]].concat()).collect();
+    let minors = minors(graph, &extended);
+    let all = (1 << (count + 1)) - 1;
+    let determinant = minors[all & !(1 << count)];
+    let unknown = |j: usize| {
+        // b stands behind the columns that follow x_j's.
+        let minor = minors[all & !(1 << j)];
+        let quotient = graph.div(minor, determinant);
+        if (count - 1 - j).is_multiple_of(2) { quotient } else { graph.neg(quotient) }
+    };
+    (0..count).map(unknown).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equations_are_solved() {
+        let mut graph = Graph::new();
+        let numbers = |row: usize, column: usize| ((7 * row + 3 * column) as f64 * 1.3).sin();
+        for count in 1..=6 {
+            let rows: Vec<Vec<Node>> =
+                (0..count).map(|i| (0..count).map(|j| graph.constant(numbers(i, j))).collect()).collect();
+            let b: Vec<Node> = (0..count).map(|i| graph.constant(i as f64 - 1.5)).collect();
+            let x = solve(&mut graph, &rows, &b);
+            let x = graph.evaluate(&x, |_| f64::NAN);
+            for i in 0..count {
+                let left: f64 = (0..count).map(|j| numbers(i, j) * x[j]).sum();
+                let size: f64 = x.iter().map(|x| x.abs()).sum();
+                assert!((left - (i as f64 - 1.5)).abs() < 1e-12 * (1.0 + size), "{count}: {x:?}");
+            }
+        }
+    }
+}

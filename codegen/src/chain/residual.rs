@@ -1,0 +1,165 @@
+//! What is left once the joints have taken the errors back to first order, as nodes whose largest values are sought.
+
+use super::accumulate::Links;
+use super::joint_step::{JOINTS_OF_A_POSE, joint_step};
+use super::magnitudes::Magnitude;
+use super::real::RealChain;
+use super::sources::{self, Causes};
+use crate::expr::{Elementary, Symbol};
+use crate::graph::{Graph, Node, Vector};
+use crate::spec::{ChainNumber, Class, Factor, Spec};
+
+/// How far the real tool is from where the ideal one should be after one step of compensation, `q′ = q − J_q⁻¹ J_e ε`.
+///
+/// With t times the step d and t times the errors of the repeatable sources, the exact chain has the tool point at p(t). As
+/// `p′(0) = J_e ε + J_q d` is 0,
+///
+/// ```text
+/// p(1) − p(0)  =  ∫₀¹ (1 − t) p″(t) dt        which is no longer than ½ ‖p″(t)‖ is anywhere in 0 ≤ t ≤ 1
+/// ```
+///
+/// and the tool has turned by no more than `∫₀¹ ‖ω(t)‖ dt ≤ ½ max ‖ω′(t)‖`. An error e that depends on joints is `t e(q + t d)`; one
+/// that has kinks or jumps is `t e(q) + t² (e(q + d) − e(q))`, which has none along t.
+#[derive(Clone, Debug)]
+pub struct Residual {
+    /// The graph they are nodes of.
+    pub graph: Graph,
+    /// ½ ‖p″(t)‖.
+    pub point: Magnitude,
+    /// ½ ‖ω′(t)‖; none of fewer than six joints, which correct the tool point alone.
+    pub turn: Option<Magnitude>,
+    /// t.
+    pub share: Symbol,
+}
+
+impl Residual {
+    /// That of a checked spec; none if it has fewer than three joints, or if its transforms have kinks.
+    pub fn new(spec: &Spec) -> Option<Self> {
+        let (mut graph, effects, mut causes) = sources::effects_and_causes(spec);
+        let g = &mut graph;
+        let links = Links::new(g, spec);
+        let errors = sources::generalized_errors(g, spec, &effects);
+        let step = joint_step(g, spec, &links, &errors)?;
+
+        let [t, zero, half] = [g.symbol(SHARE), g.zero(), g.constant(0.5)];
+        let first = leading_joint(g, spec, &causes);
+        causes.errors_mut().for_each(|error| *error = without_kinks(g, *error, &step));
+        let magnitudes = spec.enabled_sources().map(|source| match source.class {
+            Class::Repeatable => t,
+            Class::Random(_) => zero,
+        });
+        let links = RealChain::new(g, spec, &causes, magnitudes.collect()).links(g);
+        let tool = g.identity();
+        let tool = (0..=spec.frames.len()).rev().fold(tool, |tool, link| links.before(g, link, tool));
+        let nodes = [&tool.position[..], tool.axes.as_flattened()].concat();
+        // Of a chain that itself has kinks nothing follows from its derivatives.
+        if nodes.iter().any(|node| g.may_have_kinks(*node, is_joint)) {
+            return None;
+        }
+        let moved: Vec<Node> = step
+            .iter()
+            .enumerate()
+            .map(|(joint, step)| {
+                let step = g.mul(t, *step);
+                let q = g.symbol(Symbol::Variable(joint));
+                if Some(joint) == first { step } else { g.add(q, step) }
+            })
+            .collect();
+        let nodes = g.substitute(&nodes, |symbol| match symbol {
+            Symbol::Variable(joint) => Some(moved[joint]),
+            _ => None,
+        });
+        let variables: Vec<Node> = (0..step.len()).map(|joint| g.symbol(Symbol::Variable(joint))).collect();
+        let nodes = g.substitute(&nodes, |symbol| held_joint(symbol).map(|joint| variables[joint]));
+        let slopes = g.diff_all(&nodes, SHARE);
+        let curves = g.diff_all(&slopes, SHARE);
+
+        let vector =
+            |nodes: &[Node], i: usize| -> Vector { [nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2]] };
+        let point = g.scale(half, vector(&curves, 0));
+        // ω = ½ Σ a × a′ over the axes of the tool, and ω′ = ½ Σ a × a″.
+        let mut turn = [zero; 3];
+        for axis in 1..=3 {
+            let part = g.cross(vector(&nodes, axis), vector(&curves, axis));
+            turn = g.add_vectors(turn, part);
+        }
+        let quarter = g.constant(0.25);
+        let turn = g.scale(quarter, turn);
+        let [point, turn] =
+            [point, turn].map(|vector| Magnitude { node: g.dot(vector, vector), squared: true });
+        let turn = (spec.variables.len() >= JOINTS_OF_A_POSE).then_some(turn);
+        Some(Self { graph, point, turn, share: SHARE })
+    }
+}
+
+/// t.
+const SHARE: Symbol = Symbol::Magnitude(0);
+
+/// A joint as it is at t = 0, while others go along with t.
+fn held(joint: usize) -> Symbol {
+    Symbol::Magnitude(1 + joint)
+}
+
+fn is_joint(symbol: Symbol) -> bool {
+    matches!(symbol, Symbol::Variable(_))
+}
+
+fn held_joint(symbol: Symbol) -> Option<usize> {
+    match symbol {
+        Symbol::Magnitude(number) => number.checked_sub(1),
+        _ => None,
+    }
+}
+
+/// An error that has kinks or jumps along some joint: the value at t = 0, and t times how far it is from that after the step.
+fn without_kinks(graph: &mut Graph, error: Node, step: &[Node]) -> Node {
+    if !graph.may_have_kinks(error, is_joint) {
+        return error;
+    }
+    let joints: Vec<Node> = (0..step.len()).map(|joint| graph.symbol(held(joint))).collect();
+    let hold = |graph: &mut Graph, nodes: &[Node]| {
+        graph.substitute(nodes, |symbol| match symbol {
+            Symbol::Variable(joint) => Some(joints[joint]),
+            _ => None,
+        })
+    };
+    let before = hold(graph, &[error])[0];
+    let step = hold(graph, step);
+    let behind: Vec<Node> = joints.iter().zip(step).map(|(joint, step)| graph.add(*joint, step)).collect();
+    let after = graph.substitute(&[error], |symbol| match symbol {
+        Symbol::Variable(joint) => Some(behind[joint]),
+        _ => None,
+    })[0];
+    let (t, change) = (graph.symbol(SHARE), graph.sub(after, before));
+    let change = graph.mul(t, change);
+    graph.add(before, change)
+}
+
+/// A joint that moves everything alike: nothing that moves stands before it, nothing else depends on it, and no norm does.
+fn leading_joint(graph: &mut Graph, spec: &Spec, causes: &Causes) -> Option<usize> {
+    let factors = &spec.frames.first()?.factors;
+    let symbols = |factor: &Factor| -> Vec<Symbol> {
+        factor.expressions().into_iter().flat_map(|expression| expression.symbols()).collect()
+    };
+    let moving = factors.iter().find(|factor| !symbols(factor).is_empty())?;
+    let (Factor::Elementary(Elementary { amount, .. }) | Factor::About { amount, .. }) = moving else {
+        return None;
+    };
+    let amount = graph.lower(amount);
+    let [symbol @ Symbol::Variable(joint)] = graph.symbols(&[amount])[..] else { return None };
+    let slope = graph.diff(amount, symbol);
+    graph.value(slope)?;
+    let all = spec.frames.iter().flat_map(|frame| &frame.factors).chain(&spec.tool);
+    let dependent = all.filter(|factor| symbols(factor).contains(&symbol)).count();
+    let is_off = |number: ChainNumber| matches!(number, ChainNumber::DenavitHartenberg { frame: 0, .. });
+    let errors = causes.errors.iter().flat_map(|caused| {
+        let place =
+            caused.place.iter().flat_map(|place| place.axes.into_iter().flatten().chain(place.position));
+        caused.errors.into_iter().chain(place)
+    });
+    let errors: Vec<Node> = errors.chain(causes.deviations.iter().map(|deviation| deviation.error)).collect();
+    let is_alike = dependent == 1
+        && !causes.deviations.iter().any(|deviation| is_off(deviation.number))
+        && !graph.symbols(&errors).contains(&symbol);
+    is_alike.then_some(joint)
+}

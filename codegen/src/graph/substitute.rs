@@ -1,0 +1,44 @@
+//! Nodes put in the place of symbols.
+
+use std::collections::HashMap;
+
+use super::{Graph, Node, Op};
+use crate::expr::Symbol;
+
+impl Graph {
+    /// Some nodes with other nodes in the place of those symbols for which there is one.
+    ///
+    /// ```
+    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # let mut g = Graph::new();
+    /// let (x, two) = (g.symbol(Symbol::Variable(0)), g.constant(2.0));
+    /// let (sine, twice) = (g.sin(x), g.mul(two, x));
+    /// assert_eq!(g.substitute(&[sine], |_| Some(twice)), [g.sin(twice)]);
+    /// ```
+    pub fn substitute(&mut self, nodes: &[Node], other: impl Fn(Symbol) -> Option<Node>) -> Vec<Node> {
+        // Operands have smaller handles, so that ascending order is an order of evaluation.
+        let mut made: HashMap<Node, Node> = HashMap::new();
+        for node in self.reached_from(nodes) {
+            let of = |operand: Node| made[&operand];
+            let new = match self.op(node) {
+                Op::Symbol(symbol) => other(symbol).unwrap_or(node),
+                op if op.operands().all(|operand| of(operand) == operand) => node,
+                Op::Constant(_) => node,
+                Op::Neg(a) => self.neg(of(a)),
+                Op::Add(a, b) => self.add(of(a), of(b)),
+                Op::Sub(a, b) => self.sub(of(a), of(b)),
+                Op::Mul(a, b) => self.mul(of(a), of(b)),
+                Op::Div(a, b) => self.div(of(a), of(b)),
+                // Exponents are constants.
+                Op::Pow(a, b) => self.power(of(a), self.value(b).unwrap_or(f64::NAN)),
+                Op::Atan2(a, b) => self.atan2(of(a), of(b)),
+                Op::Min(a, b) => self.min(of(a), of(b)),
+                Op::Max(a, b) => self.max(of(a), of(b)),
+                Op::Call(function, a) => self.call(function, of(a)),
+                Op::Lookup(lookup, a) => self.look_up(lookup, of(a)),
+            };
+            made.insert(node, new);
+        }
+        nodes.iter().map(|node| made[node]).collect()
+    }
+}
