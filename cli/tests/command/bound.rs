@@ -191,6 +191,14 @@ fn what_compensation_leaves_is_certified() {
         let printed: f64 = printed.split(' ').next().unwrap().parse().unwrap();
         assert!(printed >= position && printed < 1.2 * position, "{name}: {printed} {position}");
     }
+    let report = json(&["bound", "pps", "--json"]);
+    let margin = &report["margin"];
+    let certified = |place: &serde_json::Value| number(&place["norm"]["certified"]);
+    assert_eq!(number(&margin["tolerance"]), 0.5);
+    assert!((number(&margin["certified"]) - 0.5 + certified(&report["radius"])).abs() < 1e-12, "{margin}");
+    let left = 0.5 - number(&report["after_one_step"]["position"]) - certified(&report["random"]);
+    assert!((number(&margin["after_one_step"]) - left).abs() < 1e-12 && left > 0.0, "{margin}");
+    assert!(json(&["bound", "machine3", "--json"])["margin"].is_null());
     assert!(json(&["bound", "puma560", "--json"])["after_one_step"].is_null());
     let outcome =
         prints(&["bound", "scara", "--boxes", "200"]).split_whitespace().collect::<Vec<_>>().join(" ");

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use abbe_study::bound::{Errors, Report};
+use abbe_study::bound::{Errors, Largest, Margin, Report};
 use abbe_study::number::{self, of_symbol, unbroken};
 use abbe_study::workspace::name;
 
@@ -52,7 +52,14 @@ pub fn bound(report: &Report) -> String {
         report.boxes
     );
     let _ = writeln!(text, "{}", wrapped(&end, 0));
-    for sentence in [left_out(report), after_one_step(report)].into_iter().flatten() {
+    let margins = [
+        (report.margin, &report.radius.norm, report.length, 1.0),
+        (report.orientation_margin, &report.radius.orientation, "mrad", 1e3),
+    ];
+    let margins = margins
+        .into_iter()
+        .filter_map(|(margin, largest, unit, factor)| Some(of_tolerance(&margin?, largest, unit, factor)));
+    for sentence in [left_out(report), after_one_step(report)].into_iter().flatten().chain(margins) {
         let _ = writeln!(text, "{}", wrapped(&sentence, 0));
     }
     text
@@ -98,6 +105,31 @@ fn after_one_step(report: &Report) -> Option<String> {
         report.length,
         turned.unwrap_or_default()
     ))
+}
+
+/// Whether a tolerance is kept, in a sentence.
+fn of_tolerance(margin: &Margin, largest: &Largest, unit: &str, factor: f64) -> String {
+    let show = |value: f64| number::digits(factor * value, 3);
+    let left = |value: f64| number::rounded_down(factor * value, number::decimals(factor * value, 3));
+    let tolerance = show(margin.tolerance);
+    let plain = match margin.certified {
+        Some(certified) if certified >= 0.0 => {
+            format!("is kept everywhere in the box: at least {} {unit} of it are left.", left(certified))
+        }
+        _ if margin.found < 0.0 => {
+            format!("is not kept everywhere in the box: {} {unit} were found.", show(largest.found))
+        }
+        _ => "may be kept or not: the largest error is not known closely enough.".to_owned(),
+    };
+    let compensated = match margin.after_one_step {
+        Some(certified) if certified >= 0.0 => format!(
+            " With this step of compensation it is kept: what the step leaves, and the random sources to first order, leave at least {} \
+             {unit} of it.",
+            left(certified)
+        ),
+        _ => String::new(),
+    };
+    format!("The tolerance of {tolerance} {unit} {plain}{compensated}")
 }
 
 fn table(report: &Report, errors: &Errors) -> Table {

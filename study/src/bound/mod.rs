@@ -24,7 +24,7 @@ use crate::study_file::Study;
 use domain::Domain;
 pub use norms::Norms;
 use report::Classes;
-pub use report::{AfterStep, Errors, Largest, Remainder, Report};
+pub use report::{AfterStep, Errors, Largest, Margin, Remainder, Report};
 
 /// How large are the errors at most?
 #[derive(Clone)]

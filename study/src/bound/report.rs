@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_codegen::spec::{Class, Fitted, Spec};
+use abbe_codegen::spec::{Class, Fitted, Orientation, Spec};
 use abbe_interpreter::bound::{self, Effort};
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -34,6 +34,10 @@ pub struct Report {
     pub remainder: Option<Remainder>,
     /// What one step of compensation leaves of the repeatable sources; none if there are no such sources, or fewer than three joints.
     pub after_one_step: Option<AfterStep>,
+    /// What the errors leave of the position's tolerance of the study; none if it has none.
+    pub margin: Option<Margin>,
+    /// What they leave of the orientation's, rad.
+    pub orientation_margin: Option<Margin>,
     /// From where to where everything goes that moves.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
@@ -132,6 +136,34 @@ pub struct AfterStep {
     pub hardly: Option<String>,
 }
 
+/// What the largest error of both classes, added, leaves of a tolerance, to first order in the errors: negative where the tolerance is
+/// exceeded.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Margin {
+    /// The tolerance.
+    pub tolerance: f64,
+    /// So much is left everywhere in the box at least; none if nothing could be proved.
+    pub certified: Option<f64>,
+    /// No more than this is left at the worst place that was found.
+    pub found: f64,
+    /// So much is left at least once the repeatable sources are compensated by one step; none if nothing could be proved, or nothing is
+    /// compensated.
+    pub after_one_step: Option<f64>,
+}
+
+impl Margin {
+    fn new(tolerance: f64, largest: &Largest, left: Option<f64>, random: &Largest) -> Self {
+        let both = left.zip(random.certified).map(|(left, random)| (left + random).next_up());
+        let below = |error: f64| (tolerance - error).next_down();
+        Self {
+            tolerance,
+            certified: largest.certified.map(below),
+            found: tolerance - largest.found,
+            after_one_step: both.map(below),
+        }
+    }
+}
+
 impl AfterStep {
     /// From the largest sizes of position and orientation, and what these are without the step.
     pub(super) fn new(domain: &Domain, bounds: &[Option<bound::Bound>; 2], before: [f64; 2]) -> Self {
@@ -173,6 +205,16 @@ impl Report {
         let boxes = boxes + remainder.as_ref().map_or(0, |remainder| remainder.boxes);
         let boxes = boxes + after_one_step.as_ref().map_or(0, |left| left.boxes);
         let complete = all().all(|largest| largest.complete);
+        let left = after_one_step.as_ref();
+        let margin = study.tolerance.map(|tolerance| {
+            Margin::new(tolerance, &radius.norm, left.and_then(|left| left.position), &random.norm)
+        });
+        let is_rotation = spec.orientation == Orientation::RotationVector;
+        let orientation_margin = study.orientation_tolerance.map(|tolerance| {
+            // Rows 4–6 are no rotation vector elsewhere, and cannot be added to one.
+            let left = left.and_then(|left| left.orientation).filter(|_| is_rotation);
+            Margin::new(tolerance, &radius.orientation, left, &random.orientation)
+        });
         Self {
             manipulator: spec.name.clone(),
             length: spec.length.symbol(),
@@ -182,6 +224,8 @@ impl Report {
             radius,
             remainder,
             after_one_step,
+            margin,
+            orientation_margin,
             spans,
             contains_more: !study.region.is_box(),
             boxes,

@@ -8,7 +8,7 @@ use abbe_interpreter::bound::{Bound, Effort, Moving, largest};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{home, moving, part, place, robot};
+use super::{given, home, moving, part, place, robot, robots};
 
 fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Bound {
     let Remainder { mut graph, magnitude, share } = Remainder::new(spec);
@@ -46,7 +46,7 @@ fn difference(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
 #[test]
 fn nothing_exceeds_what_is_certified() {
     let mut certified = 0;
-    for seed in 0..30 {
+    for seed in robots() {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let text = robot::spec(&mut random);
         let spec = Spec::parse("robot.toml", &text).unwrap();
@@ -56,7 +56,7 @@ fn nothing_exceeds_what_is_certified() {
             let box_ = if boxes == 1 { part(&all, &mut random) } else { all.clone() };
             let bound = bounded(&spec, &box_, &Effort { gap: 0.5, boxes, ..Effort::default() });
             certified += usize::from(bound.certified.is_finite());
-            for _ in 0..60 {
+            for _ in 0..given("ABBE_SAMPLES", 60) {
                 let place = place(&box_, &mut random);
                 let (q, u) = place.split_at(spec.variables.len());
                 if let Some([difference, rounding]) = difference(&robot, q, u) {

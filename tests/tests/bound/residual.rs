@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{home, moving, part, place, robot};
+use super::{given, home, moving, part, place, robot, robots};
 
 /// ½ ‖p″‖ and ½ ‖ω′‖ over a box.
 fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<[Bound; 2]> {
@@ -78,13 +78,13 @@ fn left(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[f64; 2]> {
 #[test]
 fn nothing_exceeds_what_is_certified() {
     let (mut certified, mut looked) = (0, 0);
-    for seed in 0..30 {
+    for seed in robots() {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
         let text = robot::spec(&mut random);
         let spec = Spec::parse("robot.toml", &text).unwrap();
         let robot = Interpreter::new(spec.clone());
         let all = moving(&spec);
-        for _ in 0..2 {
+        for _ in 0..given("ABBE_BOXES", 2) {
             let mut box_ = part(&all, &mut random);
             for name in &mut box_ {
                 // Wide boxes hold singular places.
@@ -95,7 +95,7 @@ fn nothing_exceeds_what_is_certified() {
                 continue;
             };
             certified += usize::from(bounds[0].certified.is_finite());
-            for _ in 0..20 {
+            for _ in 0..given("ABBE_SAMPLES", 20) {
                 let place = place(&box_, &mut random);
                 let (q, u) = place.split_at(spec.variables.len());
                 let Some(left) = left(&robot, q, u) else { continue };
