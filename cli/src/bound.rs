@@ -17,6 +17,7 @@ pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
     let mut job = Bound::new(machine, study);
     job.change(&changes);
     job.effort = Effort { gap: arguments.gap, boxes: arguments.boxes as usize, ..job.effort };
+    job.least = arguments.least;
     job.time = arguments.time;
     let report = job.run(&mut Console::default())?;
     Ok(Outcome::passed(if arguments.running.json { json(&report)? } else { text::bound(&report) }))

@@ -113,6 +113,7 @@ class Machine:
         *,
         study_text: str | None = None,
         gap: float = 0.01,
+        least: bool = False,
         boxes: int = 300_000,
         time: float | None = None,
         threads: int | None = None,

@@ -22,6 +22,9 @@ pub(crate) struct Bound {
     /// How much more than the largest error that was found the certified one may be, in percent or as a share
     #[arg(long, value_name = "GAP", default_value = "1%", value_parser = values::gap)]
     pub(crate) gap: f64,
+    /// Also say how far the joints move the tool at least: the dexterity, 0 in a singular place
+    #[arg(long)]
+    pub(crate) least: bool,
     /// The most boxes that are looked at for each error
     #[arg(long, value_name = "N", default_value_t = 300_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     pub(crate) boxes: u64,

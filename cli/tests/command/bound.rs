@@ -205,6 +205,21 @@ fn what_compensation_leaves_is_certified() {
     assert!(outcome.contains("compensation leaves could not be proved: near q1"), "{outcome}");
 }
 
+/// Dexterity is said where it is asked for, of a machine without errors as well.
+#[test]
+fn dexterity_is_said_where_it_is_asked_for() {
+    assert!(json(&["bound", "machine3", "--json"])["dexterity"].is_null());
+    let dexterity = &json(&["bound", "machine3", "--least", "--json"])["dexterity"];
+    let (certified, found) = (number(&dexterity["point"]["certified"]), number(&dexterity["point"]["found"]));
+    assert!((certified - 1.0).abs() < 1e-9 && (found - 1.0).abs() < 1e-9, "{dexterity}");
+    assert!(dexterity["pose"].is_null());
+    // Its wrist is singular where it is stretched.
+    let report = json(&["bound", "puma560", "--least", "--boxes", "2000", "--json"]);
+    let pose = &report["dexterity"]["pose"];
+    assert!(number(&pose["found"]) < 1e-6 && number(&pose["certified"]) == 0.0, "{pose}");
+    assert!(prints(&["bound", "machine3", "--least"]).contains("tool point"));
+}
+
 /// Errors that were identified on less than the box are not certified in silence, and what cannot be proved is not tried.
 #[test]
 fn what_is_extrapolated_and_what_is_too_much_is_said() {

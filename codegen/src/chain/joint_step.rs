@@ -3,19 +3,13 @@
 //! d is the same in whatever axes and at whatever point both sides are taken; so both are taken at the frame where d needs
 //! the fewest operations.
 
-use super::accumulate::{Accumulated, Links};
-use super::deviation::frame_twists;
-use super::displacement::Displacement;
-use super::local::Local;
-use super::minors::solve;
-use super::six::six;
-use crate::graph::{Graph, Node, Vector};
-use crate::spec::{ChainNumber, Spec, VariableKind};
-
-/// How many joints move the tool in all ways; those of fewer are asked for the tool point alone.
-pub(super) const JOINTS_OF_A_POSE: usize = 6;
-/// How many joints a tool point takes.
-const JOINTS_OF_A_POINT: usize = 3;
+use super::accumulate::Links;
+use super::joint_columns::{
+    JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_origin, at_tool, errors_of_joints, units,
+};
+use super::minors::{products, solve};
+use crate::graph::{Graph, Node};
+use crate::spec::Spec;
 
 /// What joints and errors do to the tool, all at one frame and in its axes.
 pub(super) struct Equations {
@@ -36,23 +30,13 @@ pub(super) fn joint_step(
     if spec.variables.len() < JOINTS_OF_A_POINT {
         return None;
     }
-    let joints: Vec<Vec<[Node; 6]>> =
-        (0..spec.variables.len()).map(|joint| errors_of_joint(graph, spec, joint)).collect();
+    let joints = errors_of_joints(graph, spec);
     let steps = (0..spec.frames.len()).map(|frame| {
         let equations = Equations::at(graph, links, &joints, errors, frame);
         equations.step(graph, spec)
     });
     let steps: Vec<Vec<Node>> = steps.collect();
     steps.into_iter().min_by_key(|step| graph.size(step))
-}
-
-/// What a unit of a joint does, as errors of all frames.
-fn errors_of_joint(graph: &mut Graph, spec: &Spec, joint: usize) -> Vec<[Node; 6]> {
-    let mut errors = vec![[graph.zero(); 6]; spec.frames.len()];
-    for twist in frame_twists(graph, spec, ChainNumber::Joint(joint)) {
-        errors[twist.frame] = six(twist.velocity, twist.rotation);
-    }
-    errors
 }
 
 impl Equations {
@@ -64,15 +48,12 @@ impl Equations {
         frame: usize,
     ) -> Self {
         let is_pose = joints.len() >= JOINTS_OF_A_POSE;
-        let tool =
-            (frame + 1..=errors.len()).rev().fold([graph.zero(); 3], |p, link| links.point(graph, link, p));
-        let mut rows = |errors: &[[Node; 6]]| {
-            let Displacement { shift, turn } = at_frame(graph, links, errors, frame);
-            if is_pose {
-                return [shift, turn].concat();
+        let mut rows = |errors: &[[Node; 6]]| match is_pose {
+            true => {
+                let there = at_origin(graph, links, errors, frame);
+                [there.shift, there.turn].concat()
             }
-            let swing = graph.cross(turn, tool);
-            graph.add_vectors(shift, swing).to_vec()
+            false => at_tool(graph, links, errors, frame).shift.to_vec(),
         };
         Self { joints: joints.iter().map(|errors| rows(errors)).collect(), errors: rows(errors) }
     }
@@ -86,83 +67,24 @@ impl Equations {
             return solve(graph, &rows, &back);
         }
         // d = U² Jᵀ (J U² Jᵀ)⁻¹ (−J_e ε), with U the units of the joints.
-        let squares: Vec<Node> = spec
-            .variables
-            .iter()
-            .map(|variable| {
-                let unit = match variable.kind {
-                    VariableKind::Revolute => 1.0,
-                    VariableKind::Prismatic => 1.0 / spec.length.in_metres(),
-                };
-                graph.constant(unit * unit)
-            })
-            .collect();
         let weighted: Vec<Vec<Node>> = self
             .joints
             .iter()
-            .zip(&squares)
-            .map(|(column, square)| column.iter().map(|entry| graph.mul(*square, *entry)).collect())
-            .collect();
-        let sum = |graph: &mut Graph, products: &mut dyn Iterator<Item = (Node, Node)>| {
-            products.fold(graph.zero(), |sum, (a, b)| {
-                let product = graph.mul(a, b);
-                graph.add(sum, product)
+            .zip(units(spec))
+            .map(|(column, unit)| {
+                let square = graph.constant(unit * unit);
+                column.iter().map(|entry| graph.mul(square, *entry)).collect()
             })
-        };
+            .collect();
+        let row =
+            |columns: &[Vec<Node>], i: usize| columns.iter().map(|column| column[i]).collect::<Vec<_>>();
         let rows: Vec<Vec<Node>> = (0..count)
             .map(|i| {
-                let entry = |k: usize| {
-                    let mut pairs = self.joints.iter().zip(&weighted).map(|(a, b)| (a[i], b[k]));
-                    sum(graph, &mut pairs)
-                };
-                (0..count).map(entry).collect()
+                let own = row(&self.joints, i);
+                (0..count).map(|k| products(graph, &own, &row(&weighted, k))).collect()
             })
             .collect();
         let multipliers = solve(graph, &rows, &back);
-        weighted
-            .iter()
-            .map(|column| sum(graph, &mut column.iter().copied().zip(multipliers.iter().copied())))
-            .collect()
+        weighted.iter().map(|column| products(graph, column, &multipliers)).collect()
     }
-}
-
-/// What errors of all frames do to the point of the tool at the origin of one, in its axes.
-fn at_frame(graph: &mut Graph, links: &Links, errors: &[[Node; 6]], frame: usize) -> Displacement {
-    let take_in = |graph: &mut Graph, sum: &mut Displacement, errors: &[Node; 6]| {
-        let here = [graph.zero(); 3];
-        sum.add(graph, *errors, here);
-    };
-    let mut inner = Displacement::none(graph);
-    for (link, before) in errors.iter().enumerate().take(frame) {
-        take_in(graph, &mut inner, before);
-        for motion in links.motions(link + 1) {
-            match motion {
-                Local::Shift(shift) => inner.shift = moved(graph, &inner, *shift, 1.0),
-                _ => {
-                    inner.shift = motion.direction_behind(graph, inner.shift);
-                    inner.turn = motion.direction_behind(graph, inner.turn);
-                }
-            }
-        }
-    }
-    let mut outer = Displacement::none(graph);
-    for (link, behind) in errors.iter().enumerate().skip(frame).rev() {
-        take_in(graph, &mut outer, behind);
-        for motion in links.motions(link).iter().rev().filter(|_| link > frame) {
-            match motion {
-                Local::Shift(shift) => outer.shift = moved(graph, &outer, *shift, -1.0),
-                _ => outer.turn(graph, motion),
-            }
-        }
-    }
-    Displacement {
-        shift: graph.add_vectors(inner.shift, outer.shift),
-        turn: graph.add_vectors(inner.turn, outer.turn),
-    }
-}
-
-/// What the point does that is further by a shift, or before it.
-fn moved(graph: &mut Graph, sum: &Displacement, shift: Vector, sign: f64) -> Vector {
-    let swing = graph.cross(sum.turn, shift);
-    if sign > 0.0 { graph.add_vectors(sum.shift, swing) } else { graph.sub_vectors(sum.shift, swing) }
 }

@@ -51,6 +51,14 @@ pub(super) fn solve(graph: &mut Graph, rows: &[Vec<Node>], b: &[Node]) -> Vec<No
     (0..count).map(unknown).collect()
 }
 
+/// `Σ a_i b_i`.
+pub(super) fn products(graph: &mut Graph, a: &[Node], b: &[Node]) -> Node {
+    a.iter().zip(b).fold(graph.zero(), |sum, (a, b)| {
+        let product = graph.mul(*a, *b);
+        graph.add(sum, product)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -58,7 +66,9 @@ mod tests {
     #[test]
     fn equations_are_solved() {
         let mut graph = Graph::new();
-        let numbers = |row: usize, column: usize| ((7 * row + 3 * column) as f64 * 1.3).sin();
+        let numbers = |row: usize, column: usize| {
+            ((3 * row * row + 5 * row * column + column * column + 1) as f64 * 1.3).sin()
+        };
         for count in 1..=6 {
             let rows: Vec<Vec<Node>> =
                 (0..count).map(|i| (0..count).map(|j| graph.constant(numbers(i, j))).collect()).collect();

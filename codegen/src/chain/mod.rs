@@ -6,16 +6,18 @@
 //! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
 //! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`, and `magnitudes`, whose
 //! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it, `joint_step` (by `minors`) what takes
-//! the errors back to first order, and `residual` what is left then. [`Model`]
+//! the errors back to first order, and `residual` what is left then; `dexterity` is how far joints move the tool (`joint_columns`). [`Model`]
 //! holds the results. What else leads to the same, `ways` and `moving` state: a program takes what needs the fewest operations.
 
 mod accumulate;
 mod by_source;
 mod covariance;
 mod deviation;
+mod dexterity;
 mod displacement;
 mod elastic;
 mod error_jacobian;
+mod joint_columns;
 mod joint_step;
 mod local;
 mod local_twist;
@@ -37,6 +39,7 @@ mod ways;
 pub(crate) use accumulate::Accumulated;
 pub(crate) use covariance::Covariance;
 pub use deviation::{FrameTwist, frame_twists, joint_twist};
+pub use dexterity::Dexterity;
 pub(crate) use displacement::Displacement;
 pub(crate) use error_jacobian::Columns;
 pub(crate) use local::Local;

@@ -1,7 +1,8 @@
 //! What is left once the joints have taken the errors back to first order, as nodes whose largest values are sought.
 
 use super::accumulate::Links;
-use super::joint_step::{JOINTS_OF_A_POSE, joint_step};
+use super::joint_columns::JOINTS_OF_A_POSE;
+use super::joint_step::joint_step;
 use super::magnitudes::Magnitude;
 use super::real::RealChain;
 use super::sources::{self, Causes};

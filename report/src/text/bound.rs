@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use abbe_study::bound::{Errors, Largest, Margin, Report};
+use abbe_study::bound::{Dexterity, Errors, Largest, Margin, Report};
 use abbe_study::number::{self, of_symbol, unbroken};
 use abbe_study::workspace::name;
 
@@ -30,9 +30,13 @@ pub fn bound(report: &Report) -> String {
         report.study.title,
         wrapped(&within, 9)
     );
+    if let Some(dexterity) = &report.dexterity {
+        let _ = writeln!(text, "\nDexterity\n{}", least(dexterity));
+        let _ = writeln!(text, "{}", wrapped(LEAST, 0));
+    }
     let kinds = report.kinds();
     if kinds.is_empty() {
-        text += "\nNo source of errors is switched on: there is nothing to bound.\n";
+        text += "\nNo source of errors is switched on: there is no error to bound.\n";
         return text;
     }
     for (title, errors) in &kinds {
@@ -63,6 +67,26 @@ pub fn bound(report: &Report) -> String {
         let _ = writeln!(text, "{}", wrapped(&sentence, 0));
     }
     text
+}
+
+/// What a dexterity is.
+const LEAST: &str = "So far the tool moves at least, in whatever direction, where the joints move by 1 rad or 1 m altogether (root sum of \
+                     squares): the least singular value of J_q, in metres and rad, 0 in a singular place. Nothing in the box is below \
+                     the first number; the second was found at this place.";
+
+fn least(dexterity: &Dexterity) -> Table {
+    let mut table = Table::new(&["of", "at least", "found", "found at"]);
+    let point = Some(("tool point", &dexterity.point));
+    let pose = dexterity.pose.as_ref().map(|pose| ("tool, 1 rad as 1 m", pose));
+    for (name, least) in point.into_iter().chain(pose) {
+        let decimals = number::decimals(least.found.max(1e-3), 3);
+        let place = if least.place.is_empty() { "home" } else { &least.place };
+        let certified = number::rounded_down(least.certified, decimals);
+        let mark = if least.complete { "" } else { " (gap not reached)" };
+        let found = number::fixed(least.found, decimals);
+        table.row([name.to_owned(), certified, found, unbroken(place) + mark]);
+    }
+    table.right(&[1, 2])
 }
 
 /// What first order leaves out, in a sentence; none if there is nothing to say.

@@ -151,7 +151,7 @@ impl Domain {
         self.spans.iter().filter(|span| span.range[0] < span.range[1]).count()
     }
 
-    fn names(&self) -> Vec<Moving> {
+    pub(super) fn names(&self) -> Vec<Moving> {
         let names = self.spans.iter().map(|Span { symbol, range }| Moving {
             symbol: *symbol,
             range: *range,

@@ -1,7 +1,8 @@
 //! How large the errors of the tool point are at most: over a box of joints, parameters and inputs, with a proof.
 //!
-//! `domain` is the box in which everything is sought; `norms` are those of the position's errors alone, for an analysis.
+//! `domain` is the box in which everything is sought, `dexterity` how far the joints move the tool at least; `norms` are those of the position's errors alone, for an analysis.
 
+mod dexterity;
 mod domain;
 mod norms;
 mod report;
@@ -23,8 +24,8 @@ use crate::study_file::Study;
 
 use domain::Domain;
 pub use norms::Norms;
-use report::Classes;
-pub use report::{AfterStep, Errors, Largest, Margin, Remainder, Report};
+pub use report::{AfterStep, Dexterity, Errors, Largest, Least, Margin, Remainder, Report};
+use report::{Classes, Others};
 
 /// How large are the errors at most?
 #[derive(Clone)]
@@ -33,6 +34,8 @@ pub struct Bound {
     study: Study,
     /// What is proved of each error, and when it is enough.
     pub effort: Effort,
+    /// Whether the dexterity is asked for, too.
+    pub least: bool,
     /// After so much time no further box is looked at.
     pub time: Option<Duration>,
 }
@@ -49,7 +52,7 @@ impl Bound {
         machine.change(&study.changes);
         machine.add_magnitude_errors();
         study.fix(machine.fixed_inputs());
-        Self { machine, study, effort: Effort::default(), time: None }
+        Self { machine, study, effort: Effort::default(), least: false, time: None }
     }
 
     /// Makes further changes.
@@ -86,17 +89,22 @@ impl Bound {
         let remainder = sought.one(notes, |_, watch| domain.remainder(&self.effort, watch))?;
         let before = [&repeatable.norm, &repeatable.orientation];
         let before = before.map(|largest| largest.certified.unwrap_or(f64::INFINITY));
-        let left = sought.one(notes, |_, watch| domain.after_step(&self.effort, before, watch))?;
+        let after_one_step = sought.one(notes, |_, watch| domain.after_step(&self.effort, before, watch))?;
+        let dexterity = match self.least {
+            true => sought.one(notes, |_, watch| domain.dexterity(&self.effort, watch))?,
+            false => None,
+        };
         let errors = [repeatable, random, radius];
-        let report = Report::new(domain, study, &self.effort, errors, (remainder, left));
+        let others = Others { remainder, after_one_step, dexterity };
+        let report = Report::new(domain, study, &self.effort, errors, others);
         report.warn(notes);
         Ok(report)
     }
 }
 
-/// How much is looked for: five errors of each of three kinds and what those along x and y do not exceed, the remainder, and what a step of
-/// compensation leaves.
-const SOUGHT: usize = 20;
+/// How much is looked for: five errors of each of three kinds and what those along x and y do not exceed, the remainder, what a step of
+/// compensation leaves, and the dexterity.
+const SOUGHT: usize = 21;
 
 /// What is being looked for.
 struct Sought<'a> {

@@ -38,6 +38,8 @@ pub struct Report {
     pub margin: Option<Margin>,
     /// What they leave of the orientation's, rad.
     pub orientation_margin: Option<Margin>,
+    /// How far the joints move the tool at least; none if it was not asked for, or of fewer than three joints.
+    pub dexterity: Option<Dexterity>,
     /// From where to where everything goes that moves.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
@@ -136,6 +138,34 @@ pub struct AfterStep {
     pub hardly: Option<String>,
 }
 
+/// How far the tool moves at least, in whatever direction, where the joints move by 1 m or 1 rad altogether (root sum of squares): the
+/// least singular value of `J_q` in metres and rad, 0 in a singular place.
+#[derive(Clone, Debug, Serialize)]
+pub struct Dexterity {
+    /// Of the tool point, rows 1–3.
+    pub point: Least,
+    /// Of the tool, a rad counted as a metre; none of fewer than six joints.
+    pub pose: Option<Least>,
+}
+
+/// The least value anywhere in the box.
+#[derive(Clone, Debug, Serialize)]
+pub struct Least {
+    /// It is no less than this.
+    pub certified: f64,
+    /// It is no more than this.
+    pub found: f64,
+    /// Where `found` is.
+    pub at: IndexMap<String, f64>,
+    /// How many boxes were looked at.
+    pub boxes: usize,
+    /// Whether the gap was reached, or what is found is next to nothing.
+    pub complete: bool,
+    /// The same place in words, but for what is at home.
+    #[serde(skip)]
+    pub place: String,
+}
+
 /// What the largest error of both classes, added, leaves of a tolerance, to first order in the errors: negative where the tolerance is
 /// exceeded.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -188,13 +218,20 @@ impl Remainder {
     }
 }
 
+/// What is known beside the largest errors.
+pub(super) struct Others {
+    pub(super) remainder: Option<Remainder>,
+    pub(super) after_one_step: Option<AfterStep>,
+    pub(super) dexterity: Option<Dexterity>,
+}
+
 impl Report {
     pub(super) fn new(
         Domain { spec, spans: moved }: Domain,
         study: &Study,
         effort: &Effort,
         [repeatable, random, radius]: [Errors; 3],
-        (remainder, after_one_step): (Option<Remainder>, Option<AfterStep>),
+        Others { remainder, after_one_step, dexterity }: Others,
     ) -> Self {
         let of_both = matches!(Classes::of(&spec), Classes { repeatable: true, random: true });
         // Of one class alone the last kind is a copy.
@@ -226,6 +263,7 @@ impl Report {
             after_one_step,
             margin,
             orientation_margin,
+            dexterity,
             spans,
             contains_more: !study.region.is_box(),
             boxes,

@@ -1,0 +1,53 @@
+//! How far joints move the tool: rows of `J_q` whose least singular value is sought.
+
+use super::accumulate::Links;
+use super::joint_columns::{JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_tool, errors_of_joints, units};
+use crate::graph::{Graph, Node};
+use crate::spec::Spec;
+
+/// Rows of `J_q` at the tool point, in metres and rad, in the axes of the frame where they need the fewest operations: one entry for
+/// each joint.
+#[derive(Clone, Debug)]
+pub struct Dexterity {
+    /// The graph they are nodes of.
+    pub graph: Graph,
+    /// Rows 1–3.
+    pub point: Vec<Vec<Node>>,
+    /// All six rows; none of fewer than six joints.
+    pub pose: Option<Vec<Vec<Node>>>,
+}
+
+impl Dexterity {
+    /// That of a checked spec; none if it has fewer than three joints.
+    pub fn new(spec: &Spec) -> Option<Self> {
+        let joints = spec.variables.len();
+        if joints < JOINTS_OF_A_POINT {
+            return None;
+        }
+        let mut graph = Graph::with_tables(&spec.tables);
+        let g = &mut graph;
+        let links = Links::new(g, spec);
+        let errors = errors_of_joints(g, spec);
+        let units = units(spec).into_iter().map(|unit| g.constant(unit)).collect::<Vec<_>>();
+        let metre = g.constant(spec.length.in_metres());
+        let mut at_frame = |frame: usize| {
+            let mut rows = vec![Vec::new(); 6];
+            for (errors, unit) in errors.iter().zip(&units) {
+                let there = at_tool(g, &links, errors, frame);
+                let shift = there.shift.map(|entry| g.mul(metre, entry));
+                for (row, entry) in rows.iter_mut().zip([shift, there.turn].concat()) {
+                    row.push(g.mul(*unit, entry));
+                }
+            }
+            rows
+        };
+        let frames: Vec<Vec<Vec<Node>>> = (0..spec.frames.len()).map(&mut at_frame).collect();
+        let fewest = |count: usize| {
+            let rows = frames.iter().map(|rows| rows[..count].to_vec());
+            rows.min_by_key(|rows| graph.size(&rows.concat()))
+        };
+        let point = fewest(3)?;
+        let pose = if joints >= JOINTS_OF_A_POSE { fewest(6) } else { None };
+        Some(Self { graph, point, pose })
+    }
+}
