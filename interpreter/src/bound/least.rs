@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::form::{Form, above};
 use super::tape::Tape;
-use super::{Effort, MOST_MOVING, Moving, Progress};
+use super::{Effort, MOST_MOVING, Moving, Progress, period};
 
 /// How many boxes are halved in a round, whatever the number of threads.
 const ROUND: usize = 64;
@@ -65,7 +65,13 @@ pub fn least_singular_value(
     let search = Search {
         matrix: Tape::new(graph, &entries, &symbols, still),
         rows: rows.len(),
-        domain: active.iter().map(|name| name.range).collect(),
+        domain: active
+            .iter()
+            .map(|name| match entries.iter().all(|entry| period::is_angle(graph, *entry, name.symbol)) {
+                true => period::once_around(name.range),
+                false => name.range,
+            })
+            .collect(),
         effort: *effort,
     };
     let least = match active.len() {
@@ -200,8 +206,14 @@ impl Search {
         let alone = values[0] - spread;
         let least = if together > 0.0 { together.sqrt().max(alone) } else { alone } * (1.0 - DECOMPOSED);
 
-        let moved = |k: usize| forms.iter().map(|form| form.slopes[k] * form.slopes[k]).sum::<f64>();
-        let split = (0..centres.len()).max_by(|i, j| moved(*i).total_cmp(&moved(*j))).unwrap_or(0);
+        // A name that moves nothing by its slopes moves it too much for them.
+        let moved = |k: usize| match forms.iter().map(|form| form.slopes[k] * form.slopes[k]).sum() {
+            0.0 if halves[k] > 0.0 => f64::INFINITY,
+            moved => moved,
+        };
+        let more =
+            |i: &usize, j: &usize| moved(*i).total_cmp(&moved(*j)).then(halves[*i].total_cmp(&halves[*j]));
+        let split = (0..centres.len()).max_by(more).unwrap_or(0);
         let corner = centres.iter().enumerate().map(|(k, centre)| match square.slopes[k] {
             0.0 => *centre,
             slope if slope > 0.0 => cell.low[k],

@@ -70,8 +70,8 @@ pub fn bound(report: &Report) -> String {
 }
 
 /// What a dexterity is.
-const LEAST: &str = "So far the tool moves at least, in whatever direction, where the joints move by 1 rad or 1 m altogether (root sum of \
-                     squares): the least singular value of J_q, in metres and rad, 0 in a singular place. Nothing in the box is below \
+const LEAST: &str = "So far the joints can move the tool at least, in whatever direction, when they move by 1 rad or 1 m altogether (root sum \
+                     of squares): the least singular value of J_q, in metres and rad, 0 in a singular place. Nothing in the box is below \
                      the first number; the second was found at this place.";
 
 fn least(dexterity: &Dexterity) -> Table {
@@ -114,7 +114,7 @@ fn after_one_step(report: &Report) -> Option<String> {
                 ": near {} the joints can hardly move the tool in every direction",
                 unbroken(if place.is_empty() { "home" } else { place })
             ),
-            None => String::new(),
+            None => ": in too much of the box the joints may be near a singular place".to_owned(),
         };
         return Some(format!("What one step of compensation leaves could not be proved{why}."));
     };

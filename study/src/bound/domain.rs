@@ -21,6 +21,8 @@ use super::report::{AfterStep, Classes, Remainder};
 /// What first order leaves out, and a step of compensation leaves, is small: it is known closely enough when it is known to a half, or
 /// after so many boxes.
 const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, at_most: f64::INFINITY };
+/// Of what is still endless after so many boxes nothing will soon be known: joints are singular in too many of them.
+const HOPELESS: usize = 1_000;
 /// How many names may move: the search for the remainder moves one more.
 const MOST_NAMES: usize = MOST_MOVING - 1;
 
@@ -106,12 +108,16 @@ impl Domain {
         }
         let chain::Residual { mut graph, point, turn, share } = chain::Residual::new(&self.spec)?;
         let mut largest = |magnitude, before: f64| {
-            let mut watch = |progress: &Progress| progress.found <= before && watch(progress);
+            let mut watch = |progress: &Progress| {
+                let is_hopeless = progress.certified.is_infinite() && progress.boxes >= HOPELESS;
+                progress.found <= before && !is_hopeless && watch(progress)
+            };
             self.curve(&mut graph, magnitude, share, asked, &mut watch)
         };
+        let corrects_orientation = turn.is_some();
         let point = largest(point, before[0]);
-        let turn = turn.map(|turn| largest(turn, before[1]));
-        Some(AfterStep::new(self, &[Some(point), turn], before))
+        let turn = turn.filter(|_| point.certified.is_finite()).map(|turn| largest(turn, before[1]));
+        Some(AfterStep::new(self, &[Some(point), turn], before, corrects_orientation))
     }
 
     /// The largest size along a curve that leads to the errors, anywhere in the box.

@@ -196,7 +196,12 @@ impl Margin {
 
 impl AfterStep {
     /// From the largest sizes of position and orientation, and what these are without the step.
-    pub(super) fn new(domain: &Domain, bounds: &[Option<bound::Bound>; 2], before: [f64; 2]) -> Self {
+    pub(super) fn new(
+        domain: &Domain,
+        bounds: &[Option<bound::Bound>; 2],
+        before: [f64; 2],
+        corrects_orientation: bool,
+    ) -> Self {
         let [point, turn] = bounds;
         let certified =
             |bound: &Option<bound::Bound>| bound.as_ref().and_then(|bound| known(bound.certified));
@@ -206,7 +211,7 @@ impl AfterStep {
             position: certified(point),
             orientation: certified(turn),
             boxes: all.map(|(bound, _)| bound.boxes).sum(),
-            corrects_orientation: turn.is_some(),
+            corrects_orientation,
             hardly: hard.map(|(bound, _)| domain.place(&bound.at).1),
         }
     }
