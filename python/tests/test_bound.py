@@ -35,3 +35,27 @@ def test_what_cannot_be_is_refused():
     for wrong in ({"gap": 0.0}, {"gap": float("nan")}, {"time": -1.0}):
         with pytest.raises(ValueError, match="gap|time"):
             machine3.bound(**wrong)
+
+
+def test_dexterity_is_the_least_singular_value():
+    assert machine3.bound().dexterity is None
+    robot = abbe.load("pps")
+    dexterity = robot.bound(least=True, boxes=2000).dexterity
+    for rows, least in ((3, dexterity.point), (6, dexterity.pose)):
+        q = [least.at[name] for name in ("d1", "d2", "d3", "q4", "q5", "q6")]
+        tool = {name: least.at[name] for name in ("x", "y", "z")}
+        # Slides move by metres.
+        columns = robot.with_parameters(**tool).joint_jacobian(q)[:rows] * [1000, 1000, 1000, 1, 1, 1]
+        columns[:3] /= 1000
+        found = np.linalg.svd(columns, compute_uv=False).min()
+        assert least.certified <= least.found == pytest.approx(found, abs=1e-9)
+
+
+def test_one_step_of_compensation_leaves_no_more_than_is_certified():
+    robot = abbe.load("machine3").with_parameters(temperature_rise="8 K")
+    left = robot.bound().after_one_step.position
+    q = np.random.default_rng(2).uniform([20, 20, 20], [580, 380, 430], (500, 3))
+    for q in q:
+        corrected = q - robot.predict(q[None])[0, :3]
+        missed = robot.real_pose(corrected)[:3, 3] - robot.pose(q)[:3, 3]
+        assert np.linalg.norm(missed) <= left
