@@ -111,10 +111,11 @@ fn after_one_step(report: &Report) -> Option<String> {
     let Some(position) = left.position.filter(|_| is_known) else {
         let why = match &left.hardly {
             Some(place) => format!(
-                ": near {} the joints can hardly move the tool in every direction",
+                ": near {} it may leave more than there is, because the joints can hardly move the tool in every direction there, or because an error \
+                 jumps",
                 unbroken(if place.is_empty() { "home" } else { place })
             ),
-            None => ": in too much of the box the joints may be near a singular place".to_owned(),
+            None => ": of too much of the box nothing is known".to_owned(),
         };
         return Some(format!("What one step of compensation leaves could not be proved{why}."));
     };

@@ -21,8 +21,8 @@ use super::report::{AfterStep, Classes, Remainder};
 /// What first order leaves out, and a step of compensation leaves, is small: it is known closely enough when it is known to a half, or
 /// after so many boxes.
 const REMAINDER_EFFORT: Effort = Effort { gap: 0.5, boxes: 20_000, at_most: f64::INFINITY };
-/// Of what is still endless after so many boxes nothing will soon be known: joints are singular in too many of them.
-const HOPELESS: usize = 1_000;
+/// Of what is still endless after so many boxes nothing will soon be known.
+const HOPELESS: usize = 3_000;
 /// How many names may move: the search for the remainder moves one more.
 const MOST_NAMES: usize = MOST_MOVING - 1;
 
