@@ -70,16 +70,16 @@ pub fn bound(report: &Report) -> String {
 }
 
 /// What a dexterity is.
-const LEAST: &str = "So far the joints can move the tool at least, in whatever direction, when they move by 1 rad or 1 m altogether (root sum \
-                     of squares): the least singular value of J_q, in metres and rad, 0 in a singular place. Nothing in the box is below \
-                     the first number; the second was found at this place.";
+const LEAST: &str = "The joints can move the tool this far at least, in whatever direction, when they move by 1 rad or 1 m altogether (root \
+                     sum of squares): the least singular value of J_q, in metres and rad, 0 in a singular place. Nothing in the box \
+                     is below the first number; the second was found at this place.";
 
 fn least(dexterity: &Dexterity) -> Table {
-    let mut table = Table::new(&["of", "at least", "found", "found at"]);
+    let mut table = Table::new(&["of", "never below", "found", "found at"]);
     let point = Some(("tool point", &dexterity.point));
     let pose = dexterity.pose.as_ref().map(|pose| ("tool, 1 rad as 1 m", pose));
     for (name, least) in point.into_iter().chain(pose) {
-        let decimals = number::decimals(least.found.max(1e-3), 3);
+        let decimals = number::decimals(least.found.max(1e-3), 5);
         let place = if least.place.is_empty() { "home" } else { &least.place };
         let certified = number::rounded_down(least.certified, decimals);
         let mark = if least.complete { "" } else { " (gap not reached)" };
@@ -125,7 +125,7 @@ fn after_one_step(report: &Report) -> Option<String> {
         .map(|angle| format!(", and its orientation is off by no more than {} mrad", shown(1e3 * angle)));
     Some(format!(
         "Compensation of the repeatable sources by one step of the joints, q − J_q⁻¹ J_e ε, leaves no more than {} {} of the tool point's \
-         error{} in the exact chain, wherever the limits of the joints allow the step.",
+         error{} in the exact chain, if the inputs are known and the limits of the joints allow the step.",
         shown(position),
         report.length,
         turned.unwrap_or_default()
@@ -148,8 +148,8 @@ fn of_tolerance(margin: &Margin, largest: &Largest, unit: &str, factor: f64) -> 
     };
     let compensated = match margin.after_one_step {
         Some(certified) if certified >= 0.0 => format!(
-            " With this step of compensation it is kept: what the step leaves, and the random sources to first order, leave at least {} \
-             {unit} of it.",
+            " With such a step, and with the random sources to first order, at least {} {unit} of it are left wherever the limits of the \
+             joints allow the step.",
             left(certified)
         ),
         _ => String::new(),

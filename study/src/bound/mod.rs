@@ -81,7 +81,8 @@ impl Bound {
         // Of one class alone both together are that one.
         let radius = match Classes::of(&domain.spec) {
             Classes { repeatable: true, random: true } => {
-                sought.errors(&mut graph, radius, across_z[2], at_most(2), notes)?
+                let both = sought.errors(&mut graph, radius, across_z[2], at_most(2), notes)?;
+                both.at_most(&repeatable, &random)
             }
             Classes { random: true, .. } => random.clone(),
             _ => repeatable.clone(),

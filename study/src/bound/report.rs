@@ -246,7 +246,10 @@ impl Report {
         let boxes: usize = all().map(|largest| largest.boxes).sum();
         let boxes = boxes + remainder.as_ref().map_or(0, |remainder| remainder.boxes);
         let boxes = boxes + after_one_step.as_ref().map_or(0, |left| left.boxes);
-        let complete = all().all(|largest| largest.complete);
+        let least =
+            dexterity.iter().flat_map(|dexterity| std::iter::once(&dexterity.point).chain(&dexterity.pose));
+        let boxes = boxes + least.clone().map(|least| least.boxes).sum::<usize>();
+        let complete = all().all(|largest| largest.complete) && least.clone().all(|least| least.complete);
         let left = after_one_step.as_ref();
         let margin = study.tolerance.map(|tolerance| {
             Margin::new(tolerance, &radius.norm, left.and_then(|left| left.position), &random.norm)
@@ -323,6 +326,22 @@ impl Report {
 }
 
 impl Errors {
+    /// With what they cannot exceed because others, added, do not.
+    pub(super) fn at_most(self, first: &Self, second: &Self) -> Self {
+        let sum = |own: Largest, first: &Largest, second: &Largest| {
+            let sum = first.certified.zip(second.certified).map(|(first, second)| (first + second).next_up());
+            let certified = [own.certified, sum].into_iter().flatten().reduce(f64::min);
+            Largest { certified, ..own }
+        };
+        Self {
+            norm: sum(self.norm, &first.norm, &second.norm),
+            x: sum(self.x, &first.x, &second.x),
+            y: sum(self.y, &first.y, &second.y),
+            z: sum(self.z, &first.z, &second.z),
+            orientation: sum(self.orientation, &first.orientation, &second.orientation),
+        }
+    }
+
     /// All five, in the order of the report.
     pub fn all(&self) -> [&Largest; 5] {
         [&self.norm, &self.x, &self.y, &self.z, &self.orientation]
