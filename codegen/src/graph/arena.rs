@@ -73,8 +73,8 @@ impl Op {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     ops: IndexSet<Op, Build>,
-    names: IndexMap<Node, String>,
-    numbers: IndexMap<u64, String>,
+    names: IndexMap<Node, String, Build>,
+    numbers: IndexMap<u64, String, Build>,
     tables: Vec<Arc<Table>>,
     pub(super) equals: Equals,
 }

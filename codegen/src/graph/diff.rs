@@ -1,7 +1,5 @@
 //! The derivative of a node by a symbol, by forward accumulation.
 
-use std::collections::{HashMap, HashSet};
-
 use super::{Graph, Node, Op};
 use crate::expr::{Function, Lookup, Symbol};
 
@@ -22,17 +20,17 @@ impl Graph {
     /// The derivatives of several nodes by one symbol, in one pass over what they are made of.
     pub fn diff_all(&mut self, nodes: &[Node], x: Symbol) -> Vec<Node> {
         let zero = self.zero();
-        // Operands have smaller handles, so that ascending order is an order of evaluation.
-        let mut derivatives: HashMap<Node, Node> = HashMap::new();
+        // By places in the graph. Operands have smaller handles, so that ascending order is an order of evaluation.
+        let mut derivatives: Vec<Option<Node>> =
+            vec![None; nodes.iter().max().map_or(0, |last| last.index() + 1)];
         for node in self.reached_from(nodes) {
             let op = self.op(node);
-            if op == Op::Symbol(x) || op.operands().any(|operand| derivatives.contains_key(&operand)) {
-                let of = |operand: Node| derivatives.get(&operand).copied().unwrap_or(zero);
-                let derivative = self.derivative(node, of);
-                derivatives.insert(node, derivative);
+            if op == Op::Symbol(x) || op.operands().any(|operand| derivatives[operand.index()].is_some()) {
+                let of = |operand: Node| derivatives[operand.index()].unwrap_or(zero);
+                derivatives[node.index()] = Some(self.derivative(node, of));
             }
         }
-        nodes.iter().map(|node| derivatives.get(node).copied().unwrap_or(zero)).collect()
+        nodes.iter().map(|node| derivatives[node.index()].unwrap_or(zero)).collect()
     }
 
     /// The symbols that some nodes depend on.
@@ -63,14 +61,15 @@ impl Graph {
 
     /// The nodes that some nodes are made of, they themselves among them, in ascending order.
     pub(super) fn reached_from(&self, nodes: &[Node]) -> Vec<Node> {
-        let mut reached: HashSet<Node> = nodes.iter().copied().collect();
-        let mut open: Vec<Node> = reached.iter().copied().collect();
-        while let Some(node) = open.pop() {
-            open.extend(self.op(node).operands().filter(|operand| reached.insert(*operand)));
+        let mut reached = vec![false; nodes.iter().max().map_or(0, |last| last.index() + 1)];
+        nodes.iter().for_each(|node| reached[node.index()] = true);
+        // Operands have smaller handles: whoever uses a node has been looked at before it.
+        for index in (0..reached.len()).rev() {
+            if reached[index] {
+                self.op(Node(index as u32)).operands().for_each(|operand| reached[operand.index()] = true);
+            }
         }
-        let mut reached: Vec<Node> = reached.into_iter().collect();
-        reached.sort_unstable();
-        reached
+        self.nodes().zip(reached).filter_map(|(node, reached)| reached.then_some(node)).collect()
     }
 
     /// The derivative of one node, given those of its operands.

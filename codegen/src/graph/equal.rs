@@ -2,6 +2,7 @@
 
 use indexmap::IndexMap;
 
+use super::hash::Build;
 use super::{Graph, Node, Op, Vector};
 
 /// A node or its negative.
@@ -19,7 +20,7 @@ pub(super) struct Equals {
     /// What stands for all that are equal to a node, by its place; of a node that is equal to no other one none.
     first: Vec<Option<Signed>>,
     /// All that are equal to one that stands for them, itself the first.
-    all: IndexMap<Node, Vec<Signed>>,
+    all: IndexMap<Node, Vec<Signed>, Build>,
     /// Nodes that may pay together where none of them does alone.
     together: Vec<Vec<Node>>,
 }

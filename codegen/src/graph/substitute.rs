@@ -1,7 +1,5 @@
 //! Nodes put in the place of symbols.
 
-use std::collections::HashMap;
-
 use super::{Graph, Node, Op};
 use crate::expr::Symbol;
 
@@ -16,11 +14,11 @@ impl Graph {
     /// assert_eq!(g.substitute(&[sine], |_| Some(twice)), [g.sin(twice)]);
     /// ```
     pub fn substitute(&mut self, nodes: &[Node], other: impl Fn(Symbol) -> Option<Node>) -> Vec<Node> {
-        // Operands have smaller handles, so that ascending order is an order of evaluation.
-        let mut made: HashMap<Node, Node> = HashMap::new();
+        // By places in the graph. Operands have smaller handles, so that ascending order is an order of evaluation.
+        let mut made: Vec<Node> = self.nodes().collect();
         for node in self.reached_from(nodes) {
-            let of = |operand: Node| made[&operand];
-            let new = match self.op(node) {
+            let of = |operand: Node| made[operand.index()];
+            made[node.index()] = match self.op(node) {
                 Op::Symbol(symbol) => other(symbol).unwrap_or(node),
                 op if op.operands().all(|operand| of(operand) == operand) => node,
                 Op::Constant(_) => node,
@@ -37,8 +35,7 @@ impl Graph {
                 Op::Call(function, a) => self.call(function, of(a)),
                 Op::Lookup(lookup, a) => self.look_up(lookup, of(a)),
             };
-            made.insert(node, new);
         }
-        nodes.iter().map(|node| made[node]).collect()
+        nodes.iter().map(|node| made[node.index()]).collect()
     }
 }

@@ -143,15 +143,18 @@ impl<'w> Search<'w> {
 
     /// What a way seems to take.
     pub(super) fn seems(&self, way: u32) -> u32 {
-        let way = self.ways.way(way);
-        let [a, b] = way.operands.map(|operand| self.price[operand as usize]);
-        (way.cost + a + b).min(UNKNOWN)
+        self.ways.way(way).price(&self.price).min(UNKNOWN)
     }
 
     /// What a class takes that nothing else needs.
     pub(super) fn alone(&mut self, class: u32) -> u32 {
-        let mark = self.mark();
         let way = self.way(class);
+        let [first, second] = self.ways.way(way).operands;
+        let is_shared = |operand: u32| self.uses.get(operand as usize).is_none_or(|uses| *uses > 1);
+        if first != second && is_shared(first) && is_shared(second) {
+            return self.ways.way(way).cost;
+        }
+        let mark = self.mark();
         self.ways.operands(way).for_each(|operand| self.drop(operand));
         let alone = self.ways.way(way).cost + mark.1 - self.cost;
         self.back(mark);
@@ -163,19 +166,30 @@ impl<'w> Search<'w> {
         for (price, uses) in self.price.iter_mut().zip(&self.uses) {
             *price = if *uses > 0 { 0 } else { UNKNOWN };
         }
-        let mut changed = true;
-        while std::mem::take(&mut changed) {
-            for class in 0..self.ways.count() {
-                for way in self.ways.of(class as u32) {
-                    let seems = self.seems(way);
-                    if seems < self.price[class] {
-                        self.price[class] = seems;
-                        changed = true;
-                    }
-                }
+        // Each after what it uses, as far as that goes; then whatever uses what was found to take less.
+        let mut open = Vec::new();
+        for class in 0..self.ways.count() as u32 {
+            if self.lower(class) {
+                let users = self.ways.users(class).iter();
+                open.extend(users.take_while(|user| **user <= class));
+            }
+        }
+        while let Some(class) = open.pop() {
+            if self.lower(class) {
+                open.extend(self.ways.users(class));
             }
         }
         self.estimate.copy_from_slice(&self.price);
+    }
+
+    /// Whether a class takes less than it was estimated to.
+    fn lower(&mut self, class: u32) -> bool {
+        let ways = self.ways.list(class).iter();
+        let least = ways.fold(UNKNOWN, |least, way| least.min(way.price(&self.price)));
+        let price = &mut self.price[class as usize];
+        let is_less = least < *price;
+        *price = least.min(*price);
+        is_less
     }
 
     /// Whether any of these classes uses itself, or what it uses does.

@@ -14,6 +14,14 @@ pub(super) struct Way {
     pub(super) operands: [u32; 2],
 }
 
+impl Way {
+    /// What it takes where its operands take this.
+    pub(super) fn price(&self, of: &[u32]) -> u32 {
+        let [a, b] = self.operands.map(|operand| of[operand as usize]);
+        self.cost + a + b
+    }
+}
+
 /// All classes, those that others use before these as far as that goes.
 pub(super) struct Ways {
     /// The number of the class that a node stands for.
@@ -74,6 +82,12 @@ impl Ways {
     /// The ways of a class.
     pub(super) fn of(&self, class: u32) -> Range<u32> {
         self.of[class as usize].clone()
+    }
+
+    /// The same, one after the other.
+    pub(super) fn list(&self, class: u32) -> &[Way] {
+        let Range { start, end } = self.of[class as usize];
+        &self.ways[start as usize..end as usize]
     }
 
     /// The classes with a way that uses one.
