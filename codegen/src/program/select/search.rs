@@ -166,17 +166,20 @@ impl<'w> Search<'w> {
         for (price, uses) in self.price.iter_mut().zip(&self.uses) {
             *price = if *uses > 0 { 0 } else { UNKNOWN };
         }
-        // Each after what it uses, as far as that goes; then whatever uses what was found to take less.
-        let mut open = Vec::new();
-        for class in 0..self.ways.count() as u32 {
-            if self.lower(class) {
-                let users = self.ways.users(class).iter();
-                open.extend(users.take_while(|user| **user <= class));
-            }
-        }
-        while let Some(class) = open.pop() {
-            if self.lower(class) {
-                open.extend(self.ways.users(class));
+        // Each after what it uses, as far as that goes; then, in this order again, whatever uses what was found to take less. As soon as
+        // that is found, and not in this order, prices would fall again and again: there are endlessly many ways to them.
+        let mut open = vec![true; self.ways.count()];
+        let mut again = true;
+        while again {
+            again = false;
+            for class in 0..self.ways.count() {
+                if !std::mem::take(&mut open[class]) || !self.lower(class as u32) {
+                    continue;
+                }
+                for user in self.ways.users(class as u32) {
+                    open[*user as usize] = true;
+                    again |= *user as usize <= class;
+                }
             }
         }
         self.estimate.copy_from_slice(&self.price);
