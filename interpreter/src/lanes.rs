@@ -9,7 +9,7 @@ use abbe::lanes::{Kernel, Lanes, Register, Tiles};
 use abbe_codegen::expr::{Function, Lookup, Table};
 use abbe_codegen::program::Action;
 
-use crate::tape::{Instruction, Part, Slot, Tape};
+use crate::tape::{Chain, Instruction, Link, LinkKind, Operation, Part, Slot, Tape};
 
 /// How many tiles of a batch are evaluated together: enough to hide the choice of an operation, few enough for
 /// all slots to stay in the cache.
@@ -64,7 +64,7 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
                 Part::Program { turns, body } => {
                     for turn in turns {
                         self.moves(&turn.reads);
-                        self.instructions(body, &tape.tables);
+                        self.operations(body, &tape.tables);
                         self.moves(&turn.writes);
                     }
                 }
@@ -80,8 +80,15 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
     }
 
     #[inline(always)]
-    fn instructions(&mut self, instructions: &[Instruction], tables: &[Arc<Table>]) {
-        for instruction in instructions {
+    fn operations(&mut self, operations: &[Operation], tables: &[Arc<Table>]) {
+        for operation in operations {
+            let instruction = match operation {
+                Operation::One(instruction) => instruction,
+                Operation::Chain(chain) => {
+                    self.chain(chain);
+                    continue;
+                }
+            };
             match instruction.action {
                 Action::Neg(_) => self.map(instruction, |a, _, _| -a),
                 Action::Add(..) => self.map(instruction, |a, b, _| a + b),
@@ -119,6 +126,36 @@ impl<'r, T: Scalar, const N: usize> Block<'r, T, N> {
                 Action::Pow(..) => self.by_call(instruction, |a, b, _| a.powf(b)),
                 Action::Atan2(..) => self.by_call(instruction, |a, b, _| a.atan2(b)),
             }
+        }
+    }
+
+    /// All that lies between is in registers.
+    #[inline(always)]
+    fn chain(&mut self, chain: &Chain) {
+        let mut values = self.rows[chain.start];
+        for link in &chain.links {
+            match link.kind {
+                LinkKind::Negated => self.link(link, &mut values, |v, _, _| -v),
+                LinkKind::Plus => self.link(link, &mut values, |v, a, _| v + a),
+                LinkKind::Minus => self.link(link, &mut values, |v, a, _| v - a),
+                LinkKind::From => self.link(link, &mut values, |v, a, _| a - v),
+                LinkKind::Times => self.link(link, &mut values, |v, a, _| v * a),
+                LinkKind::PlusProduct => self.link(link, &mut values, |v, a, b| a.mul_add(b, v)),
+                LinkKind::MinusProduct => self.link(link, &mut values, |v, a, b| a.neg_mul_add(b, v)),
+                LinkKind::FromProduct => self.link(link, &mut values, |v, a, b| a.mul_sub(b, v)),
+                LinkKind::TimesPlus => self.link(link, &mut values, |v, a, b| v.mul_add(a, b)),
+                LinkKind::TimesMinus => self.link(link, &mut values, |v, a, b| v.mul_sub(a, b)),
+                LinkKind::FromTimes => self.link(link, &mut values, |v, a, b| v.neg_mul_add(a, b)),
+            }
+        }
+        self.rows[chain.result] = values;
+    }
+
+    #[inline(always)]
+    fn link(&self, link: &Link, values: &mut [T; N], f: impl Fn(T, T, T) -> T) {
+        let (a, b) = (&self.rows[link.a], &self.rows[link.b]);
+        for place in 0..N {
+            values[place] = f(values[place], a[place], b[place]);
         }
     }
 

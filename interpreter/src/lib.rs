@@ -19,11 +19,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `tape` is a program with its registers packed; `lanes` evaluates it. `bound` finds the largest value of a node over a box, with a
+//! `tape` is a program with its registers packed, `chains` of its operations as one; `lanes` evaluates it. `bound` finds the largest value of a node over a box, with a
 //! proof.
 
 pub mod bound;
 
+mod chains;
 mod interpreter;
 mod lanes;
 mod tape;

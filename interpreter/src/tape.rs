@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use abbe::Function;
 use abbe_codegen::expr::{Symbol, Table};
-use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Routines, Row, Stage};
+use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Routines, Row, Stage, Step};
+
+use crate::chains::chains;
 
 /// A place among the values of a block.
 pub(crate) type Slot = usize;
@@ -22,6 +24,56 @@ pub(crate) struct Instruction {
     pub(crate) second: Slot,
 }
 
+/// Operations of which each reads what the one before it makes: that stays in registers.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    /// The value that it begins with.
+    pub(crate) start: Slot,
+    pub(crate) links: Vec<Link>,
+    pub(crate) result: Slot,
+}
+
+/// What becomes of a value v, with what is in two slots a and b.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link {
+    pub(crate) kind: LinkKind,
+    pub(crate) a: Slot,
+    pub(crate) b: Slot,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum LinkKind {
+    /// `−v`.
+    Negated,
+    /// `v + a`.
+    Plus,
+    /// `v − a`.
+    Minus,
+    /// `a − v`.
+    From,
+    /// `v a`.
+    Times,
+    /// `a b + v`.
+    PlusProduct,
+    /// `v − a b`.
+    MinusProduct,
+    /// `a b − v`.
+    FromProduct,
+    /// `v a + b`.
+    TimesPlus,
+    /// `v a − b`.
+    TimesMinus,
+    /// `b − v a`.
+    FromTimes,
+}
+
+/// What is done at once.
+#[derive(Clone, Debug)]
+pub(crate) enum Operation {
+    One(Instruction),
+    Chain(Chain),
+}
+
 /// A part of a tape.
 #[derive(Clone, Debug)]
 pub(crate) enum Part {
@@ -31,7 +83,7 @@ pub(crate) enum Part {
     Sum { constants: Vec<(Slot, f64)>, factors: Vec<(Slot, Slot, f64)> },
     /// For every turn, what is read comes to its slots, the instructions run, and what is written goes where it belongs;
     /// what is no loop has one turn.
-    Program { turns: Vec<Turn>, body: Vec<Instruction> },
+    Program { turns: Vec<Turn>, body: Vec<Operation> },
 }
 
 /// One turn of a loop.
@@ -292,33 +344,42 @@ impl<'r> Packer<'r> {
         self.parts.push(Part::Program { turns, body });
     }
 
-    /// The instructions of a program, and where its outputs are.
+    /// The operations of a program, and where its outputs are.
     fn program(
         &mut self,
         program: &Program,
         arrays: &Arrays<'_>,
         locals: &[Slot],
-    ) -> (Vec<Instruction>, Vec<Slot>) {
-        let mut registers = Registers::new(program);
-        let mut instructions = Vec::with_capacity(program.steps.len());
-        for (at, step) in program.steps.iter().enumerate() {
+    ) -> (Vec<Operation>, Vec<Slot>) {
+        let chains = chains(program);
+        let mut registers = Registers::new(program, &chains);
+        let mut operations = Vec::with_capacity(chains.len());
+        for (at, chain) in chains.iter().enumerate() {
+            let steps: Vec<&Step> = chain.iter().map(|step| &program.steps[*step]).collect();
             let slot = |operand| self.slot(operand, &registers, arrays, locals);
-            let mut operands = step.action.operands();
-            let a = operands.next().map_or(0, slot);
-            let b = operands.next().map_or(a, slot);
-            let c = operands.next().map_or(b, slot);
-            // Operands that end here make room for the result: each lane reads before it writes.
-            registers.release(step.action, at, &mut self.free);
-            let result = self.define(&mut registers, step.register, at);
-            let second = match step.action {
-                Action::SinCos(_) => self.define(&mut registers, step.register + 1, at),
-                _ => result,
+            let mut operation = match &steps[..] {
+                [step] => Operation::One(one(step.action, slot)),
+                steps => Operation::Chain(linked(steps, slot)),
             };
-            instructions.push(Instruction { action: step.action, a, b, c, result, second });
+            // Operands that end here make room for the result: each lane reads before it writes.
+            registers.release(&steps, at, &mut self.free);
+            let last = steps[steps.len() - 1];
+            let result = self.define(&mut registers, last.register, at);
+            match &mut operation {
+                Operation::One(instruction) => {
+                    instruction.result = result;
+                    instruction.second = match last.action {
+                        Action::SinCos(_) => self.define(&mut registers, last.register + 1, at),
+                        _ => result,
+                    };
+                }
+                Operation::Chain(chain) => chain.result = result,
+            }
+            operations.push(operation);
         }
         let outputs = program.outputs.iter();
         let outputs = outputs.map(|output| self.slot(*output, &registers, arrays, locals)).collect();
-        (instructions, outputs)
+        (operations, outputs)
     }
 
     fn slot(&self, operand: Operand, registers: &Registers, arrays: &Arrays<'_>, locals: &[Slot]) -> Slot {
@@ -357,18 +418,68 @@ impl<'r> Packer<'r> {
     }
 }
 
+/// An operation by itself; where its result goes is not known yet.
+fn one(action: Action, slot: impl Fn(Operand) -> Slot) -> Instruction {
+    let mut operands = action.operands();
+    let a = operands.next().map_or(0, &slot);
+    let b = operands.next().map_or(a, &slot);
+    let c = operands.next().map_or(b, &slot);
+    Instruction { action, a, b, c, result: 0, second: 0 }
+}
+
+/// Several, of which each reads the register of the one before it; the first one goes on from one of its operands.
+fn linked(steps: &[&Step], slot: impl Fn(Operand) -> Slot) -> Chain {
+    let start = start(steps[0].action);
+    let mut value = start;
+    let mut links = Vec::with_capacity(steps.len());
+    for step in steps {
+        let (kind, a, b) = link(step.action, value);
+        let [a, b] = [a, b].map(|operand| operand.map(&slot));
+        links.push(Link { kind, a: a.unwrap_or(0), b: b.or(a).unwrap_or(0) });
+        value = Operand::Register(step.register);
+    }
+    Chain { start: slot(start), links, result: 0 }
+}
+
+/// From which of its operands an action goes on at the beginning of a chain.
+fn start(action: Action) -> Operand {
+    match action {
+        Action::MulAdd(.., c) | Action::MulSub(.., c) | Action::NegMulAdd(.., c) => c,
+        _ => action.operands().next().unwrap_or(Operand::Constant(0.0)),
+    }
+}
+
+/// What an action does to one of its operands, and which the others are.
+fn link(action: Action, value: Operand) -> (LinkKind, Option<Operand>, Option<Operand>) {
+    let other = |a: Operand, b: Operand| if a == value { b } else { a };
+    match action {
+        Action::Neg(_) => (LinkKind::Negated, None, None),
+        Action::Add(a, b) => (LinkKind::Plus, Some(other(a, b)), None),
+        Action::Mul(a, b) => (LinkKind::Times, Some(other(a, b)), None),
+        Action::Sub(a, b) if a == value => (LinkKind::Minus, Some(b), None),
+        Action::Sub(a, _) => (LinkKind::From, Some(a), None),
+        Action::MulAdd(a, b, c) if c == value => (LinkKind::PlusProduct, Some(a), Some(b)),
+        Action::MulSub(a, b, c) if c == value => (LinkKind::FromProduct, Some(a), Some(b)),
+        Action::NegMulAdd(a, b, c) if c == value => (LinkKind::MinusProduct, Some(a), Some(b)),
+        Action::MulAdd(a, b, c) => (LinkKind::TimesPlus, Some(other(a, b)), Some(c)),
+        Action::MulSub(a, b, c) => (LinkKind::TimesMinus, Some(other(a, b)), Some(c)),
+        Action::NegMulAdd(a, b, c) => (LinkKind::FromTimes, Some(other(a, b)), Some(c)),
+        _ => unreachable!("no link of a chain"),
+    }
+}
+
 /// Where the registers of a program are, and how long.
 struct Registers {
     slots: Vec<Slot>,
-    /// The last step that uses each register; outputs are used for ever.
+    /// The last chain that uses each register; outputs are used for ever.
     last_use: Vec<usize>,
 }
 
 impl Registers {
-    fn new(program: &Program) -> Self {
+    fn new(program: &Program, chains: &[Vec<usize>]) -> Self {
         let mut last_use = vec![0; program.registers];
-        for (at, step) in program.steps.iter().enumerate() {
-            for operand in step.action.operands() {
+        for (at, chain) in chains.iter().enumerate() {
+            for operand in chain.iter().flat_map(|step| program.steps[*step].action.operands()) {
                 if let Operand::Register(register) = operand {
                     last_use[register] = at;
                 }
@@ -382,14 +493,18 @@ impl Registers {
         Self { slots: vec![0; program.registers], last_use }
     }
 
-    fn release(&self, action: Action, at: usize, free: &mut Vec<Slot>) {
+    /// What a chain reads for the last time makes room.
+    fn release(&self, steps: &[&Step], at: usize, free: &mut Vec<Slot>) {
         let ends = |operand: Operand| match operand {
             Operand::Register(register) => (self.last_use[register] == at).then_some(register),
             _ => None,
         };
-        let mut released: Vec<usize> = action.operands().filter_map(ends).collect();
+        let made: Vec<usize> = steps[..steps.len() - 1].iter().map(|step| step.register).collect();
+        let mut released: Vec<usize> =
+            steps.iter().flat_map(|step| step.action.operands()).filter_map(ends).collect();
         released.sort_unstable();
         released.dedup();
-        free.extend(released.into_iter().map(|register| self.slots[register]));
+        let in_slots = released.into_iter().filter(|register| !made.contains(register));
+        free.extend(in_slots.map(|register| self.slots[register]));
     }
 }

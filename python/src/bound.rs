@@ -22,7 +22,8 @@ impl Machine {
     ///
     /// `study`, `study_text`: as for `analyze`; the box is the one that contains its workspace. `gap`: by which share of what is found
     /// what is certified may exceed it. `least`: whether `.dexterity` is added: of the tool's `.point` and of its `.pose` the least
-    /// singular value of `J_q`, in metres and rad, is no less than `.certified` in the box, and `.found` at `.at`. `boxes`: the most
+    /// singular value of `J_q`, in metres and rad, is no less than `.certified` in the box, and `.found` at `.at`; and `.stiffness`, the same
+    /// of a force at the tool point over what it moves it by, N/m, None if nothing gives way. `boxes`: the most
     /// that are looked at for each error; `time`: seconds, after which no more are.
     ///
     /// Of `.repeatable`, `.random` and `.radius`, the errors `.norm`, `.x`, `.y`, `.z` and `.orientation`: the true maximum, to first

@@ -59,3 +59,45 @@ def test_one_step_of_compensation_leaves_no_more_than_is_certified():
         corrected = q - robot.predict(q[None])[0, :3]
         missed = robot.real_pose(corrected)[:3, 3] - robot.pose(q)[:3, 3]
         assert np.linalg.norm(missed) <= left
+
+
+def test_stiffness_is_what_a_force_at_the_tool_says():
+    text = """
+[manipulator]
+name = "arm"
+length = "mm"
+gravity = [0, 0, 0]
+[inputs]
+push = { value = "0 N", range = ["-100 N", "100 N"] }
+[[frame]]
+name = "1"
+variable = { name = "turn", kind = "revolute", limits = ["-60 deg", "60 deg"] }
+transform = "Rz(turn) Tx(600 mm)"
+[[frame]]
+name = "2"
+variable = { name = "bend", kind = "revolute", limits = ["-120 deg", "120 deg"] }
+transform = "Rz(bend) Tx(400 mm)"
+[[source]]
+name = "gear"
+class = "repeatable"
+frame = "2"
+at = "Tx(-400 mm)"
+compliance = { diagonal = [0, 0, 0, 0, "1e-5/(N*m)", "1e-5/(N*m)"] }
+[[source]]
+name = "link"
+class = "repeatable"
+frame = "1"
+beam = { length = "600 mm", EI_y = "2e4 N*m^2", EI_z = "3e4 N*m^2", GJ = "1e4 N*m^2" }
+"""
+    axes = ['["push", 0, 0]', '[0, "push", 0]', '[0, 0, "push"]']
+    load = '[[load]]\nframe = "2"\npoint = "tool"\naxes = "base"\nforce = '
+    stiffness = abbe.load(text=text + load + axes[1]).bound(least=True).stiffness
+    assert stiffness.complete and stiffness.certified <= stiffness.found
+    q = [stiffness.at["turn"], stiffness.at["bend"]]
+    # mm for 100 N, one axis after the other.
+    moved = [
+        abbe.load(text=text + load + axis).with_parameters(push="100 N").predict(np.array([q]))[0, :3]
+        for axis in axes
+    ]
+    softest = np.linalg.svd(np.array(moved) / 1000 / 100, compute_uv=False).max()
+    assert stiffness.found == pytest.approx(1 / softest, rel=1e-9)

@@ -22,7 +22,8 @@ pub(crate) struct Bound {
     /// How much more than the largest error that was found the certified one may be, in percent or as a share
     #[arg(long, value_name = "GAP", default_value = "1%", value_parser = values::gap)]
     pub(crate) gap: f64,
-    /// Also say how far the joints move the tool at least: the dexterity, 0 in a singular place
+    /// Also say how far the joints move the tool at least (the dexterity, 0 in a singular place) and, where beams or compliances give way, how stiff the
+    /// tool point is at least
     #[arg(long)]
     pub(crate) least: bool,
     /// The most boxes that are looked at for each error

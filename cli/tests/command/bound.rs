@@ -220,6 +220,28 @@ fn dexterity_is_said_where_it_is_asked_for() {
     assert!(prints(&["bound", "machine3", "--least"]).contains("tool point"));
 }
 
+/// A clamped beam has 3 EI/L³, and is softest where it is longest.
+#[test]
+fn stiffness_is_said_where_something_gives_way() {
+    assert!(json(&["bound", "machine3", "--least", "--json"])["stiffness"].is_null());
+    let folder = tempdir().unwrap();
+    let spec = "[manipulator]\nname = \"quill\"\nlength = \"mm\"\n\
+         [[frame]]\nname = \"1\"\nvariable = { name = \"out\", kind = \"prismatic\", limits = [\"100 mm\", \"400 mm\"], home = \"100 mm\" }\n\
+         transform = \"Tz(out)\"\n\
+         [[source]]\nname = \"quill\"\nclass = \"repeatable\"\nframe = \"1\"\n\
+         beam = { axis = \"z\", length = \"out\", EI_y = \"1.3e5 N*m^2\", EI_z = \"2e5 N*m^2\" }\n\
+         [[load]]\nname = \"cuts\"\nforce = [\"10 N\", 0, 0]\nframe = \"1\"\n";
+    let quill = write(folder.path(), "quill.toml", spec);
+    let quill = quill.to_str().unwrap();
+    let stiffness = &json(&["bound", quill, "--least", "--json"])["stiffness"];
+    let exact = 3.0 * 1.3e5 / 0.4_f64.powi(3);
+    let (certified, found) = (number(&stiffness["certified"]), number(&stiffness["found"]));
+    assert!(certified <= exact && certified > 0.985 * exact && found < 1.01 * exact, "{stiffness}");
+    assert!(json(&["bound", quill, "--json"])["stiffness"].is_null());
+    let text = prints(&["bound", quill, "--least"]);
+    assert!(text.contains("tool point, N/mm") && text.contains("out = 400"), "{text}");
+}
+
 /// Errors that were identified on less than the box are not certified in silence, and what cannot be proved is not tried.
 #[test]
 fn what_is_extrapolated_and_what_is_too_much_is_said() {

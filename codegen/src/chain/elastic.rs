@@ -70,6 +70,13 @@ impl<'a> Loads<'a> {
         Self { frames, acting, weights }
     }
 
+    /// A force at the tool point alone, in the axes that the poses of the frames are in.
+    pub(super) fn at_tool(graph: &mut Graph, spec: &Spec, frames: &'a [Frame], force: Vector) -> Self {
+        let point = transform(graph, &spec.tool).position;
+        let acting = Acting { frame: frames.len() - 1, point, force, moment: [graph.zero(); 3] };
+        Self { frames, acting: vec![acting], weights: Vec::new() }
+    }
+
     /// `ε = C w` of a compliance, in its axes.
     pub(super) fn give_way(
         &self,

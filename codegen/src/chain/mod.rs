@@ -6,7 +6,7 @@
 //! for what gives way under loads. The other way, `accumulate` goes from the tip to the base over the
 //! `local` motions and takes in every frame's errors: `displacement`, `covariance`, `by_source`, and `magnitudes`, whose
 //! largest values are sought. `real` is the exact chain with errors, `remainder` what first order leaves out of it, `joint_step` (by `minors`) what takes
-//! the errors back to first order, and `residual` what is left then; `dexterity` is how far joints move the tool (`joint_columns`). [`Model`]
+//! the errors back to first order, and `residual` what is left then; `dexterity` is how far joints move the tool (`joint_columns`), and `tool_compliance` how far a force does. [`Model`]
 //! holds the results. What else leads to the same, `ways` and `moving` state: a program takes what needs the fewest operations.
 
 mod accumulate;
@@ -33,6 +33,7 @@ mod rows;
 mod six;
 mod sources;
 mod symbol_jacobian;
+mod tool_compliance;
 mod walk;
 mod ways;
 
@@ -52,4 +53,5 @@ pub use residual::Residual;
 pub(crate) use rows::Rows;
 pub use sources::{EffectNode, effects};
 pub(crate) use symbol_jacobian::swing;
+pub use tool_compliance::ToolCompliance;
 pub use walk::transform;

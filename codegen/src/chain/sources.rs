@@ -97,10 +97,7 @@ pub(super) fn effects_in(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (V
     for (source, declared) in spec.enabled_sources().enumerate() {
         // Several effects of one source on one error of one frame are one effect.
         let mut sums = vec![[zero; 6]; frames.len()];
-        let times = match declared.tuned_by {
-            Some(input) => graph.symbol(Symbol::Input(input)),
-            None => graph.constant(declared.magnitude.map_or(1.0, |magnitude| magnitude.value)),
-        };
+        let times = times(graph, declared);
         for effect in &declared.effects {
             let place = transform(graph, &effect.at);
             let there = at_place(graph, effect, &place, &loads);
@@ -129,6 +126,29 @@ pub(super) fn effects_in(graph: &mut Graph, spec: &Spec, frames: &[Frame]) -> (V
         }
     }
     (nodes, causes)
+}
+
+/// What the errors of a source are multiplied by.
+fn times(graph: &mut Graph, source: &Source) -> Node {
+    match source.tuned_by {
+        Some(input) => graph.symbol(Symbol::Input(input)),
+        None => graph.constant(source.magnitude.map_or(1.0, |magnitude| magnitude.value)),
+    }
+}
+
+/// What the enabled repeatable beams and compliances do under loads, six errors per frame.
+pub(super) fn elastic_errors(graph: &mut Graph, spec: &Spec, loads: &Loads) -> Vec<[Node; 6]> {
+    let mut sums = vec![[graph.zero(); 6]; spec.frames.len()];
+    for source in spec.enabled_sources().filter(|source| source.class == Class::Repeatable) {
+        let times = times(graph, source);
+        for effect in source.effects.iter().filter(|effect| effect.cause.is_elastic()) {
+            let place = transform(graph, &effect.at);
+            let there = at_place(graph, effect, &place, loads).map(|error| graph.mul(times, error));
+            let errors = at_frame(graph, &place, there);
+            add(graph, &mut sums[effect.frame], errors);
+        }
+    }
+    sums
 }
 
 fn add(graph: &mut Graph, sums: &mut [Node; 6], errors: [Node; 6]) {

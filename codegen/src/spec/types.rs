@@ -220,6 +220,13 @@ pub enum Cause {
     Compliance(Box<Compliance>),
 }
 
+impl Cause {
+    /// Whether it gives way under loads.
+    pub fn is_elastic(&self) -> bool {
+        !matches!(self, Self::Errors(_))
+    }
+}
+
 /// A straight beam that ends where its effect is, clamped at its other end.
 #[derive(Clone, Debug)]
 pub struct Beam {

@@ -4,7 +4,7 @@
 //! `form` is a number while names move within their ranges, all roundings covered; `functions` and `tables` are what is
 //! done to it, `tape` the operations of a graph one after the other; `period` whether a joint comes round, `cell` what is known of the node
 //! within one box, and `search` goes from box to box, the one that may hold most first. `apart` is what sums cannot exceed because of
-//! their parts, and `least` the least singular value of a matrix.
+//! their parts, and `singular` the least or the largest singular value of a matrix.
 //!
 //! ```
 //! use abbe_codegen::chain::Magnitude;
@@ -30,9 +30,9 @@ mod climb;
 mod form;
 mod functions;
 mod growth;
-mod least;
 mod period;
 mod search;
+mod singular;
 mod tables;
 mod tape;
 
@@ -41,8 +41,8 @@ use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
 
 pub use apart::{Limits, limits};
-pub use least::{Least, least_singular_value};
 use search::Search;
+pub use singular::{Extreme, Singular, singular_value};
 use tape::Tape;
 
 /// How many names may move: of a node that more of them move nothing is proved.

@@ -1,4 +1,4 @@
-//! The least singular value of a matrix of nodes over a box, with a proof.
+//! The least or the largest singular value of a matrix of nodes over a box, with a proof.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -19,12 +19,21 @@ const NOTHING: f64 = 1e-9;
 /// By which share of the whole matrix its singular values and vectors may be off: thousands of roundings.
 const DECOMPOSED: f64 = 1e-12;
 
-/// What is proved of the least singular value: it is no less than `certified`, and no more than `found`.
+/// Which singular value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extreme {
+    /// The least one of the matrix, and where in the box it is least.
+    Least,
+    /// The largest one, and where it is largest.
+    Largest,
+}
+
+/// What is proved of a singular value: it lies between `certified` and `found`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Least {
-    /// What no singular value is below; 0 if nothing is known.
+pub struct Singular {
+    /// What no least singular value is below, 0 if nothing is known; what no largest one exceeds, infinite if nothing is known.
     pub certified: f64,
-    /// The least singular value at `at`.
+    /// The singular value at `at`.
     pub found: f64,
     /// The value of each name where `found` is.
     pub at: Vec<f64>,
@@ -44,15 +53,17 @@ pub struct Least {
 /// ```
 ///
 /// κ is 0 of C, so that what is certified is as close as the square of the box is small. Where that says nothing, the least singular
-/// value of C less ‖A − C‖ does.
-pub fn least_singular_value(
+/// value of C less ‖A − C‖ does. With u of the largest singular value, `‖a‖ ≤ α` and no singular value of B above β, none is above
+/// `½ (α² + β² + √((α² − β²)² + 4 κ²))`, nor above the largest singular value of C and ‖A − C‖.
+pub fn singular_value(
+    extreme: Extreme,
     graph: &Graph,
     rows: &[Vec<Node>],
     moving: &[Moving],
     fixed: impl Fn(Symbol) -> f64,
     effort: &Effort,
     watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Least {
+) -> Singular {
     let entries = rows.concat();
     let depends = graph.symbols(&entries);
     let is_active = |name: &&Moving| depends.contains(&name.symbol) && name.range[0] < name.range[1];
@@ -63,6 +74,7 @@ pub fn least_singular_value(
         name.map_or_else(|| fixed(symbol), |name| name.home.clamp(name.range[0], name.range[1]))
     };
     let search = Search {
+        extreme,
         matrix: Tape::new(graph, &entries, &symbols, still),
         rows: rows.len(),
         domain: active
@@ -74,33 +86,34 @@ pub fn least_singular_value(
             .collect(),
         effort: *effort,
     };
-    let least = match active.len() {
+    let singular = match active.len() {
         0..=4 => search.run::<4>(watch),
         5..=6 => search.run::<6>(watch),
         7..=8 => search.run::<8>(watch),
         9..=16 => search.run::<16>(watch),
         _ => search.run::<MOST_MOVING>(watch),
     };
-    let mut found = least.at.iter();
+    let mut found = singular.at.iter();
     let at = moving.iter().map(|name| {
         let own = if is_active(&name) { found.next().copied() } else { None };
         own.unwrap_or_else(|| still(name.symbol))
     });
-    Least { at: at.collect(), ..least }
+    Singular { at: at.collect(), ..singular }
 }
 
 struct Search {
+    extreme: Extreme,
     matrix: Tape,
     rows: usize,
     domain: Vec<[f64; 2]>,
     effort: Effort,
 }
 
-/// A box that may hold the least value.
+/// A box that may hold the value.
 struct Cell {
     low: Vec<f64>,
     high: Vec<f64>,
-    /// What no value within is below.
+    /// What no signed value within is below.
     least: f64,
     /// The name that is to be halved.
     split: usize,
@@ -109,21 +122,22 @@ struct Cell {
 
 /// What is seen of a box.
 struct Look {
+    /// What no signed value within is below.
     least: f64,
     split: usize,
-    /// The least value at a point of it, that point, and the size of the matrix.
+    /// The least signed value at a point of it, that point, and the size of the matrix.
     found: f64,
     at: Vec<f64>,
     size: f64,
 }
 
 impl Search {
-    fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Least {
+    fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Singular {
         let [low, high] = [0, 1].map(|end| self.domain.iter().map(|range| range[end]).collect::<Vec<_>>());
-        let mut best =
-            Least { certified: 0.0, found: f64::INFINITY, at: low.clone(), boxes: 0, complete: false };
+        // What is sought is the least signed value.
+        let (mut found, mut at, mut boxes) = (f64::INFINITY, low.clone(), 0);
         let (mut open, mut waiting) =
-            (vec![Cell { low, high, least: 0.0, split: 0, number: 0 }], BinaryHeap::new());
+            (vec![Cell { low, high, least: self.unknown(), split: 0, number: 0 }], BinaryHeap::new());
         // Boxes that cannot be halved.
         let mut left = f64::INFINITY;
         loop {
@@ -133,23 +147,23 @@ impl Search {
                 .collect();
             let mut size = 0.0_f64;
             for (cell, look) in open.drain(..).zip(looks) {
-                best.boxes += 1;
+                boxes += 1;
                 size = size.max(look.size);
-                if look.found < best.found {
-                    (best.found, best.at) = (look.found, look.at);
+                if look.found < found {
+                    (found, at) = (look.found, look.at);
                 }
                 let least = cell.least.max(look.least);
-                waiting.push(Cell { least, split: look.split, number: best.boxes, ..cell });
+                waiting.push(Cell { least, split: look.split, number: boxes, ..cell });
             }
             let least = waiting.peek().map_or(f64::INFINITY, |cell: &Cell| cell.least);
-            best.certified = least.min(left).min(best.found);
-            let nothing = NOTHING * size;
-            best.complete = best.found - best.certified <= (self.effort.gap * best.found).max(nothing);
-            let progress = Progress { found: best.found, certified: best.certified, boxes: best.boxes };
-            if best.complete || best.boxes >= self.effort.boxes || !watch(&progress) {
-                return best;
-            }
+            let least = least.min(left).min(found);
+            let allowed = (self.effort.gap * found.abs()).max(NOTHING * size);
+            let complete = found.is_finite() && found - least <= allowed;
+            let [shown, certified] = [found, least].map(|value| self.sign() * value);
+            let is_enough = complete || boxes >= self.effort.boxes;
+            let is_enough = is_enough || !watch(&Progress { found: shown, certified, boxes });
             while open.len() < 2 * ROUND
+                && !is_enough
                 && let Some(cell) = waiting.pop()
             {
                 let middle = cell.low.get(cell.split).map(|low| 0.5 * low + 0.5 * cell.high[cell.split]);
@@ -161,17 +175,47 @@ impl Search {
                 }
             }
             if open.is_empty() {
-                return best;
+                return Singular { certified, found: shown, at, boxes, complete };
             }
         }
     }
 
-    /// The least singular value at a point.
+    /// A signed value is a singular value, or the negative of one where the largest is sought: of both the least is sought.
+    fn sign(&self) -> f64 {
+        match self.extreme {
+            Extreme::Least => 1.0,
+            Extreme::Largest => -1.0,
+        }
+    }
+
+    /// What no signed value is below.
+    fn unknown(&self) -> f64 {
+        match self.extreme {
+            Extreme::Least => 0.0,
+            Extreme::Largest => f64::NEG_INFINITY,
+        }
+    }
+
+    /// Singular values, the one that is sought first, and their left vectors.
+    fn sorted(&self, matrix: DMatrix<f64>) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let svd = matrix.svd(true, false);
+        let columns = svd.u.iter().flat_map(|u| {
+            u.column_iter().map(|column| column.iter().copied().collect::<Vec<_>>()).collect::<Vec<_>>()
+        });
+        let mut both: Vec<(f64, Vec<f64>)> = svd.singular_values.iter().copied().zip(columns).collect();
+        both.sort_by(|(a, _), (b, _)| (self.sign() * a).total_cmp(&(self.sign() * b)));
+        both.into_iter().unzip()
+    }
+
+    /// The signed value at a point.
     fn value_at(&self, at: &[f64]) -> f64 {
         let (forms, _) = self.matrix.evaluate::<0>(&mut Vec::new(), at, &vec![0.0; at.len()]);
         let entries: Vec<f64> = forms.iter().map(|form| form.centre).collect();
         let matrix = DMatrix::from_row_slice(self.rows, entries.len() / self.rows, &entries);
-        if matrix.iter().all(|entry| entry.is_finite()) { sorted(matrix).0[0] } else { f64::INFINITY }
+        match matrix.iter().all(|entry| entry.is_finite()) {
+            true => self.sign() * self.sorted(matrix).0[0],
+            false => f64::INFINITY,
+        }
     }
 
     fn look<const N: usize>(&self, registers: &mut Vec<Form<N>>, cell: &Cell) -> Look {
@@ -186,11 +230,12 @@ impl Search {
         let entry = |i: usize, j: usize| &forms[i * count + j];
         let middle = DMatrix::from_fn(self.rows, count, |i, j| entry(i, j).centre);
         if middle.iter().any(|entry| !entry.is_finite()) {
-            return Look { least: 0.0, split: longest(), found: f64::INFINITY, at: centres, size: 0.0 };
+            let least = self.unknown();
+            return Look { least, split: longest(), found: f64::INFINITY, at: centres, size: 0.0 };
         }
         let size = middle.norm();
         let spread = above(forms.iter().map(|form| form.radius() * form.radius()).sum()).sqrt();
-        let (values, vectors) = sorted(middle);
+        let (values, vectors) = self.sorted(middle);
         let rows: Vec<Vec<Form<N>>> = vectors
             .iter()
             .map(|u| (0..count).map(|j| combined(u, (0..self.rows).map(|i| entry(i, j)))).collect())
@@ -199,12 +244,7 @@ impl Search {
         let square = product(first, first);
         let mixed: Vec<f64> = others.iter().map(|row| farthest(&product(row, first))).collect();
         let mixed = above(mixed.iter().map(|size| size * size).sum());
-        let beta = values.get(1).map_or(f64::INFINITY, |value| value - spread - DECOMPOSED * size).max(0.0);
-        let (alpha, beta) = (square.range()[0].max(0.0), beta * beta);
-        let root = ((alpha - beta) * (alpha - beta) + 4.0 * mixed).sqrt();
-        let together = (alpha * beta - mixed) / (0.5 * (alpha + beta + root));
-        let alone = values[0] - spread;
-        let least = if together > 0.0 { together.sqrt().max(alone) } else { alone } * (1.0 - DECOMPOSED);
+        let least = self.least(&values, spread, square.range(), mixed, DECOMPOSED * size);
 
         // A name that moves nothing by its slopes moves it too much for them.
         let moved = |k: usize| match forms.iter().map(|form| form.slopes[k] * form.slopes[k]).sum() {
@@ -214,7 +254,7 @@ impl Search {
         let more =
             |i: &usize, j: &usize| moved(*i).total_cmp(&moved(*j)).then(halves[*i].total_cmp(&halves[*j]));
         let split = (0..centres.len()).max_by(more).unwrap_or(0);
-        let corner = centres.iter().enumerate().map(|(k, centre)| match square.slopes[k] {
+        let corner = centres.iter().enumerate().map(|(k, centre)| match self.sign() * square.slopes[k] {
             0.0 => *centre,
             slope if slope > 0.0 => cell.low[k],
             _ => cell.high[k],
@@ -222,19 +262,33 @@ impl Search {
         let corner: Vec<f64> = corner.collect();
         let [first, second] = [centres, corner].map(|at| (self.value_at(&at), at));
         let (found, at) = if second.0 < first.0 { second } else { first };
-        Look { least: (least - DECOMPOSED * size).max(0.0), split, found, at, size }
+        Look { least, split, found, at, size }
     }
-}
 
-/// Singular values, the least first, and their left vectors.
-fn sorted(matrix: DMatrix<f64>) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let svd = matrix.svd(true, false);
-    let columns = svd.u.iter().flat_map(|u| {
-        u.column_iter().map(|column| column.iter().copied().collect::<Vec<_>>()).collect::<Vec<_>>()
-    });
-    let mut both: Vec<(f64, Vec<f64>)> = svd.singular_values.iter().copied().zip(columns).collect();
-    both.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    both.into_iter().unzip()
+    /// What no signed value in a box is below: from the singular values of its centre and how far off the matrix may be, from `‖a‖²`, `‖B aᵀ‖²` and
+    /// how far off singular values of the centre may be.
+    fn least(&self, values: &[f64], spread: f64, square: [f64; 2], mixed: f64, rounding: f64) -> f64 {
+        let next = values.get(1).copied();
+        let root = |alpha: f64, beta: f64| ((alpha - beta) * (alpha - beta) + 4.0 * mixed).sqrt();
+        match self.extreme {
+            Extreme::Least => {
+                let beta = next.map_or(f64::INFINITY, |value| value - spread - rounding).max(0.0);
+                let (alpha, beta) = (square[0].max(0.0), beta * beta);
+                let together = (alpha * beta - mixed) / (0.5 * (alpha + beta + root(alpha, beta)));
+                let alone = values[0] - spread;
+                let least = if together > 0.0 { together.sqrt().max(alone) } else { alone };
+                (least * (1.0 - DECOMPOSED) - rounding).max(0.0)
+            }
+            Extreme::Largest => {
+                let beta = next.map_or(0.0, |value| value + spread + rounding);
+                let (alpha, beta) = (square[1].max(0.0), beta * beta);
+                let together = 0.5 * (alpha + beta + root(alpha, beta));
+                let largest = together.sqrt().min(values[0] + spread);
+                let largest = largest * (1.0 + DECOMPOSED) + rounding;
+                if largest.is_nan() { f64::NEG_INFINITY } else { -largest }
+            }
+        }
+    }
 }
 
 /// `Σ u_i f_i`.

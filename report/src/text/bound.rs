@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use abbe_study::bound::{Dexterity, Errors, Largest, Margin, Report};
+use abbe_study::bound::{Dexterity, Errors, Largest, Least, Margin, Report};
 use abbe_study::number::{self, of_symbol, unbroken};
 use abbe_study::workspace::name;
 
@@ -31,8 +31,14 @@ pub fn bound(report: &Report) -> String {
         wrapped(&within, 9)
     );
     if let Some(dexterity) = &report.dexterity {
-        let _ = writeln!(text, "\nDexterity\n{}", least(dexterity));
-        let _ = writeln!(text, "{}", wrapped(LEAST, 0));
+        let _ = writeln!(text, "\nDexterity\n{}", of_joints(dexterity));
+        let _ = writeln!(text, "{}", wrapped(DEXTERITY, 0));
+    }
+    if let Some(stiffness) = &report.stiffness {
+        // 1 N/m is a thousandth of 1 N/mm.
+        let row = ("tool point, N/mm", stiffness, 1e-3);
+        let _ = writeln!(text, "\nStiffness\n{}", least(&[row]));
+        let _ = writeln!(text, "{}", wrapped(STIFFNESS, 0));
     }
     let kinds = report.kinds();
     if kinds.is_empty() {
@@ -70,21 +76,32 @@ pub fn bound(report: &Report) -> String {
 }
 
 /// What a dexterity is.
-const LEAST: &str = "The joints can move the tool this far at least, in whatever direction, when they move by 1 rad or 1 m altogether (root \
-                     sum of squares): the least singular value of J_q, in metres and rad, 0 in a singular place. Nothing in the box \
-                     is below the first number; the second was found at this place.";
+const DEXTERITY: &str = "The joints can move the tool this far at least, in whatever direction, when they move by 1 rad or 1 m altogether (root \
+                         sum of squares): the least singular value of J_q, in metres and rad, 0 in a singular place. Nothing in the box \
+                         is below the first number; the second was found at this place.";
 
-fn least(dexterity: &Dexterity) -> Table {
+/// What a stiffness is.
+const STIFFNESS: &str = "A force at the tool point, in whatever direction, over the length by which it moves the point because of the beams and compliances \
+                         of the repeatable sources: the inverse of the largest singular value of the compliance at the tool point. Nothing \
+                         in the box is below the first number; the second was found at this place. What the spec does not \
+                         know to give way is rigid here.";
+
+fn of_joints(dexterity: &Dexterity) -> Table {
+    let pose = dexterity.pose.as_ref().map(|pose| ("tool, 1 rad as 1 m", pose, 1.0));
+    let rows: Vec<_> = std::iter::once(("tool point", &dexterity.point, 1.0)).chain(pose).collect();
+    least(&rows)
+}
+
+/// Least values, each with its name and its factor.
+fn least(rows: &[(&str, &Least, f64)]) -> Table {
     let mut table = Table::new(&["of", "never below", "found", "found at"]);
-    let point = Some(("tool point", &dexterity.point));
-    let pose = dexterity.pose.as_ref().map(|pose| ("tool, 1 rad as 1 m", pose));
-    for (name, least) in point.into_iter().chain(pose) {
-        let decimals = number::decimals(least.found.max(1e-3), 5);
+    for (name, least, factor) in rows {
+        let decimals = number::decimals((factor * least.found).max(1e-3), 5);
         let place = if least.place.is_empty() { "home" } else { &least.place };
-        let certified = number::rounded_down(least.certified, decimals);
+        let certified = number::rounded_down(factor * least.certified, decimals);
         let mark = if least.complete { "" } else { " (gap not reached)" };
-        let found = number::fixed(least.found, decimals);
-        table.row([name.to_owned(), certified, found, unbroken(place) + mark]);
+        let found = number::fixed(factor * least.found, decimals);
+        table.row([(*name).to_owned(), certified, found, unbroken(place) + mark]);
     }
     table.right(&[1, 2])
 }

@@ -1,7 +1,7 @@
-//! How far the joints move the tool at least.
+//! Least values: how far the joints move the tool at least, and how stiff the machine is at least.
 
 use abbe_codegen::chain;
-use abbe_interpreter::bound::{Effort, Progress, least_singular_value};
+use abbe_interpreter::bound::{Effort, Extreme, Progress, Singular, singular_value};
 
 use super::domain::{Domain, home};
 use super::report::{Dexterity, Least};
@@ -16,17 +16,28 @@ impl Domain {
         let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&self.spec)?;
         let mut least = |rows: &Vec<_>| {
             let still = |symbol| home(symbol, &self.spec);
-            let least = least_singular_value(&graph, rows, &self.names(), still, effort, watch);
-            let (at, place) = self.place(&least.at);
-            Least {
-                certified: least.certified,
-                found: least.found,
-                at,
-                boxes: least.boxes,
-                complete: least.complete,
-                place,
-            }
+            let least = singular_value(Extreme::Least, &graph, rows, &self.names(), still, effort, watch);
+            self.least(&least)
         };
         Some(Dexterity { point: least(&point), pose: pose.as_ref().map(least) })
+    }
+
+    /// Of the tool point, N/m: the inverse of how far a force of 1 N moves it at most; none if nothing gives way.
+    pub(super) fn stiffness(
+        &self,
+        effort: &Effort,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Option<Least> {
+        let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&self.spec)?;
+        let still = |symbol| home(symbol, &self.spec);
+        let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), still, effort, watch);
+        let certified = (1.0 / largest.certified).next_down().max(0.0);
+        Some(self.least(&Singular { certified, found: 1.0 / largest.found, ..largest }))
+    }
+
+    fn least(&self, least: &Singular) -> Least {
+        let (at, place) = self.place(&least.at);
+        let Singular { certified, found, boxes, complete, .. } = *least;
+        Least { certified, found, at, boxes, complete, place }
     }
 }

@@ -1,9 +1,9 @@
 //! How large the errors of the tool point are at most: over a box of joints, parameters and inputs, with a proof.
 //!
-//! `domain` is the box in which everything is sought, `dexterity` how far the joints move the tool at least; `norms` are those of the position's errors alone, for an analysis.
+//! `domain` is the box in which everything is sought, `least` how far the joints move the tool at least, and how stiff the machine is at least; `norms` are those of the position's errors alone, for an analysis.
 
-mod dexterity;
 mod domain;
+mod least;
 mod norms;
 mod report;
 
@@ -34,7 +34,7 @@ pub struct Bound {
     study: Study,
     /// What is proved of each error, and when it is enough.
     pub effort: Effort,
-    /// Whether the dexterity is asked for, too.
+    /// Whether the dexterity and the stiffness are asked for, too.
     pub least: bool,
     /// After so much time no further box is looked at.
     pub time: Option<Duration>,
@@ -91,12 +91,13 @@ impl Bound {
         let before = [&repeatable.norm, &repeatable.orientation];
         let before = before.map(|largest| largest.certified.unwrap_or(f64::INFINITY));
         let after_one_step = sought.one(notes, |_, watch| domain.after_step(&self.effort, before, watch))?;
-        let dexterity = match self.least {
-            true => sought.one(notes, |_, watch| domain.dexterity(&self.effort, watch))?,
-            false => None,
-        };
+        let (mut dexterity, mut stiffness) = (None, None);
+        if self.least {
+            dexterity = sought.one(notes, |_, watch| domain.dexterity(&self.effort, watch))?;
+            stiffness = sought.one(notes, |_, watch| domain.stiffness(&self.effort, watch))?;
+        }
         let errors = [repeatable, random, radius];
-        let others = Others { remainder, after_one_step, dexterity };
+        let others = Others { remainder, after_one_step, dexterity, stiffness };
         let report = Report::new(domain, study, &self.effort, errors, others);
         report.warn(notes);
         Ok(report)
@@ -104,8 +105,8 @@ impl Bound {
 }
 
 /// How much is looked for: five errors of each of three kinds and what those along x and y do not exceed, the remainder, what a step of
-/// compensation leaves, and the dexterity.
-const SOUGHT: usize = 21;
+/// compensation leaves, the dexterity and the stiffness.
+const SOUGHT: usize = 22;
 
 /// What is being looked for.
 struct Sought<'a> {

@@ -40,6 +40,9 @@ pub struct Report {
     pub orientation_margin: Option<Margin>,
     /// How far the joints move the tool at least; none if it was not asked for, or of fewer than three joints.
     pub dexterity: Option<Dexterity>,
+    /// How stiff the machine is at least, N/m: a force at the tool point, in whatever direction, over the length by which the enabled repeatable
+    /// beams and compliances let it move; none if it was not asked for, or nothing gives way.
+    pub stiffness: Option<Least>,
     /// From where to where everything goes that moves.
     #[serde(rename = "box")]
     pub spans: IndexMap<String, [f64; 2]>,
@@ -228,6 +231,7 @@ pub(super) struct Others {
     pub(super) remainder: Option<Remainder>,
     pub(super) after_one_step: Option<AfterStep>,
     pub(super) dexterity: Option<Dexterity>,
+    pub(super) stiffness: Option<Least>,
 }
 
 impl Report {
@@ -236,7 +240,7 @@ impl Report {
         study: &Study,
         effort: &Effort,
         [repeatable, random, radius]: [Errors; 3],
-        Others { remainder, after_one_step, dexterity }: Others,
+        Others { remainder, after_one_step, dexterity, stiffness }: Others,
     ) -> Self {
         let of_both = matches!(Classes::of(&spec), Classes { repeatable: true, random: true });
         // Of one class alone the last kind is a copy.
@@ -246,8 +250,8 @@ impl Report {
         let boxes: usize = all().map(|largest| largest.boxes).sum();
         let boxes = boxes + remainder.as_ref().map_or(0, |remainder| remainder.boxes);
         let boxes = boxes + after_one_step.as_ref().map_or(0, |left| left.boxes);
-        let least =
-            dexterity.iter().flat_map(|dexterity| std::iter::once(&dexterity.point).chain(&dexterity.pose));
+        let dexterities = dexterity.iter().flat_map(|both| std::iter::once(&both.point).chain(&both.pose));
+        let least = dexterities.chain(&stiffness);
         let boxes = boxes + least.clone().map(|least| least.boxes).sum::<usize>();
         let complete = all().all(|largest| largest.complete) && least.clone().all(|least| least.complete);
         let left = after_one_step.as_ref();
@@ -272,6 +276,7 @@ impl Report {
             margin,
             orientation_margin,
             dexterity,
+            stiffness,
             spans,
             contains_more: !study.region.is_box(),
             boxes,

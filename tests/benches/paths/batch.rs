@@ -44,11 +44,14 @@ fn arguments(subject: &Subject, function: Function, set: InstructionSet) -> Tile
     let (signature, description) = (function.signature(), subject.compiled.description());
     let mut tiles = Tiles::new(set, signature.arguments_len(description), COUNT);
     for (configuration, q) in subject.variables.iter().enumerate() {
-        let values = signature.arguments.iter().flat_map(|array| match array.quantity {
-            Quantity::Variables => q,
-            Quantity::Parameters => &subject.parameters,
-            Quantity::Inputs => &subject.inputs,
-            _ => &subject.errors,
+        let values = signature.arguments.iter().flat_map(|array| {
+            let values = match array.quantity {
+                Quantity::Variables => q,
+                Quantity::Parameters => &subject.parameters,
+                Quantity::Inputs => &subject.inputs,
+                _ => &subject.errors,
+            };
+            values.iter().take(array.len(description))
         });
         values.enumerate().for_each(|(row, value)| tiles.set_value(row, configuration, *value));
     }

@@ -4,7 +4,7 @@ use abbe::{Manipulator, Orientation, VariableKind, deviation};
 use abbe_codegen::chain::Dexterity;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::{Effort, Least, Moving, least_singular_value};
+use abbe_interpreter::bound::{Effort, Extreme, Moving, Singular, singular_value};
 use abbe_manipulators::SHIPPED;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
@@ -13,11 +13,12 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{given, home, moving, part, place, robot, robots};
 
 /// Of the tool point and of the tool over a box.
-fn least(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<Vec<Least>> {
+fn least(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<Vec<Singular>> {
     let Dexterity { graph, point, pose } = Dexterity::new(spec)?;
     let all = std::iter::once(point).chain(pose);
     let least = |rows: Vec<_>| {
-        least_singular_value(&graph, &rows, box_, |symbol| home(symbol, spec), effort, &mut |_| true)
+        let still = |symbol| home(symbol, spec);
+        singular_value(Extreme::Least, &graph, &rows, box_, still, effort, &mut |_| true)
     };
     Some(all.map(least).collect())
 }

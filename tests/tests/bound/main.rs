@@ -5,6 +5,7 @@ mod dexterity;
 mod remainder;
 mod residual;
 mod robot;
+mod stiffness;
 
 use abbe::{Class, Manipulator};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
