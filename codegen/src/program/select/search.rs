@@ -167,18 +167,28 @@ impl<'w> Search<'w> {
             *price = if *uses > 0 { 0 } else { UNKNOWN };
         }
         // Each after what it uses, as far as that goes; then, in this order again, whatever uses what was found to take less. As soon as
-        // that is found, and not in this order, prices would fall again and again: there are endlessly many ways to them.
-        let mut open = vec![true; self.ways.count()];
-        let mut again = true;
-        while again {
-            again = false;
-            for class in 0..self.ways.count() {
+        // that is found, and not in this order, prices would fall again and again, along every way to what they are of.
+        let count = self.ways.count();
+        let mut open = vec![false; count];
+        let mut first = count;
+        for class in 0..count {
+            if self.lower(class as u32) {
+                for user in self.ways.users(class as u32).iter().take_while(|user| **user as usize <= class) {
+                    open[*user as usize] = true;
+                    first = first.min(*user as usize);
+                }
+            }
+        }
+        while first < count {
+            for class in std::mem::replace(&mut first, count)..count {
                 if !std::mem::take(&mut open[class]) || !self.lower(class as u32) {
                     continue;
                 }
                 for user in self.ways.users(class as u32) {
                     open[*user as usize] = true;
-                    again |= *user as usize <= class;
+                    if *user as usize <= class {
+                        first = first.min(*user as usize);
+                    }
                 }
             }
         }
