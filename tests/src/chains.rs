@@ -191,3 +191,36 @@ pub fn random_arm(index: u64) -> String {
     }
     text
 }
+
+/// A spec without gravity and loads, with a full compliance at every frame, and a mass and a wrench at the tool.
+pub fn elastic_links(spec: &str) -> String {
+    let mut text = spec.replacen("[manipulator]", "[manipulator]\ngravity = [0, 0, \"-9.81 m/s^2\"]", 1);
+    let frames: Vec<&str> =
+        spec.split("[[frame]]\nname = \"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    for (i, frame) in frames.iter().enumerate() {
+        let entry = |row: usize, column: usize| {
+            let whole = if row == column { 9 } else { 0 };
+            let unit = match (row < 3, column < 3) {
+                (true, true) => " m/N",
+                (false, false) => "/(N*m)",
+                _ => "/N",
+            };
+            format!("\"{whole}.{}e-6{unit}\"", 1 + (row + column + i) % 7)
+        };
+        let row = |row: usize| (0..6).map(|column| entry(row, column)).collect::<Vec<_>>().join(", ");
+        let rows = (0..6).map(|i| format!("[{}]", row(i))).collect::<Vec<_>>().join(", ");
+        let _ = write!(
+            text,
+            "[[source]]\nname = \"link {frame}\"\nclass = \"repeatable\"\nframe = \"{frame}\"\n\
+             compliance = {{ matrix = [{rows}] }}\n"
+        );
+    }
+    let last = frames[frames.len() - 1];
+    let _ = write!(
+        text,
+        "[[load]]\nname = \"carried\"\nmass = \"3 kg\"\nframe = \"{last}\"\npoint = \"tool\"\n\
+         [[load]]\nname = \"wrench\"\naxes = \"base\"\nforce = [\"1 N\", \"2 N\", \"3 N\"]\n\
+         moment = [\"1 N*m\", \"2 N*m\", \"3 N*m\"]\nframe = \"{last}\"\npoint = \"tool\"\n"
+    );
+    text
+}

@@ -12,6 +12,7 @@ use abbe_codegen::print;
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{self as shipped, SHIPPED};
+use abbe_tests::chains::elastic_links;
 use abbe_tests::golden;
 use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
@@ -93,6 +94,14 @@ fn generation(name: &str) -> Work {
     Box::new(move || drop(black_box(print::rust(black_box(&spec)))))
 }
 
+/// The file of an arm of which every link gives way under what it carries: many ways to sums that many sources share.
+fn generation_of_elastic_links(name: &str) -> Work {
+    let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).expect("a shipped robot");
+    let text = elastic_links(shipped.spec);
+    let spec = Spec::parse(name, &text).expect("a right spec");
+    Box::new(move || drop(black_box(print::rust(black_box(&spec)))))
+}
+
 macro_rules! counted {
     ($($module:ident),+) => {$(
         #[library_benchmark]
@@ -115,6 +124,7 @@ counted!(iiwa, long, machine3, pps, puma560);
 #[bench::interpreted_displacement(interpreter("puma560", Function::Displacement))]
 #[bench::generation(generation("puma560"))]
 #[bench::generation_general6r(generation("general6r"))]
+#[bench::generation_of_elastic_links(generation_of_elastic_links("wam"))]
 fn whole(mut work: Work) -> Work {
     work();
     work
