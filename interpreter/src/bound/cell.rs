@@ -57,6 +57,7 @@ impl Search {
     pub(super) fn look<const N: usize>(
         &self,
         mut cell: Cell,
+        found: f64,
         workspace: &mut Workspace<N>,
     ) -> (Option<Cell>, Point) {
         let mut point = Point { value: f64::NEG_INFINITY, at: Vec::new() };
@@ -84,6 +85,11 @@ impl Search {
                 if from_centre < most {
                     most = from_centre;
                 }
+            }
+            if let Some(corners) = &self.corners
+                && most > found
+            {
+                most = most.min(corners.most(&self.value, &mut workspace.points, &cell.low, &cell.high));
             }
             cell.split = self.most_promising(&centres, &halves, &growth, workspace);
             cell.most = if most.is_nan() { f64::INFINITY } else { cell.most.min(most) };

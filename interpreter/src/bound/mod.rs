@@ -3,7 +3,7 @@
 //!
 //! `form` is a number while names move within their ranges, all roundings covered; `functions` and `tables` are what is
 //! done to it, `tape` the operations of a graph one after the other; `period` whether a joint comes round, `cell` what is known of the node
-//! within one box, and `search` goes from box to box, the one that may hold most first. `apart` is what sums cannot exceed because of
+//! within one box, `corners` what it cannot exceed because it is convex, and `search` goes from box to box, the one that may hold most first. `apart` is what sums cannot exceed because of
 //! their parts, and `singular` the least or the largest singular value of a matrix.
 //!
 //! ```
@@ -27,6 +27,7 @@
 mod apart;
 mod cell;
 mod climb;
+mod corners;
 mod form;
 mod functions;
 mod growth;
@@ -41,6 +42,7 @@ use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
 
 pub use apart::{Limits, limits};
+use corners::Corners;
 use search::Search;
 pub use singular::{Extreme, Singular, singular_value};
 use tape::Tape;
@@ -142,7 +144,9 @@ pub fn largest(
     let mut slopes = Tape::new(graph, &all, &symbols, still);
     slopes.sides_jump = value.has_sides();
     let start = active.iter().zip(&domain).map(|(name, [low, high])| name.start.clamp(*low, *high)).collect();
-    let search = Search { value, all: slopes, domain, start, squared: magnitude.squared, effort: *effort };
+    let corners = Corners::new(&value, active.len());
+    let search =
+        Search { value, corners, all: slopes, domain, start, squared: magnitude.squared, effort: *effort };
     // As many slopes as there are names, or a few more: each number is compiled by itself.
     let bound = match active.len() {
         0..=2 => search.run::<2>(watch),

@@ -6,6 +6,7 @@ use std::collections::BinaryHeap;
 use rayon::prelude::*;
 
 use super::cell::{Cell, Point, Workspace};
+use super::corners::Corners;
 use super::tape::Tape;
 use super::{Bound, Effort, Progress};
 
@@ -18,6 +19,8 @@ const NOTHING: [f64; 2] = [1e-9, 1e-150];
 pub(super) struct Search {
     /// The value.
     pub(super) value: Tape,
+    /// How it is convex in the names, if it is.
+    pub(super) corners: Option<Corners>,
     /// The value, and its slope along each name.
     pub(super) all: Tape,
     /// Where each name can be.
@@ -76,7 +79,7 @@ impl Search {
         let complete = loop {
             let looked: Vec<(Option<Cell>, Point)> = open
                 .into_par_iter()
-                .map_init(Workspace::<N>::default, |workspace, cell| self.look(cell, workspace))
+                .map_init(Workspace::<N>::default, |workspace, cell| self.look(cell, best.value, workspace))
                 .collect();
             for (cell, point) in looked {
                 boxes += 1;

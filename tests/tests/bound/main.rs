@@ -1,6 +1,7 @@
 //! What is certified is never exceeded: random boxes on random robots, boxes that are chosen to break it, and cases that are solved
 //! by hand.
 
+mod corners;
 mod dexterity;
 mod remainder;
 mod residual;
