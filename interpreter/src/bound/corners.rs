@@ -3,7 +3,8 @@
 //! Where an angle stands only by its sine and cosine, and each part of a norm has at most one of them in a product, the part is affine in
 //! the pair (cos q, sin q), and the norm is convex in it. An arc of less than half a circle lies within the triangle of its two ends and the
 //! point where its tangents meet, at `1/cos h` of its middle, h being half of the arc: over the triangle the norm is largest at a vertex. So it is
-//! over the product of the triangles of all angles, and of the ends of names that stand by themselves.
+//! over the product of the triangles of all angles, and of the ends of names that stand by themselves. An angle is a name here: with an offset,
+//! or as a sum of joints, nothing is known.
 
 use abbe_codegen::expr::Function;
 
