@@ -24,11 +24,6 @@ impl Displacement {
         Self { shift: zero, turn: zero }
     }
 
-    /// ‖δ‖² and ‖θ‖².
-    pub(super) fn squares(&self, graph: &mut Graph) -> [Node; 2] {
-        [self.shift, self.turn].map(|vector| graph.dot(vector, vector))
-    }
-
     /// The six rows of ΔX.
     pub(super) fn column(&self, graph: &mut Graph, rows: &Rows) -> [Node; 6] {
         rows.column(graph, self.shift, self.turn)

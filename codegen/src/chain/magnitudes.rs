@@ -14,12 +14,21 @@ use crate::graph::{Graph, Node, Vector};
 use crate::spec::{Class, Orientation, Spec};
 
 /// The size of an error of the tool point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Magnitude {
     /// It, or its square.
     pub node: Node,
     /// Whether the node is its square.
     pub squared: bool,
+    /// Numbers of which it is a norm, and so convex in them; none if nothing of the kind is known.
+    pub parts: Vec<Node>,
+}
+
+impl Magnitude {
+    /// The length of a vector.
+    pub(super) fn length(graph: &mut Graph, vector: Vector) -> Self {
+        Self { node: graph.dot(vector, vector), squared: true, parts: vector.to_vec() }
+    }
 }
 
 /// How large the errors of the tool point are. Of each: the norm of the position's, those along x, y and z of `F_0`, and the
@@ -41,36 +50,36 @@ pub struct Magnitudes {
     pub apart: Apart,
 }
 
-/// The parts of the errors of the tool point, each by itself: squares of norms, which depend on few joints.
+/// The parts of the errors of the tool point, each by itself: norms that depend on few joints.
 #[derive(Clone, Debug)]
 pub struct Apart {
-    /// ‖t_k‖², from the origin of each frame to that of the next, and from the last one to the tool point.
-    pub links: Vec<Node>,
-    /// ‖d_i‖² and ‖θ_i‖² of the errors of each frame: of all repeatable sources.
-    pub repeatable: Vec<[Node; 2]>,
+    /// ‖t_k‖, from the origin of each frame to that of the next, and from the last one to the tool point.
+    pub links: Vec<Magnitude>,
+    /// ‖d_i‖ and ‖θ_i‖ of the errors of each frame: of all repeatable sources.
+    pub repeatable: Vec<[Magnitude; 2]>,
     /// Of each random source at its bound.
-    pub random: Vec<Vec<[Node; 2]>>,
+    pub random: Vec<Vec<[Magnitude; 2]>>,
 }
 
-/// ‖d‖² and ‖θ‖² of the errors of each frame.
-fn squares_apart(graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<[Node; 2]> {
-    let squares = |errors: &[Node; 6]| {
+/// ‖d‖ and ‖θ‖ of the errors of each frame.
+fn sizes_apart(graph: &mut Graph, errors: &[[Node; 6]]) -> Vec<[Magnitude; 2]> {
+    let sizes = |errors: &[Node; 6]| {
         let (shift, turn) = vectors(*errors);
-        [shift, turn].map(|vector| graph.dot(vector, vector))
+        [shift, turn].map(|vector| Magnitude::length(graph, vector))
     };
-    errors.iter().map(squares).collect()
+    errors.iter().map(sizes).collect()
 }
 
 /// What some errors of frames do to the tool point.
 struct Moved {
-    /// ‖δ‖².
-    shift: Node,
+    /// δ, in the axes of the first frame that they move.
+    shift: Vector,
     /// δ in `F_0`.
     along: Vector,
     /// x and y of δ behind the turns about z that the chain begins with.
     across_z: [Node; 2],
-    /// The square of the norm of rows 4–6.
-    turn: Node,
+    /// Numbers with the norm of rows 4–6.
+    turn: Vector,
 }
 
 impl Magnitudes {
@@ -87,43 +96,55 @@ impl Magnitudes {
         let axes = g.identity().axes;
         let shifts: Vec<Vector> = (1..=spec.frames.len()).map(|link| links.shift(g, link, &axes)).collect();
         let mut apart = Apart {
-            links: shifts.into_iter().map(|shift| g.dot(shift, shift)).collect(),
-            repeatable: squares_apart(g, &errors),
+            links: shifts.into_iter().map(|shift| Magnitude::length(g, shift)).collect(),
+            repeatable: sizes_apart(g, &errors),
             random: Vec::new(),
         };
         let repeatable = Moved::by(g, spec, &links, &rows, &errors);
         let mut sums = [zero; 5];
+        let mut parts: [Vec<Node>; 5] = Default::default();
         // Σ x², Σ y², Σ x y.
         let mut spread = [zero; 3];
+        let mut spread_parts = Vec::new();
         let errors = errors_by_source(zero, spec, &effects);
         for (source, errors) in spec.enabled_sources().zip(&errors) {
             if let Class::Random(distribution) = source.class {
                 let bound = g.constant(distribution.bound());
                 let at_bound = errors.iter().map(|errors| errors.map(|error| g.mul(bound, error)));
                 let at_bound: Vec<[Node; 6]> = at_bound.collect();
-                apart.random.push(squares_apart(g, &at_bound));
+                apart.random.push(sizes_apart(g, &at_bound));
                 let moved = Moved::by(g, spec, &links, &rows, &at_bound);
                 let squares = moved.squares(g);
                 sums = std::array::from_fn(|i| g.add(sums[i], squares[i]));
+                parts.iter_mut().zip(moved.parts()).for_each(|(parts, own)| parts.extend(own));
                 let [x, y] = moved.across_z;
                 let products = [(x, x), (y, y), (x, y)].map(|(a, b)| g.mul(a, b));
                 spread = std::array::from_fn(|i| g.add(spread[i], products[i]));
+                spread_parts.extend([x, y]);
             }
         }
-        let sizes = repeatable.sizes(g);
-        let radius = std::array::from_fn(|i| {
-            let random = g.sqrt(sums[i]);
-            Magnitude { node: g.add(sizes[i], random), squared: false }
-        });
+        let squared = |node, parts| Magnitude { node, squared: true, parts };
         let across = repeatable.across_z.map(|part| g.mul(part, part));
-        let across = [g.add(across[0], across[1]), largest_eigenvalue(g, spread)];
-        let both = across.map(|square| g.sqrt(square));
-        let both = Magnitude { node: g.add(both[0], both[1]), squared: false };
-        let squared = |node| Magnitude { node, squared: true };
-        let repeatable = repeatable.squares(g).map(squared);
-        let across_z = [squared(across[0]), squared(across[1]), both];
-        Self { graph, repeatable, random: sums.map(squared), radius, across_z, apart }
+        let across = [
+            squared(g.add(across[0], across[1]), repeatable.across_z.to_vec()),
+            squared(largest_eigenvalue(g, spread), spread_parts),
+        ];
+        let (squares, sizes, own) = (repeatable.squares(g), repeatable.sizes(g), repeatable.parts());
+        let repeatable = std::array::from_fn(|i| squared(squares[i], own[i].clone()));
+        let random = std::array::from_fn(|i| squared(sums[i], parts[i].clone()));
+        let radius = std::array::from_fn(|i| both(g, sizes[i], &repeatable[i], &random[i]));
+        let size = g.sqrt(across[0].node);
+        let radius_across = both(g, size, &across[0], &across[1]);
+        let [first, second] = across;
+        Self { graph, repeatable, random, radius, across_z: [first, second, radius_across], apart }
     }
+}
+
+/// The size of the repeatable errors, and that of the random ones, added.
+fn both(graph: &mut Graph, size: Node, repeatable: &Magnitude, random: &Magnitude) -> Magnitude {
+    let other = graph.sqrt(random.node);
+    let parts = [&repeatable.parts[..], &random.parts].concat();
+    Magnitude { node: graph.add(size, other), squared: false, parts }
 }
 
 /// `(a + b)/2 + √(((a − b)/2)² + c²)` of the matrix (a c; c b).
@@ -141,25 +162,35 @@ impl Moved {
         let zero = graph.zero();
         let first = errors.iter().position(|errors| *errors != [zero; 6]).unwrap_or(errors.len());
         let none = Displacement::none(graph);
-        let own = links.accumulate_to(graph, errors, first, none);
-        let [shift, mut turn] = own.squares(graph);
+        let Displacement { shift, mut turn } = links.accumulate_to(graph, errors, first, none);
         let none = Displacement::none(graph);
         let [x, y, z, four, five, six] = links.accumulate(graph, errors, none).column(graph, rows);
         let none = Displacement::none(graph);
         let [across_x, across_y, _] = links.accumulate_behind_turns(graph, errors, none).shift;
         if spec.orientation == Orientation::EulerYzx {
-            turn = graph.dot([four, five, six], [four, five, six]);
+            turn = [four, five, six];
         }
         Self { shift, along: [x, y, z], across_z: [across_x, across_y], turn }
     }
 
+    /// The numbers of which each of the five is a norm.
+    fn parts(&self) -> [Vec<Node>; 5] {
+        let [x, y, z] = self.along.map(|part| vec![part]);
+        [self.shift.to_vec(), x, y, z, self.turn.to_vec()]
+    }
+
     fn squares(&self, graph: &mut Graph) -> [Node; 5] {
         let [x, y, z] = self.along.map(|part| graph.mul(part, part));
-        [self.shift, x, y, z, self.turn]
+        let [shift, turn] = [self.shift, self.turn].map(|vector| graph.dot(vector, vector));
+        [shift, x, y, z, turn]
     }
 
     fn sizes(&self, graph: &mut Graph) -> [Node; 5] {
         let [x, y, z] = self.along.map(|part| graph.call(Function::Abs, part));
-        [graph.sqrt(self.shift), x, y, z, graph.sqrt(self.turn)]
+        let [shift, turn] = [self.shift, self.turn].map(|vector| {
+            let square = graph.dot(vector, vector);
+            graph.sqrt(square)
+        });
+        [shift, x, y, z, turn]
     }
 }

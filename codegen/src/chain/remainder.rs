@@ -38,8 +38,8 @@ impl Remainder {
         let point = RealChain::new(g, spec, &causes, magnitudes.collect()).tool_point_from_first_error(g);
         let speed = g.diff_all(&point, share);
         let half_curvature = g.diff_all(&speed, share).into_iter().map(|part| g.mul(half, part));
-        let [x, y, z] = <[_; 3]>::try_from(half_curvature.collect::<Vec<_>>()).expect("three parts");
-        let node = g.dot([x, y, z], [x, y, z]);
-        Self { graph, magnitude: Magnitude { node, squared: true }, share }
+        let vector = <[_; 3]>::try_from(half_curvature.collect::<Vec<_>>()).expect("three parts");
+        let magnitude = Magnitude::length(g, vector);
+        Self { graph, magnitude, share }
     }
 }

@@ -86,8 +86,7 @@ impl Residual {
         }
         let quarter = g.constant(0.25);
         let turn = g.scale(quarter, turn);
-        let [point, turn] =
-            [point, turn].map(|vector| Magnitude { node: g.dot(vector, vector), squared: true });
+        let [point, turn] = [point, turn].map(|vector| Magnitude::length(g, vector));
         let turn = (spec.variables.len() >= JOINTS_OF_A_POSE).then_some(turn);
         Some(Self { graph, point, turn, share: SHARE })
     }

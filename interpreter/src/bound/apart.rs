@@ -2,7 +2,7 @@
 
 use abbe_codegen::chain::{Apart, Magnitude};
 use abbe_codegen::expr::Symbol;
-use abbe_codegen::graph::{Graph, Node};
+use abbe_codegen::graph::Graph;
 
 use super::{Effort, Moving, largest};
 
@@ -24,22 +24,20 @@ pub struct Limits {
 /// ‖δ‖ ≤ Σ_i ‖d_i‖ + ‖θ_i‖ Σ_{k > i} ‖t_k‖        ‖θ‖ ≤ Σ_i ‖θ_i‖
 /// ```
 pub fn limits(graph: &mut Graph, apart: &Apart, moving: &[Moving], fixed: impl Fn(Symbol) -> f64) -> Limits {
-    let mut size = |node: Node| {
-        let magnitude = Magnitude { node, squared: true };
-        largest(graph, magnitude, moving, &fixed, &EFFORT, &mut |_| true).certified
-    };
+    let mut size =
+        |magnitude: &Magnitude| largest(graph, magnitude, moving, &fixed, &EFFORT, &mut |_| true).certified;
     // How far the tool point may be from each frame, the last one first.
     let mut reach = 0.0;
     let mut levers: Vec<f64> = Vec::with_capacity(apart.links.len());
     for link in apart.links.iter().rev() {
-        reach = (reach + size(*link)).next_up();
+        reach = (reach + size(link)).next_up();
         levers.push(reach);
     }
     levers.reverse();
-    let mut sums = |errors: &[[Node; 2]]| {
+    let mut sums = |errors: &[[Magnitude; 2]]| {
         let mut sums = [0.0_f64; 2];
         for ([shift, turn], lever) in errors.iter().zip(&levers) {
-            let [shift, turn] = [*shift, *turn].map(&mut size);
+            let [shift, turn] = [shift, turn].map(&mut size);
             // No turn moves nothing, however far away.
             let swing = if turn == 0.0 { 0.0 } else { (turn * lever).next_up() };
             sums = [(sums[0] + (shift + swing).next_up()).next_up(), (sums[1] + turn).next_up()];

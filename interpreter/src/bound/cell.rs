@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::corners::{Corners, Numbers};
 use super::form::{Form, UNIT, above};
 use super::growth::Growth;
 use super::search::Search;
@@ -25,6 +26,13 @@ pub(super) struct Point {
     pub(super) at: Vec<f64>,
 }
 
+impl Point {
+    const NONE: Self = Self { value: f64::NEG_INFINITY, at: Vec::new() };
+}
+
+/// Boxes that are no wider are looked at by their slopes, too, rad: close to a maximum these confine it.
+const NARROW: f64 = 0.1;
+
 /// How often a box that became smaller is looked at again at once.
 const PASSES: usize = 4;
 
@@ -35,11 +43,12 @@ const SATURATED: f64 = 0.95;
 pub(super) struct Workspace<const N: usize> {
     registers: Vec<Form<N>>,
     points: Vec<Form<0>>,
+    corners: Numbers,
 }
 
 impl<const N: usize> Default for Workspace<N> {
     fn default() -> Self {
-        Self { registers: Vec::new(), points: Vec::new() }
+        Self { registers: Vec::new(), points: Vec::new(), corners: Numbers::default() }
     }
 }
 
@@ -49,18 +58,62 @@ impl Search {
         self.value.evaluate(points, at, &vec![0.0; at.len()]).0[0].range()
     }
 
-    /// Looks at a box. What of it cannot hold the largest value is taken away:
-    ///
-    /// - Where the value grows with a name everywhere, it is largest at the upper end of that name: of a box that is not at the
-    ///   end of the domain, nothing is left.
-    /// - Where a name is not at an end of the domain, its slope must be 0: names are confined to where it can be.
+    /// Looks at a box: nothing of it is left if it holds no more than was found.
     pub(super) fn look<const N: usize>(
         &self,
+        cell: Cell,
+        found: f64,
+        workspace: &mut Workspace<N>,
+    ) -> (Option<Cell>, Point) {
+        match &self.corners {
+            Some(corners) => self.look_at_corners(corners, cell, found, workspace),
+            None => self.look_at_slopes(cell, workspace),
+        }
+    }
+
+    /// The corner with the largest value bounds the box. Where it is outside, a name is halved that takes it there.
+    fn look_at_corners<const N: usize>(
+        &self,
+        corners: &Corners,
         mut cell: Cell,
         found: f64,
         workspace: &mut Workspace<N>,
     ) -> (Option<Cell>, Point) {
-        let mut point = Point { value: f64::NEG_INFINITY, at: Vec::new() };
+        let is_too_long = |name: usize| corners.is_too_long(name, [cell.low[name], cell.high[name]]);
+        if let Some(name) = cell.widest(is_too_long) {
+            cell.split = name;
+            return (Some(cell), Point::NONE);
+        }
+        let Some(corner) = corners.largest(&mut workspace.corners, &cell.low, &cell.high) else {
+            return self.look_at_slopes(cell, workspace);
+        };
+        cell.most = cell.most.min(corner.most);
+        if cell.most <= found {
+            return (None, Point::NONE);
+        }
+        let split = cell.widest(|name| corner.is_outside(name)).or_else(|| cell.widest(|_| true));
+        cell.split = split.unwrap_or(0);
+        let at = corner.nearest(&cell.low, &cell.high);
+        let value = self.value_at(&mut workspace.points, &at)[0];
+        let point = if value.is_finite() { Point { value, at } } else { Point::NONE };
+        if cell.high[cell.split] - cell.low[cell.split] > NARROW {
+            return (Some(cell), point);
+        }
+        let (cell, centre) = self.look_at_slopes(cell, workspace);
+        (cell, if centre.value > point.value { centre } else { point })
+    }
+
+    /// What of a box cannot hold the largest value is taken away:
+    ///
+    /// - Where the value grows with a name everywhere, it is largest at the upper end of that name: of a box that is not at the
+    ///   end of the domain, nothing is left.
+    /// - Where a name is not at an end of the domain, its slope must be 0: names are confined to where it can be.
+    fn look_at_slopes<const N: usize>(
+        &self,
+        mut cell: Cell,
+        workspace: &mut Workspace<N>,
+    ) -> (Option<Cell>, Point) {
+        let mut point = Point::NONE;
         for pass in 1.. {
             let (centres, halves) = cell.centres();
             let (forms, jumps) = self.all.evaluate(&mut workspace.registers, &centres, &halves);
@@ -85,11 +138,6 @@ impl Search {
                 if from_centre < most {
                     most = from_centre;
                 }
-            }
-            if let Some(corners) = &self.corners
-                && most > found
-            {
-                most = most.min(corners.most(&self.value, &mut workspace.points, &cell.low, &cell.high));
             }
             cell.split = self.most_promising(&centres, &halves, &growth, workspace);
             cell.most = if most.is_nan() { f64::INFINITY } else { cell.most.min(most) };
@@ -208,6 +256,13 @@ impl Cell {
         });
         let halves = halves.collect();
         (centres, halves)
+    }
+
+    /// The widest of some names that have any width.
+    fn widest(&self, is_one: impl Fn(usize) -> bool) -> Option<usize> {
+        let width = |name: &usize| self.high[*name] - self.low[*name];
+        let names = (0..self.low.len()).filter(|name| width(name) > 0.0 && is_one(*name));
+        names.max_by(|a, b| width(a).total_cmp(&width(b)))
     }
 
     /// Both halves along the name that is to be halved.

@@ -9,6 +9,8 @@ use super::search::Search;
 const SAMPLES: usize = 512;
 /// From how many of them it goes up.
 const CLIMBS: usize = 6;
+/// How many values of each name are looked at from where it begins.
+const SCANNED: usize = 33;
 /// How many steps a climb takes at most.
 const STEPS: usize = 60;
 
@@ -24,9 +26,21 @@ impl Search {
             .filter(|point| point.value.is_finite())
             .collect();
         samples.sort_by(|a, b| b.value.total_cmp(&a.value));
-        let start = Point { value: self.value_at(&mut points, &self.start)[0], at: self.start.clone() };
-        let starts = Some(start).filter(|point| point.value.is_finite()).into_iter();
-        let climbs = starts.chain(samples.into_iter().take(CLIMBS)).map(|point| self.climb::<N>(point));
+        samples.truncate(CLIMBS);
+        // Where it begins, and from there along each name by itself: a slope of 0 at the start says nothing.
+        let along = (0..self.domain.len()).flat_map(|name| (0..SCANNED).map(move |i| (name, i)));
+        let along = along.map(|(name, i)| {
+            let mut at = self.start.clone();
+            at[name] = self.share(name, i as f64 / (SCANNED - 1) as f64);
+            at
+        });
+        let start = std::iter::once(self.start.clone()).chain(along).map(|at| {
+            let value = self.value_at(&mut points, &at)[0];
+            Point { value, at }
+        });
+        let start = start.filter(|point| point.value.is_finite());
+        samples.extend(start.max_by(|a, b| a.value.total_cmp(&b.value)));
+        let climbs = samples.into_iter().map(|point| self.climb::<N>(point));
         let none = Point { value: f64::NEG_INFINITY, at: self.domain.iter().map(|range| range[0]).collect() };
         climbs.fold(none, |best, point| if point.value > best.value { point } else { best })
     }

@@ -1,157 +1,358 @@
-//! What a value cannot exceed because it is convex in the sine and cosine of each angle.
+//! What a convex norm cannot exceed within a box, because it is largest at corners.
 //!
-//! Where an angle stands only by its sine and cosine, and each part of a norm has at most one of them in a product, the part is affine in
-//! the pair (cos q, sin q), and the norm is convex in it. An arc of less than half a circle lies within the triangle of its two ends and the
-//! point where its tangents meet, at `1/cos h` of its middle, h being half of the arc: over the triangle the norm is largest at a vertex. So it is
-//! over the product of the triangles of all angles, and of the ends of names that stand by themselves. An angle is a name here: with an offset,
-//! or as a sum of joints, nothing is known.
+//! An arc lies within the polygon of its two ends and of the points where neighbouring tangents meet, of those at its ends and its middle. Each
+//! of these points is `1/cos h` from the centre of the circle, h being half of the arc between the tangents. What is convex in the sine and cosine
+//! of each angle is largest, over the product of the polygons of all angles and of the ranges of names that stand by themselves, at a corner.
+//!
+//! Two names have their vertices in lanes, side by side; of the others one after the other moves on, and what does not depend on those that
+//! moved is not computed again.
 
-use abbe_codegen::expr::Function;
+use abbe::lanes::{InstructionSet, Kernel, Register};
 
-use super::form::Form;
-use super::tape::{Step, Tape};
+use super::convex::{At, Convex, Names, Operation};
+use super::form::{Form, above};
+use super::vertex::{LANES, Lanes, Number, Size, result};
 
-/// Arcs that are longer have triangles that are far larger than they are: half of them, rad.
+/// How many pieces an arc has between its tangents: of more, fewer boxes are looked at, for longer.
+const PIECES: usize = 2;
+/// How many vertices a name has at most.
+const VERTICES: usize = 2 + PIECES;
+/// How many names have theirs in lanes.
+const IN_LANES: usize = 2;
+const _: () = assert!(VERTICES * VERTICES == LANES);
+/// The tangents of longer pieces meet too far away: half of them, rad.
 const LONGEST: f64 = 1.2;
-/// How many names may move: of k angles there are 3^k vertices.
+/// How many names may move: of k angles there are `VERTICES`^k corners.
 const MOST_NAMES: usize = 7;
 
-/// How a value depends on the names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    /// Affine in each pair of sine and cosine, and in each name by itself: a bit for each name that it has.
-    Affine(u32),
-    /// A sum of squares of such, with what is not negative.
-    Squares,
-    /// Convex in each pair.
-    Convex,
-    /// Anything else.
-    Other,
-}
-
-/// How the names stand in a value that is convex in each of them.
+/// A convex norm, and the order in which its names move on.
 #[derive(Clone, Debug)]
 pub(super) struct Corners {
-    /// Whether a name is an angle.
-    angles: Vec<bool>,
+    norm: Convex,
+    /// Those in lanes first.
+    order: Vec<usize>,
+    /// What is computed again when a name that is not in lanes moves on, and all before it begin again.
+    again: Vec<Vec<At>>,
+    set: InstructionSet,
 }
 
+/// The corner with the largest norm.
+#[derive(Clone, Debug)]
+pub(super) struct Corner {
+    /// No norm in the box is larger.
+    pub(super) most: f64,
+    /// The vertex of each name: its lower end, its upper end, or where tangents meet.
+    at: Vec<usize>,
+}
+
+/// Where numbers are kept.
+#[derive(Debug, Default)]
+pub(super) struct Numbers {
+    lanes: Vec<Lanes>,
+    sizes: Vec<Size>,
+}
+
+/// Sine and cosine; or a name, and nothing.
+type Vertex = [Form<0>; 2];
+
 impl Corners {
-    /// Those of a tape's first value; none if it is not convex, or has too many names.
-    pub(super) fn new(tape: &Tape, names: usize) -> Option<Self> {
+    /// None if there are no names, or too many.
+    pub(super) fn new(norm: Convex) -> Option<Self> {
+        let names = norm.angles.len();
         if names == 0 || names > MOST_NAMES {
             return None;
         }
-        let mut kinds: Vec<Kind> = (0..names).map(|name| Kind::Affine(1 << name)).collect();
-        let (mut angles, mut alone) = (vec![false; names], vec![false; names]);
-        for step in &tape.steps {
-            step.registers().filter(|_| !matches!(step, Step::SinCos(_))).for_each(|register| {
-                if let Some(alone) = alone.get_mut(register) {
-                    *alone = true;
-                }
-            });
-            let kind = match *step {
-                Step::Known(_) => Kind::Affine(0),
-                Step::Neg(a) => match kinds[a] {
-                    affine @ Kind::Affine(_) => affine,
-                    _ => Kind::Other,
-                },
-                Step::Add(a, b) => sum(kinds[a], kinds[b]),
-                Step::Sub(a, b) => match (kinds[a], kinds[b]) {
-                    (Kind::Affine(a), Kind::Affine(b)) => Kind::Affine(a | b),
-                    _ => Kind::Other,
-                },
-                Step::Shift(a, number) => match kinds[a] {
-                    Kind::Squares if number.range()[0] < 0.0 => Kind::Convex,
-                    kind => kind,
-                },
-                Step::Scale(a, number) => match kinds[a] {
-                    affine @ Kind::Affine(_) => affine,
-                    kind if number.range()[0] >= 0.0 => kind,
-                    _ => Kind::Other,
-                },
-                Step::Mul(a, b) => match (kinds[a], kinds[b]) {
-                    (Kind::Affine(_), Kind::Affine(_)) if a == b => Kind::Squares,
-                    (Kind::Affine(a), Kind::Affine(b)) if a & b == 0 => Kind::Affine(a | b),
-                    _ => Kind::Other,
-                },
-                Step::Power(a, 2.0) if matches!(kinds[a], Kind::Affine(_)) => Kind::Squares,
-                Step::Call(Function::Sqrt, a) if kinds[a] == Kind::Squares => Kind::Convex,
-                Step::Call(Function::Abs, a) if matches!(kinds[a], Kind::Affine(_)) => Kind::Convex,
-                Step::Larger(a, b) => match (kinds[a], kinds[b]) {
-                    (Kind::Other, _) | (_, Kind::Other) => Kind::Other,
-                    _ => Kind::Convex,
-                },
-                Step::SinCos(a) if a < names => {
-                    angles[a] = true;
-                    kinds.push(Kind::Affine(1 << a));
-                    Kind::Affine(1 << a)
-                }
-                Step::SinCos(_) => {
-                    kinds.push(Kind::Other);
-                    Kind::Other
-                }
-                _ => Kind::Other,
-            };
-            kinds.push(kind);
-        }
-        let is_both = angles.iter().zip(&alone).any(|(angle, alone)| *angle && *alone);
-        let output = *tape.outputs.first()?;
-        if let Some(alone) = alone.get_mut(output) {
-            *alone = true;
-        }
-        (kinds[output] != Kind::Other && !is_both).then_some(Self { angles })
+        let depends = depends(&norm.operations);
+        let order = order(&depends, names);
+        let again = (IN_LANES..names).map(|last| {
+            let moved: Names = order[IN_LANES..=last].iter().map(|name| 1 << name).sum();
+            (0..depends.len()).filter(|at| depends[*at] & moved != 0).collect()
+        });
+        let again = again.collect();
+        Some(Self { norm, order, again, set: InstructionSet::best() })
     }
 
-    /// What the value does not exceed where each name is between two ends; infinite if nothing is known.
-    pub(super) fn most(&self, tape: &Tape, registers: &mut Vec<Form<0>>, low: &[f64], high: &[f64]) -> f64 {
-        let mut vertices: Vec<Vec<[Form<0>; 2]>> = Vec::with_capacity(low.len());
-        for ((low, high), is_angle) in low.iter().zip(high).zip(&self.angles) {
-            let ends = [*low, *high].map(|end| Form::known(end, 0.0));
-            let ends = if low == high { &ends[..1] } else { &ends[..] };
-            if !is_angle {
-                vertices.push(ends.iter().map(|end| [*end, *end]).collect());
-                continue;
-            }
-            let mut own: Vec<[Form<0>; 2]> = ends.iter().map(Form::sin_cos).collect();
-            if let [first, last] = ends {
-                let half = Form::known(0.5, 0.0);
-                let [width, middle] = [last.sub(first), last.add(first)].map(|form| form.mul(&half));
-                if width.range()[1] > LONGEST {
-                    return f64::INFINITY;
-                }
-                let radius = width.sin_cos()[1].reciprocal();
-                own.push(middle.sin_cos().map(|part| part.mul(&radius)));
-            }
-            vertices.push(own);
+    /// Whether the arc of a name is too long for anything to be known.
+    pub(super) fn is_too_long(&self, name: usize, [low, high]: [f64; 2]) -> bool {
+        self.norm.angles[name] && half_piece([low, high]).range()[1] > LONGEST
+    }
+
+    /// The largest norm in a box without arcs that are too long; none if its roundings have no end.
+    pub(super) fn largest(&self, numbers: &mut Numbers, low: &[f64], high: &[f64]) -> Option<Corner> {
+        let ends = low.iter().zip(high).map(|(low, high)| [*low, *high]).zip(&self.norm.angles);
+        let vertices = ends.map(|(ends, is_angle)| if *is_angle { of_arc(ends) } else { of_range(ends) });
+        let vertices: Vec<Vec<Vertex>> = vertices.collect();
+        let off = self.off(&mut numbers.sizes, &vertices);
+        let rounded = Rounded { corners: self, lanes: &mut numbers.lanes, vertices: &vertices };
+        let (largest, at) = self.set.run(rounded);
+        off.is_finite().then(|| Corner { most: above(largest + off), at })
+    }
+
+    /// How far rounding puts the norm off at any corner.
+    fn off(&self, sizes: &mut Vec<Size>, vertices: &[Vec<Vertex>]) -> f64 {
+        let of_all = |vertices: &Vec<Vertex>, part: usize| {
+            let sizes = vertices.iter().map(|vertex| Size::known(&vertex[part]));
+            sizes.fold(Size { most: 0.0, off: 0.0 }, Size::of_both)
+        };
+        let names: Vec<[Size; 2]> = vertices.iter().map(|own| [0, 1].map(|part| of_all(own, part))).collect();
+        sizes.clear();
+        for operation in &self.norm.operations {
+            let size = result(operation, sizes, &names);
+            sizes.push(size);
         }
-        let mut most = f64::NEG_INFINITY;
+        sizes.last().map_or(f64::INFINITY, |norm| norm.off)
+    }
+}
+
+/// The largest norm at a corner, as it is rounded, and which vertex each name has there.
+struct Rounded<'a> {
+    corners: &'a Corners,
+    lanes: &'a mut Vec<Lanes>,
+    vertices: &'a [Vec<Vertex>],
+}
+
+impl Kernel for Rounded<'_> {
+    type Output = (f64, Vec<usize>);
+
+    #[inline(always)]
+    fn run<R: Register>(self) -> Self::Output {
+        let Self { corners: Corners { norm, order, again, .. }, lanes, vertices } = self;
         let mut at = vec![0; vertices.len()];
+        let mut names: Vec<[Lanes; 2]> = vertices.iter().map(|own| all_lanes(&own[0])).collect();
+        let (in_lanes, outside) = order.split_at(order.len().min(IN_LANES));
+        let vertex_in_lane = |place: usize, lane: usize| {
+            let vertex = [lane % VERTICES, lane / VERTICES][place];
+            vertex.min(vertices[in_lanes[place]].len() - 1)
+        };
+        for (place, name) in in_lanes.iter().enumerate() {
+            let own = |lane: usize| &vertices[*name][vertex_in_lane(place, lane)];
+            names[*name] = [0, 1].map(|part| std::array::from_fn(|lane| own(lane)[part].centre));
+        }
+        lanes.clear();
+        for operation in &norm.operations {
+            let value = result(operation, lanes, &names);
+            lanes.push(value);
+        }
+        let (mut largest, mut largest_at) = (f64::NEG_INFINITY, vec![0; vertices.len()]);
         loop {
-            let chosen: Vec<[Form<0>; 2]> = vertices.iter().zip(&at).map(|(own, at)| own[*at]).collect();
-            let value = tape.at_vertex(registers, &chosen).range()[1];
-            // What is not a number is not less.
-            most = if value <= most {
-                most
-            } else if value.is_nan() {
-                f64::INFINITY
-            } else {
-                value
+            for (lane, value) in lanes[lanes.len() - 1].into_iter().enumerate() {
+                if value > largest {
+                    largest = value;
+                    largest_at.clone_from(&at);
+                    for (place, name) in in_lanes.iter().enumerate() {
+                        largest_at[*name] = vertex_in_lane(place, lane);
+                    }
+                }
+            }
+            let Some(next) = outside.iter().position(|name| at[*name] + 1 < vertices[*name].len()) else {
+                return (largest, largest_at);
             };
-            let Some(name) = (0..at.len()).find(|name| at[*name] + 1 < vertices[*name].len()) else {
-                return most;
-            };
-            at[name] += 1;
-            at[..name].fill(0);
+            for (place, name) in outside[..=next].iter().enumerate() {
+                at[*name] = if place == next { at[*name] + 1 } else { 0 };
+                names[*name] = all_lanes(&vertices[*name][at[*name]]);
+            }
+            for operation in &again[next] {
+                lanes[*operation] = result(&norm.operations[*operation], lanes, &names);
+            }
         }
     }
 }
 
-fn sum(a: Kind, b: Kind) -> Kind {
-    match (a, b) {
-        (Kind::Affine(a), Kind::Affine(b)) => Kind::Affine(a | b),
-        (Kind::Squares, Kind::Squares) => Kind::Squares,
-        (Kind::Other, _) | (_, Kind::Other) => Kind::Other,
-        _ => Kind::Convex,
+impl Corner {
+    /// Whether a name is where tangents meet, which no angle of its arc is.
+    pub(super) fn is_outside(&self, name: usize) -> bool {
+        self.at[name] >= 2
+    }
+
+    /// The next place that the box has.
+    pub(super) fn nearest(&self, low: &[f64], high: &[f64]) -> Vec<f64> {
+        let ends = low.iter().zip(high).zip(&self.at);
+        let near = ends.map(|((low, high), at)| match at {
+            0 => *low,
+            1 => *high,
+            at => low + (high - low) * ((2 * at - 3) as f64 / (2 * PIECES) as f64),
+        });
+        near.collect()
+    }
+}
+
+#[inline(always)]
+fn all_lanes(vertex: &Vertex) -> [Lanes; 2] {
+    vertex.map(|part| [part.centre; LANES])
+}
+
+fn of_range([low, high]: [f64; 2]) -> Vec<Vertex> {
+    let ends = if low == high { vec![low] } else { vec![low, high] };
+    ends.into_iter().map(|end| [Form::known(end, 0.0), Form::known(0.0, 0.0)]).collect()
+}
+
+fn of_arc([low, high]: [f64; 2]) -> Vec<Vertex> {
+    let [first, last] = [low, high].map(|end| Form::known(end, 0.0));
+    if low == high {
+        return vec![first.sin_cos()];
+    }
+    let half = half_piece([low, high]);
+    let distance = half.sin_cos()[1].reciprocal();
+    let meetings = (0..PIECES).map(|piece| {
+        let halves = Form::known((2 * piece + 1) as f64, 0.0);
+        first.add(&half.mul(&halves)).sin_cos().map(|part| part.mul(&distance))
+    });
+    [first.sin_cos(), last.sin_cos()].into_iter().chain(meetings).collect()
+}
+
+/// Half of a piece of an arc.
+fn half_piece([low, high]: [f64; 2]) -> Form<0> {
+    let width = Form::known(high, 0.0).sub(&Form::known(low, 0.0));
+    width.mul(&Form::known((2 * PIECES) as f64, 0.0).reciprocal())
+}
+
+/// The names on which each operation depends.
+fn depends(operations: &[Operation]) -> Vec<Names> {
+    let mut depends: Vec<Names> = Vec::with_capacity(operations.len());
+    for operation in operations {
+        let own = match operation {
+            Operation::Name(name, _) => 1 << name,
+            _ => operation.operands().fold(0, |names, operand| names | depends[operand]),
+        };
+        depends.push(own);
+    }
+    depends
+}
+
+/// The name on which least depends comes first; then the one on which least of the rest does.
+fn order(depends: &[Names], names: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = Vec::with_capacity(names);
+    let mut chosen: Names = 0;
+    while order.len() < names {
+        let left = (0..names).filter(|name| chosen & (1 << name) == 0);
+        let rest = |name: &usize| {
+            depends.iter().filter(|own| **own & chosen == 0 && **own & (1 << name) != 0).count()
+        };
+        let Some(next) = left.min_by_key(rest) else { break };
+        chosen |= 1 << next;
+        order.push(next);
+    }
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use abbe_codegen::expr::{Function, Symbol};
+    use abbe_codegen::graph::{Graph, Node};
+    use rand::{RngExt, SeedableRng};
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    use super::super::tape::Tape;
+    use super::*;
+
+    /// How many angles there are; the name after them stands by itself.
+    const ANGLES: usize = 3;
+    const NAMES: usize = ANGLES + 1;
+
+    fn name(i: usize) -> Symbol {
+        Symbol::Variable(i)
+    }
+
+    /// Sine and cosine of some names or their negatives, added, and a number.
+    fn sin_cos(graph: &mut Graph, names: &[(usize, f64)], offset: f64) -> [Node; 2] {
+        let mut sum = graph.constant(offset);
+        for (i, sign) in names {
+            let own = graph.symbol(name(*i));
+            sum = if *sign > 0.0 { graph.add(sum, own) } else { graph.sub(sum, own) };
+        }
+        [Function::Sin, Function::Cos].map(|function| graph.call(function, sum))
+    }
+
+    fn norm(graph: &mut Graph, parts: &[Node]) -> Tape {
+        let squares: Vec<Node> = parts.iter().map(|part| graph.mul(*part, *part)).collect();
+        let sum = squares.into_iter().reduce(|sum, square| graph.add(sum, square)).unwrap();
+        let outputs = [&[sum], parts].concat();
+        let names: Vec<Symbol> = (0..NAMES).map(name).collect();
+        Tape::new(graph, &outputs, &names, |_| f64::NAN)
+    }
+
+    /// Two numbers that are affine in the sine and cosine of each angle, and in the last name.
+    fn parts(graph: &mut Graph) -> [Node; 2] {
+        let [_, first] = sin_cos(graph, &[(0, 1.0)], 0.0);
+        let [_, sum] = sin_cos(graph, &[(1, 1.0), (2, -1.0)], 0.4);
+        let [sine, cosine] = sin_cos(graph, &[(0, -1.0), (1, 1.0)], -0.7);
+        let slide = graph.symbol(name(3));
+        let x = graph.mul(first, sum);
+        let x = graph.add(x, slide);
+        let y = graph.mul(slide, sine);
+        [x, graph.sub(y, cosine)]
+    }
+
+    #[test]
+    fn nothing_is_larger_than_at_the_corners() {
+        let mut graph = Graph::new();
+        let parts = parts(&mut graph);
+        let tape = norm(&mut graph, &parts);
+        let corners = Corners::new(Convex::new(&tape, NAMES).unwrap()).unwrap();
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(7);
+        let mut numbers = Numbers::default();
+        for box_ in 0..500 {
+            let longest = [4.7, 1.0, 0.02][box_ % 3];
+            let low: [f64; NAMES] = std::array::from_fn(|_| random.random_range(-4.0..4.0));
+            let high = low.map(|low| {
+                low + if random.random_bool(0.2) { 0.0 } else { random.random_range(0.0..longest) }
+            });
+            assert!((0..NAMES).all(|name| !corners.is_too_long(name, [low[name], high[name]])));
+            let corner = corners.largest(&mut numbers, &low, &high).unwrap();
+            for _ in 0..200 {
+                let at: [f64; NAMES] = std::array::from_fn(|name| match random.random_range(0..4) {
+                    0 => low[name],
+                    1 => high[name],
+                    _ => random.random_range(low[name]..=high[name]),
+                });
+                let value = tape.evaluate::<0>(&mut Vec::new(), &at, &[0.0; NAMES]).0[0].range()[0];
+                assert!(value <= corner.most, "{value} above {corner:?} of {low:?} … {high:?}");
+            }
+            let near = corner.nearest(&low, &high);
+            assert!(near.iter().zip(low.iter().zip(&high)).all(|(at, (low, high))| low <= at && at <= high));
+            // Where it is not outside, there is such a place.
+            if (0..NAMES).all(|name| !corner.is_outside(name)) {
+                let value = tape.evaluate::<0>(&mut Vec::new(), &near, &[0.0; NAMES]).0[0].range()[1];
+                assert!(corner.most <= value * (1.0 + 1e-12) + 1e-12, "{corner:?}, and {value}");
+            }
+        }
+        assert!(corners.is_too_long(0, [0.0, 4.9]) && !corners.is_too_long(3, [0.0, 4.9]));
+    }
+
+    #[test]
+    fn what_is_not_convex_has_no_corners() {
+        let is_convex = |parts: &dyn Fn(&mut Graph) -> Vec<Node>| {
+            let mut graph = Graph::new();
+            let parts = parts(&mut graph);
+            let tape = norm(&mut graph, &parts);
+            Convex::new(&tape, NAMES).is_some()
+        };
+        assert!(is_convex(&|graph| parts(graph).to_vec()));
+        // An angle twice in a product, by itself or in a sum.
+        assert!(!is_convex(&|graph| {
+            let [sine, cosine] = sin_cos(graph, &[(0, 1.0)], 0.0);
+            vec![graph.mul(sine, cosine)]
+        }));
+        assert!(!is_convex(&|graph| {
+            let ([sine, _], [sum, _]) =
+                (sin_cos(graph, &[(0, 1.0)], 0.0), sin_cos(graph, &[(0, 1.0), (1, 1.0)], 0.0));
+            vec![graph.mul(sine, sum)]
+        }));
+        assert!(!is_convex(&|graph| vec![sin_cos(graph, &[(0, 1.0), (0, 1.0)], 0.0)[0]]));
+        // An angle that also stands by itself, and what is neither a sum nor a product.
+        assert!(!is_convex(&|graph| {
+            let ([sine, _], own) = (sin_cos(graph, &[(0, 1.0)], 0.0), graph.symbol(name(0)));
+            vec![sine, own]
+        }));
+        assert!(!is_convex(&|graph| {
+            let own = graph.symbol(name(0));
+            vec![graph.call(Function::Exp, own)]
+        }));
+        // A norm that has more than its parts.
+        let mut graph = Graph::new();
+        let [first, second] = parts(&mut graph);
+        let mut tape = norm(&mut graph, &[first, second]);
+        tape.outputs.truncate(2);
+        assert!(Convex::new(&tape, NAMES).is_none());
     }
 }

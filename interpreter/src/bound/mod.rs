@@ -1,10 +1,13 @@
-//! The largest value of a node that is never negative, over a box of joints and inputs, with a proof: branch and bound on affine
-//! forms.
+//! The largest value of a node that is never negative, over a box of joints and inputs, with a proof: branch and bound.
 //!
-//! `form` is a number while names move within their ranges, all roundings covered; `functions` and `tables` are what is
-//! done to it, `tape` the operations of a graph one after the other; `period` whether a joint comes round, `cell` what is known of the node
-//! within one box, `corners` what it cannot exceed because it is convex, and `search` goes from box to box, the one that may hold most first. `apart` is what sums cannot exceed because of
-//! their parts, and `singular` the least or the largest singular value of a matrix.
+//! `tape` are the operations of a graph, one after the other. Two ways lead from them to what is known within one box (`cell`):
+//!
+//! - a norm that is `convex` in the sine and cosine of each angle is largest at `corners`, where `vertex` has its numbers;
+//! - of anything else, and close to a maximum, there are affine forms: `form` is a number while names move within their ranges, all
+//!   roundings covered, `functions` and `tables` what is done to it, and `growth` how much slopes let a value grow.
+//!
+//! `search` goes from box to box, the one that may hold most first, from where a `climb` led; `period` says whether a joint comes round. `apart`
+//! is what sums cannot exceed because of their parts, and `singular` the least or the largest singular value of a matrix.
 //!
 //! ```
 //! use abbe_codegen::chain::Magnitude;
@@ -18,8 +21,9 @@
 //! let one = graph.constant(1.0);
 //! let rest = graph.sub(one, x);
 //! let node = graph.mul(x, rest);
+//! let size = Magnitude { node, squared: false, parts: Vec::new() };
 //! let x = Moving { symbol: Symbol::Variable(0), range: [0.0, 1.0], home: 0.0, start: 0.0 };
-//! let bound = largest(&mut graph, Magnitude { node, squared: false }, &[x], |_| 0.0, &Effort::default(), &mut |_| true);
+//! let bound = largest(&mut graph, &size, &[x], |_| 0.0, &Effort::default(), &mut |_| true);
 //! assert!(bound.complete && bound.found <= 0.25 && bound.certified >= 0.25);
 //! assert!(bound.certified <= 1.01 * bound.found);
 //! ```
@@ -27,6 +31,7 @@
 mod apart;
 mod cell;
 mod climb;
+mod convex;
 mod corners;
 mod form;
 mod functions;
@@ -36,12 +41,14 @@ mod search;
 mod singular;
 mod tables;
 mod tape;
+mod vertex;
 
 use abbe_codegen::chain::Magnitude;
 use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
 
 pub use apart::{Limits, limits};
+use convex::Convex;
 use corners::Corners;
 use search::Search;
 pub use singular::{Extreme, Singular, singular_value};
@@ -114,7 +121,7 @@ pub struct Progress {
 /// what is asked: neither on threads nor on time.
 pub fn largest(
     graph: &mut Graph,
-    magnitude: Magnitude,
+    magnitude: &Magnitude,
     moving: &[Moving],
     fixed: impl Fn(Symbol) -> f64,
     effort: &Effort,
@@ -144,7 +151,9 @@ pub fn largest(
     let mut slopes = Tape::new(graph, &all, &symbols, still);
     slopes.sides_jump = value.has_sides();
     let start = active.iter().zip(&domain).map(|(name, [low, high])| name.start.clamp(*low, *high)).collect();
-    let corners = Corners::new(&value, active.len());
+    let parts: Vec<Node> = std::iter::once(node).chain(magnitude.parts.iter().copied()).collect();
+    let parts = Tape::new(graph, &parts, &symbols, still);
+    let corners = Convex::new(&parts, active.len()).and_then(Corners::new);
     let search =
         Search { value, corners, all: slopes, domain, start, squared: magnitude.squared, effort: *effort };
     // As many slopes as there are names, or a few more: each number is compiled by itself.

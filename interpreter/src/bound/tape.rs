@@ -31,30 +31,6 @@ pub(super) enum Step {
     SinCos(Register),
 }
 
-impl Step {
-    /// The registers that it reads.
-    pub(super) fn registers(&self) -> impl Iterator<Item = Register> {
-        let (first, second) = match *self {
-            Self::Known(_) => (None, None),
-            Self::Neg(a)
-            | Self::Shift(a, _)
-            | Self::Scale(a, _)
-            | Self::Power(a, _)
-            | Self::Call(_, a)
-            | Self::Lookup(_, a)
-            | Self::SinCos(a) => (Some(a), None),
-            Self::Add(a, b)
-            | Self::Sub(a, b)
-            | Self::Mul(a, b)
-            | Self::Div(a, b)
-            | Self::Angle(a, b)
-            | Self::Smaller(a, b)
-            | Self::Larger(a, b) => (Some(a), Some(b)),
-        };
-        first.into_iter().chain(second)
-    }
-}
-
 /// Operations that compute some numbers from the values of names.
 #[derive(Clone, Debug)]
 pub(super) struct Tape {
@@ -141,24 +117,6 @@ impl Tape {
             }
             registers.push(Form { centre: *centre, slopes, spread: *half, rest: 0.0 });
         }
-        let jumps = self.run(registers, |_, angle| angle.sin_cos());
-        (self.outputs.iter().map(|output| registers[*output]).collect(), jumps)
-    }
-
-    /// The first number at a vertex: sine and cosine of each name that is an angle, or twice the name.
-    pub(super) fn at_vertex(&self, registers: &mut Vec<Form<0>>, vertex: &[[Form<0>; 2]]) -> Form<0> {
-        registers.clear();
-        registers.extend(vertex.iter().map(|[name, _]| *name));
-        self.run(registers, |angle, _| vertex[angle]);
-        registers[self.outputs[0]]
-    }
-
-    /// Runs the steps behind the names, and says whether a number may jump.
-    fn run<const N: usize>(
-        &self,
-        registers: &mut Vec<Form<N>>,
-        turn: impl Fn(Register, &Form<N>) -> [Form<N>; 2],
-    ) -> bool {
         let mut jumps = false;
         for step in &self.steps {
             let at = |register: Register| &registers[register];
@@ -189,14 +147,14 @@ impl Tape {
                     at(a).look_up(&self.tables[usize::from(table)], u32::from(order))
                 }
                 Step::SinCos(a) => {
-                    let [sine, cosine] = turn(a, at(a));
+                    let [sine, cosine] = at(a).sin_cos();
                     registers.push(sine);
                     cosine
                 }
             };
             registers.push(form);
         }
-        jumps
+        (self.outputs.iter().map(|output| registers[*output]).collect(), jumps)
     }
 }
 

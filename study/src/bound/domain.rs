@@ -54,7 +54,7 @@ impl Domain {
     pub(super) fn largest(
         &self,
         graph: &mut Graph,
-        magnitude: Magnitude,
+        magnitude: &Magnitude,
         start: Option<&[f64]>,
         effort: &Effort,
         watch: &mut dyn FnMut(&Progress) -> bool,
@@ -92,7 +92,7 @@ impl Domain {
             return None;
         }
         let chain::Remainder { mut graph, magnitude, share } = chain::Remainder::new(&self.spec);
-        Some(Remainder::new(&self.curve(&mut graph, magnitude, share, asked, watch)))
+        Some(Remainder::new(&self.curve(&mut graph, &magnitude, share, asked, watch)))
     }
 
     /// What one step of compensation leaves of the repeatable sources; none if there are no such sources, or too few joints. Where it
@@ -107,7 +107,7 @@ impl Domain {
             return None;
         }
         let chain::Residual { mut graph, point, turn, share } = chain::Residual::new(&self.spec)?;
-        let mut largest = |magnitude, before: f64| {
+        let mut largest = |magnitude: &Magnitude, before: f64| {
             let mut watch = |progress: &Progress| {
                 let is_hopeless = progress.certified.is_infinite() && progress.boxes >= HOPELESS;
                 progress.found <= before && !is_hopeless && watch(progress)
@@ -115,8 +115,8 @@ impl Domain {
             self.curve(&mut graph, magnitude, share, asked, &mut watch)
         };
         let corrects_orientation = turn.is_some();
-        let point = largest(point, before[0]);
-        let turn = turn.filter(|_| point.certified.is_finite()).map(|turn| largest(turn, before[1]));
+        let point = largest(&point, before[0]);
+        let turn = turn.filter(|_| point.certified.is_finite()).map(|turn| largest(&turn, before[1]));
         Some(AfterStep::new(self, &[Some(point), turn], before, corrects_orientation))
     }
 
@@ -124,7 +124,7 @@ impl Domain {
     fn curve(
         &self,
         graph: &mut Graph,
-        magnitude: Magnitude,
+        magnitude: &Magnitude,
         share: Symbol,
         asked: &Effort,
         watch: &mut dyn FnMut(&Progress) -> bool,

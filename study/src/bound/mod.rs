@@ -76,12 +76,12 @@ impl Bound {
             [limits.position[kind], rotation]
         };
         let mut sought = Sought { job: self, domain: &domain, begun: Instant::now(), done: 0 };
-        let repeatable = sought.errors(&mut graph, repeatable, across_z[0], at_most(0), notes)?;
-        let random = sought.errors(&mut graph, random, across_z[1], at_most(1), notes)?;
+        let repeatable = sought.errors(&mut graph, &repeatable, &across_z[0], at_most(0), notes)?;
+        let random = sought.errors(&mut graph, &random, &across_z[1], at_most(1), notes)?;
         // Of one class alone both together are that one.
         let radius = match Classes::of(&domain.spec) {
             Classes { repeatable: true, random: true } => {
-                let both = sought.errors(&mut graph, radius, across_z[2], at_most(2), notes)?;
+                let both = sought.errors(&mut graph, &radius, &across_z[2], at_most(2), notes)?;
                 both.at_most(&repeatable, &random)
             }
             Classes { random: true, .. } => random.clone(),
@@ -121,8 +121,8 @@ impl Sought<'_> {
     fn errors(
         &mut self,
         graph: &mut Graph,
-        [norm, x, y, z, orientation]: [Magnitude; 5],
-        across_z: Magnitude,
+        [norm, x, y, z, orientation]: &[Magnitude; 5],
+        across_z: &Magnitude,
         at_most: [f64; 2],
         notes: &mut dyn Notes,
     ) -> Result<Errors, Diagnostics> {
@@ -156,7 +156,7 @@ impl Sought<'_> {
     fn largest(
         &mut self,
         graph: &mut Graph,
-        magnitude: Magnitude,
+        magnitude: &Magnitude,
         start: Option<&[f64]>,
         effort: &Effort,
         notes: &mut dyn Notes,

@@ -43,7 +43,8 @@ impl Norms {
             return None;
         }
         let mut magnitudes = Magnitudes::new(&domain.spec);
-        let norms = [magnitudes.repeatable[0], magnitudes.random[0], magnitudes.radius[0]];
+        let norms =
+            [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(|five| five[0].clone());
         let moving = domain.moving();
         let boxes = WORK / (magnitudes.graph.len() * moving * moving).max(1);
         let effort = Effort { boxes: boxes.min(20_000), ..Effort::default() };
@@ -52,7 +53,7 @@ impl Norms {
             let effort = Effort { at_most: limits[i], ..effort };
             any.then(|| {
                 let mut go_on = |_: &Progress| !notes.stop();
-                let bound = domain.largest(&mut magnitudes.graph, norms[i], None, &effort, &mut go_on);
+                let bound = domain.largest(&mut magnitudes.graph, &norms[i], None, &effort, &mut go_on);
                 Largest::new(&bound, &domain)
             })
         };

@@ -48,11 +48,16 @@ fn home(symbol: Symbol, spec: &Spec) -> f64 {
 fn bounded(
     spec: &Spec,
     magnitudes: &mut Magnitudes,
-    magnitude: Magnitude,
+    magnitude: &Magnitude,
     box_: &[Moving],
     effort: &Effort,
 ) -> Bound {
     largest(&mut magnitudes.graph, magnitude, box_, |symbol| home(symbol, spec), effort, &mut |_| true)
+}
+
+/// Of the repeatable sources, of the random ones, and both added.
+fn kinds(magnitudes: &Magnitudes) -> [[Magnitude; 5]; 3] {
+    [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(Clone::clone)
 }
 
 /// Repeatable, random, both added; of each the norm, x, y, z, and the norm of rows 4–6.
@@ -150,8 +155,8 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
         }
         // Neither x nor y is more than what is across z.
         for k in 0..3 {
-            let across_z = magnitudes.across_z[k];
-            let bound = bounded(&spec, &mut magnitudes, across_z, &box_, &effort);
+            let across_z = magnitudes.across_z[k].clone();
+            let bound = bounded(&spec, &mut magnitudes, &across_z, &box_, &effort);
             let most = seen.iter().map(|sizes| sizes[k][1].max(sizes[k][2])).fold(0.0, f64::max);
             let slack = ROUNDING * (most + 1e-6);
             assert!(
@@ -159,10 +164,10 @@ fn is_sound(seed: u64, boxes: usize, samples: usize) {
                 "robot {seed}, {k} across z: {most:e} above {bound:?}\n{box_:?}\n{text}"
             );
         }
-        let kinds = [magnitudes.repeatable, magnitudes.random, magnitudes.radius];
+        let kinds = kinds(&magnitudes);
         for (k, five) in kinds.into_iter().enumerate() {
             for (i, magnitude) in five.into_iter().enumerate() {
-                let bound = bounded(&spec, &mut magnitudes, magnitude, &box_, &effort);
+                let bound = bounded(&spec, &mut magnitudes, &magnitude, &box_, &effort);
                 let most = seen.iter().map(|sizes| sizes[k][i]).fold(0.0, f64::max);
                 let slack = ROUNDING * (most + 1e-6);
                 assert!(
@@ -256,20 +261,20 @@ fn maxima_that_are_known_exactly_are_enclosed() {
         let spec = two_bars(limits);
         let all = moving(&spec);
         let mut magnitudes = Magnitudes::new(&spec);
-        let (repeatable, random, radius) = (magnitudes.repeatable, magnitudes.random, magnitudes.radius);
-        let across_z = magnitudes.across_z;
-        let mut bounded = |magnitude| bounded(&spec, &mut magnitudes, magnitude, &all, &effort);
-        is(&bounded(repeatable[0]), 1e-3 * reach);
-        is(&bounded(random[0]), 2e-3 * 300.0);
-        is(&bounded(radius[0]), 1e-3 * reach + 0.6);
-        is(&bounded(repeatable[4]), 1e-3);
+        let [repeatable, random, radius] = kinds(&magnitudes);
+        let across_z = magnitudes.across_z.clone();
+        let mut bounded = |magnitude: &Magnitude| bounded(&spec, &mut magnitudes, magnitude, &all, &effort);
+        is(&bounded(&repeatable[0]), 1e-3 * reach);
+        is(&bounded(&random[0]), 2e-3 * 300.0);
+        is(&bounded(&radius[0]), 1e-3 * reach + 0.6);
+        is(&bounded(&repeatable[4]), 1e-3);
         // Along x, y of F_0 the first joint turns it wherever it is largest.
-        is(&bounded(repeatable[1]), 1e-3 * reach);
-        is(&bounded(random[2]), 0.6);
-        is(&bounded(across_z[0]), 1e-3 * reach);
-        is(&bounded(across_z[1]), 0.6);
-        is(&bounded(across_z[2]), 1e-3 * reach + 0.6);
-        assert!(bounded(repeatable[3]).certified < 1e-150);
+        is(&bounded(&repeatable[1]), 1e-3 * reach);
+        is(&bounded(&random[2]), 0.6);
+        is(&bounded(&across_z[0]), 1e-3 * reach);
+        is(&bounded(&across_z[1]), 0.6);
+        is(&bounded(&across_z[2]), 1e-3 * reach + 0.6);
+        assert!(bounded(&repeatable[3]).certified < 1e-150);
     }
 }
 
@@ -285,10 +290,10 @@ fn of_many_joints_the_parts_are_known() {
     }
     let spec = Spec::parse("chain.toml", &text).unwrap();
     let mut magnitudes = Magnitudes::new(&spec);
-    let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone(), magnitudes.repeatable[0]);
+    let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone(), magnitudes.repeatable[0].clone());
     let limits = limits(&mut magnitudes.graph, &apart, &all, |symbol| home(symbol, &spec));
     let effort = Effort { boxes: 100, at_most: limits.position[0], ..Effort::default() };
-    let bound = bounded(&spec, &mut magnitudes, norm, &all, &effort);
+    let bound = bounded(&spec, &mut magnitudes, &norm, &all, &effort);
     assert_eq!(bound.certified, limits.position[0]);
     assert!(bound.found > 0.4 * bound.certified, "{bound:?}");
 }
@@ -297,7 +302,7 @@ fn of_many_joints_the_parts_are_known() {
 fn boxes_that_are_chosen_to_break_it_do_not() {
     let spec = two_bars("[\"-150 deg\", \"150 deg\"]");
     let mut magnitudes = Magnitudes::new(&spec);
-    let norm = magnitudes.repeatable[0];
+    let norm = magnitudes.repeatable[0].clone();
     let robot = Interpreter::new(spec.clone());
     let at = |low: f64, high: f64| {
         let all = moving(&spec);
@@ -314,7 +319,7 @@ fn boxes_that_are_chosen_to_break_it_do_not() {
         (at(1e-8, 2e-8), 1e-8),
     ];
     for (box_, best) in largest {
-        let bound = bounded(&spec, &mut magnitudes, norm, &box_, &Effort { gap: 1e-9, ..Effort::default() });
+        let bound = bounded(&spec, &mut magnitudes, &norm, &box_, &Effort { gap: 1e-9, ..Effort::default() });
         let exact = sizes(&robot, &[0.0, best], &[]).unwrap()[0][0];
         assert!(bound.certified >= exact * (1.0 - 1e-15), "{bound:?} {exact}");
         assert!(bound.certified <= exact * (1.0 + 1e-8) && bound.complete, "{bound:?} {exact}");
@@ -345,10 +350,10 @@ fn a_kink_at_the_end_of_a_table_may_be_the_maximum() {
     "#;
     let spec = Spec::parse("slide.toml", text).unwrap();
     let mut magnitudes = Magnitudes::new(&spec);
-    let norm = magnitudes.repeatable[0];
+    let norm = magnitudes.repeatable[0].clone();
     for range in [[-1.3, 1.7], [-1.0, 1.0], [-0.7, 0.1], [-0.01, 1.9]] {
         let all = [Moving { range, ..moving(&spec)[0] }];
-        is(&bounded(&spec, &mut magnitudes, norm, &all, &Effort { gap: 1e-7, ..Effort::default() }), 2e-3);
+        is(&bounded(&spec, &mut magnitudes, &norm, &all, &Effort { gap: 1e-7, ..Effort::default() }), 2e-3);
     }
 }
 
@@ -376,9 +381,9 @@ fn what_cancels_is_known_as_well_as_its_parts() {
     "#;
     let spec = Spec::parse("cancel.toml", text).unwrap();
     let mut magnitudes = Magnitudes::new(&spec);
-    let norm = magnitudes.repeatable[0];
+    let norm = magnitudes.repeatable[0].clone();
     let all = moving(&spec);
-    let bound = bounded(&spec, &mut magnitudes, norm, &all, &Effort::default());
+    let bound = bounded(&spec, &mut magnitudes, &norm, &all, &Effort::default());
     let exact = 1e-6 * 1.0_f64.sin();
     assert!(bound.certified >= exact && bound.found <= exact + 1e-9, "{bound:?}");
 }

@@ -3,7 +3,7 @@
 use abbe::analysis::{compensated, sampling};
 use abbe::compensator::norms;
 use abbe::{Class, Manipulator, Orientation, VariableKind, deviation, drawn_pose};
-use abbe_codegen::chain::Residual;
+use abbe_codegen::chain::{Magnitude, Residual};
 use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_interpreter::bound::{Bound, Effort, Moving, largest};
@@ -19,11 +19,11 @@ fn bounded(spec: &Spec, box_: &[Moving], effort: &Effort) -> Option<[Bound; 2]> 
     let Residual { mut graph, point, turn, share } = Residual::new(spec)?;
     let share = Moving { symbol: share, range: [0.0, 1.0], home: 0.0, start: 0.0 };
     let moving = [box_, &[share]].concat();
-    let mut of = |magnitude| {
+    let mut of = |magnitude: &Magnitude| {
         largest(&mut graph, magnitude, &moving, |symbol| home(symbol, spec), effort, &mut |_| true)
     };
     let none = Bound { found: 0.0, certified: f64::INFINITY, at: Vec::new(), boxes: 0, complete: false };
-    Some([of(point), turn.map_or(none, of)])
+    Some([of(&point), turn.as_ref().map_or(none, of)])
 }
 
 /// How far the exact chain has the tool from where the ideal one should be, after one step by a solver of another make.

@@ -1,0 +1,266 @@
+//! Norms that are convex in the sine and cosine of each angle, and in each name that stands by itself.
+//!
+//! Where no product has more than one of a name's sine and cosine, each part of a norm is affine in the pair (cos q, sin q), and the norm
+//! is convex in it. The sine and cosine of a sum of angles are affine in the pair of each:
+//!
+//! ```text
+//! sin(a + b) = sin a cos b + cos a sin b        cos(a + b) = cos a cos b − sin a sin b
+//! ```
+
+use abbe_codegen::expr::Function;
+
+use super::form::Form;
+use super::tape::{Register, Step, Tape};
+
+/// A set of names: a bit for each.
+pub(super) type Names = u32;
+
+/// Which of the operations.
+pub(super) type At = usize;
+
+/// An operation on the results of others before it.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Operation {
+    /// Sine (0) or cosine (1) of a name that is an angle; a name that stands by itself (0).
+    Name(usize, usize),
+    Known(Form<0>),
+    Neg(At),
+    Add(At, At),
+    Mul(At, At),
+    Sqrt(At),
+    Abs(At),
+    Larger(At, At),
+}
+
+impl Operation {
+    pub(super) fn operands(&self) -> impl Iterator<Item = At> {
+        let (first, second) = match *self {
+            Self::Name(..) | Self::Known(_) => (None, None),
+            Self::Neg(a) | Self::Sqrt(a) | Self::Abs(a) => (Some(a), None),
+            Self::Add(a, b) | Self::Mul(a, b) | Self::Larger(a, b) => (Some(a), Some(b)),
+        };
+        first.into_iter().chain(second)
+    }
+}
+
+/// A norm of numbers that are affine in each name.
+#[derive(Clone, Debug)]
+pub(super) struct Convex {
+    /// What computes it; the last one is the norm.
+    pub(super) operations: Vec<Operation>,
+    /// Whether a name is an angle.
+    pub(super) angles: Vec<bool>,
+}
+
+impl Convex {
+    /// Of a tape whose first value is a norm of the others; none if one of them is not affine.
+    pub(super) fn new(tape: &Tape, names: usize) -> Option<Self> {
+        let mut draft = Draft::new(names);
+        for step in &tape.steps {
+            draft.translate(step);
+        }
+        let mut numbers = tape.outputs.iter().map(|register| draft.number(*register));
+        let norm = numbers.next()??;
+        let parts = numbers.collect::<Option<Vec<At>>>()?;
+        let is_affine = draft.affine();
+        let is_convex = !parts.is_empty() && parts.iter().all(|part| is_affine[*part]);
+        let is_clear = draft.turned.iter().zip(&draft.alone).all(|(turned, alone)| !(*turned && *alone));
+        if !is_convex || !is_clear || !draft.is_of(norm, &parts) {
+            return None;
+        }
+        draft.operations.truncate(norm + 1);
+        Some(Self { operations: draft.operations, angles: draft.turned })
+    }
+}
+
+/// What stands in a register of the tape.
+#[derive(Clone, Debug)]
+enum Value {
+    Number(At),
+    /// Names or their negatives, each once, and a number; as a number it is not yet asked for.
+    Angle(Vec<(usize, bool)>, Form<0>),
+    /// What is neither.
+    Other,
+}
+
+/// Operations that are being made.
+struct Draft {
+    operations: Vec<Operation>,
+    values: Vec<Value>,
+    /// Whether a name stands in sines and cosines, and by itself.
+    turned: Vec<bool>,
+    alone: Vec<bool>,
+}
+
+impl Draft {
+    fn new(names: usize) -> Self {
+        let nothing = Form::known(0.0, 0.0);
+        let values = (0..names).map(|name| Value::Angle(vec![(name, false)], nothing)).collect();
+        let operations = (0..2 * names).map(|i| Operation::Name(i / 2, i % 2)).collect();
+        Self { operations, values, turned: vec![false; names], alone: vec![false; names] }
+    }
+
+    fn push(&mut self, operation: Operation) -> At {
+        self.operations.push(operation);
+        self.operations.len() - 1
+    }
+
+    fn known(&mut self, number: Form<0>) -> At {
+        self.push(Operation::Known(number))
+    }
+
+    /// What stands in a register, as a number.
+    fn number(&mut self, register: Register) -> Option<At> {
+        let (names, offset) = match &self.values[register] {
+            Value::Number(at) => return Some(*at),
+            Value::Other => return None,
+            Value::Angle(names, offset) => (names.clone(), *offset),
+        };
+        let mut sum = None;
+        for (name, is_negative) in names {
+            self.alone[name] = true;
+            let own = if is_negative { self.push(Operation::Neg(2 * name)) } else { 2 * name };
+            sum = Some(sum.map_or(own, |sum| self.push(Operation::Add(sum, own))));
+        }
+        let mut sum = sum?;
+        if offset != Form::known(0.0, 0.0) {
+            let offset = self.known(offset);
+            sum = self.push(Operation::Add(sum, offset));
+        }
+        self.values[register] = Value::Number(sum);
+        Some(sum)
+    }
+
+    fn translate(&mut self, step: &Step) {
+        if let Step::SinCos(a) = *step {
+            let [sine, cosine] =
+                self.sin_cos(a).map_or([Value::Other, Value::Other], |pair| pair.map(Value::Number));
+            self.values.extend([sine, cosine]);
+            return;
+        }
+        let value = self.angle(step).or_else(|| self.operation(step).map(Value::Number));
+        self.values.push(value.unwrap_or(Value::Other));
+    }
+
+    /// What a step makes of angles, if it is an angle.
+    fn angle(&self, step: &Step) -> Option<Value> {
+        let of = |register: Register| match &self.values[register] {
+            Value::Angle(names, offset) => Some((names.clone(), *offset)),
+            _ => None,
+        };
+        let negative = |(names, offset): (Vec<(usize, bool)>, Form<0>)| {
+            (
+                names.into_iter().map(|(name, is_negative)| (name, !is_negative)).collect::<Vec<_>>(),
+                offset.neg(),
+            )
+        };
+        let sum = |first: (Vec<(usize, bool)>, Form<0>), second: (Vec<(usize, bool)>, Form<0>)| {
+            let is_new = second.0.iter().all(|(name, _)| first.0.iter().all(|(other, _)| other != name));
+            is_new.then(|| ([first.0, second.0].concat(), first.1.add(&second.1)))
+        };
+        let (names, offset) = match *step {
+            Step::Neg(a) => negative(of(a)?),
+            Step::Shift(a, number) => {
+                let (names, offset) = of(a)?;
+                (names, offset.add(&number))
+            }
+            Step::Add(a, b) => sum(of(a)?, of(b)?)?,
+            Step::Sub(a, b) => sum(of(a)?, negative(of(b)?))?,
+            _ => return None,
+        };
+        Some(Value::Angle(names, offset))
+    }
+
+    /// Sine and cosine of an angle, name by name.
+    fn sin_cos(&mut self, register: Register) -> Option<[At; 2]> {
+        let Value::Angle(names, offset) = self.values[register].clone() else { return None };
+        let mut pair = match offset == Form::known(0.0, 0.0) {
+            true => None,
+            false => Some(offset.sin_cos().map(|part| self.known(part))),
+        };
+        for (name, is_negative) in names {
+            self.turned[name] = true;
+            let sine = if is_negative { self.push(Operation::Neg(2 * name)) } else { 2 * name };
+            let own = [sine, 2 * name + 1];
+            pair = Some(match pair {
+                None => own,
+                Some(pair) => self.turned_by(pair, own),
+            });
+        }
+        pair
+    }
+
+    fn turned_by(&mut self, [sine, cosine]: [At; 2], [other_sine, other_cosine]: [At; 2]) -> [At; 2] {
+        let mut product = |a, b| self.push(Operation::Mul(a, b));
+        let (first, second) = (product(sine, other_cosine), product(cosine, other_sine));
+        let (third, fourth) = (product(cosine, other_cosine), product(sine, other_sine));
+        let fourth = self.push(Operation::Neg(fourth));
+        [self.push(Operation::Add(first, second)), self.push(Operation::Add(third, fourth))]
+    }
+
+    fn operation(&mut self, step: &Step) -> Option<At> {
+        let operation = match *step {
+            Step::Known(number) => Operation::Known(number),
+            Step::Neg(a) => Operation::Neg(self.number(a)?),
+            Step::Add(a, b) => Operation::Add(self.number(a)?, self.number(b)?),
+            Step::Sub(a, b) => {
+                let (a, b) = (self.number(a)?, self.number(b)?);
+                Operation::Add(a, self.push(Operation::Neg(b)))
+            }
+            Step::Shift(a, number) => Operation::Add(self.number(a)?, self.known(number)),
+            Step::Scale(a, number) => Operation::Mul(self.number(a)?, self.known(number)),
+            Step::Mul(a, b) => Operation::Mul(self.number(a)?, self.number(b)?),
+            Step::Power(a, 2.0) => {
+                let a = self.number(a)?;
+                Operation::Mul(a, a)
+            }
+            Step::Call(Function::Sqrt, a) => Operation::Sqrt(self.number(a)?),
+            Step::Call(Function::Abs, a) => Operation::Abs(self.number(a)?),
+            Step::Larger(a, b) => Operation::Larger(self.number(a)?, self.number(b)?),
+            _ => return None,
+        };
+        Some(self.push(operation))
+    }
+
+    /// Whether each operation is affine in each name, or in the sine and cosine of it.
+    fn affine(&self) -> Vec<bool> {
+        let mut names: Vec<Option<Names>> = Vec::with_capacity(self.operations.len());
+        for operation in &self.operations {
+            let own = match *operation {
+                Operation::Name(name, _) => Some(1 << name),
+                Operation::Known(_) => Some(0),
+                Operation::Neg(a) => names[a],
+                Operation::Add(a, b) => names[a].zip(names[b]).map(|(a, b)| a | b),
+                Operation::Mul(a, b) => {
+                    names[a].zip(names[b]).filter(|(a, b)| a & b == 0).map(|(a, b)| a | b)
+                }
+                Operation::Sqrt(_) | Operation::Abs(_) | Operation::Larger(..) => None,
+            };
+            names.push(own);
+        }
+        names.iter().map(Option::is_some).collect()
+    }
+
+    /// Whether names stand in a norm only by its parts, or their negatives.
+    fn is_of(&self, norm: At, parts: &[At]) -> bool {
+        let mut is_part = vec![false; self.operations.len()];
+        for part in parts {
+            is_part[*part] = true;
+            if let Operation::Neg(a) = self.operations[*part] {
+                is_part[a] = true;
+            }
+        }
+        let mut is_needed = vec![false; self.operations.len()];
+        is_needed[norm] = true;
+        for (at, operation) in self.operations.iter().enumerate().rev() {
+            if !is_needed[at] || is_part[at] {
+                continue;
+            }
+            if matches!(operation, Operation::Name(..)) {
+                return false;
+            }
+            operation.operands().for_each(|operand| is_needed[operand] = true);
+        }
+        true
+    }
+}
