@@ -63,7 +63,7 @@ fn nothing_exceeds_the_corners() {
             let box_ = part(&all, &mut random);
             let mut magnitudes = Magnitudes::new(&spec);
             let kinds = kinds(&magnitudes);
-            let effort = Effort { boxes: 3000, ..Effort::default() };
+            let effort = Effort { boxes: 1000, ..Effort::default() };
             let bounds =
                 kinds.map(|five| five.map(|one| bounded(&spec, &mut magnitudes, &one, &box_, &effort)));
             all_bounds += bounds.as_flattened().len();
