@@ -240,6 +240,22 @@ fn stiffness_is_said_where_something_gives_way() {
     assert!(json(&["bound", quill, "--json"])["stiffness"].is_null());
     let text = prints(&["bound", quill, "--least"]);
     assert!(text.contains("tool point, N/mm") && text.contains("out = 400"), "{text}");
+
+    // A force at the tool point has no lever about the spindle's axis. And of what has no number nothing is found.
+    let beam = "beam = { axis = \"z\", length = \"out\", EI_y = \"1.3e5 N*m^2\", EI_z = \"2e5 N*m^2\" }";
+    let turns = |about_z: &str| {
+        let text = spec.replace(beam, &format!("compliance = {{ diagonal = [0, 0, 0, 0, 0, {about_z}] }}"));
+        write(folder.path(), "turns.toml", &text)
+    };
+    let bearing = turns("\"1e-6/(N*m)\"");
+    assert!(json(&["bound", bearing.to_str().unwrap(), "--least", "--json"])["stiffness"].is_null());
+    let nowhere = write(
+        folder.path(),
+        "nowhere.toml",
+        &spec.replace("\"1.3e5 N*m^2\"", "\"1e5 N*m^2 * sqrt(-1 - out^2/(1 m^2))\""),
+    );
+    let text = prints(&["bound", nowhere.to_str().unwrap(), "--least", "--boxes", "100"]);
+    assert!(text.contains("0   not known   nowhere"), "{text}");
 }
 
 /// Errors that were identified on less than the box are not certified in silence, and what cannot be proved is not tried.

@@ -19,7 +19,7 @@ pub struct ToolCompliance {
 }
 
 impl ToolCompliance {
-    /// That of a checked spec; none if nothing gives way.
+    /// That of a checked spec; none if no force moves the tool point.
     pub fn new(spec: &Spec) -> Option<Self> {
         let mut sources = spec.enabled_sources().filter(|source| source.class == Class::Repeatable);
         if !sources.any(|source| source.effects.iter().any(|effect| effect.cause.is_elastic())) {
@@ -40,7 +40,8 @@ impl ToolCompliance {
             let errors = elastic_errors(g, spec, &loads);
             at_tool(g, &links, &errors, 0).shift.to_vec()
         });
-        let rows = rows.collect();
-        Some(Self { graph, rows })
+        let rows: Vec<Vec<Node>> = rows.collect();
+        let moves = rows.concat().iter().any(|entry| graph.value(*entry) != Some(0.0));
+        moves.then_some(Self { graph, rows })
     }
 }

@@ -23,7 +23,7 @@ const _: () = assert!(VERTICES * VERTICES == LANES);
 /// The tangents of longer pieces meet too far away: half of them, rad.
 const LONGEST: f64 = 1.2;
 /// How many names may move: of k angles there are `VERTICES`^k corners.
-const MOST_NAMES: usize = 7;
+const MOST_NAMES: usize = 8;
 
 /// A convex norm, and the order in which its names move on.
 #[derive(Clone, Debug)]

@@ -33,8 +33,8 @@ pub enum Extreme {
 pub struct Singular {
     /// What no least singular value is below, 0 if nothing is known; what no largest one exceeds, infinite if nothing is known.
     pub certified: f64,
-    /// The singular value at `at`.
-    pub found: f64,
+    /// The singular value at `at`; none if the matrix is finite nowhere it was looked at.
+    pub found: Option<f64>,
     /// The value of each name where `found` is.
     pub at: Vec<f64>,
     /// How many boxes were looked at.
@@ -175,7 +175,8 @@ impl Search {
                 }
             }
             if open.is_empty() {
-                return Singular { certified, found: shown, at, boxes, complete };
+                let found = Some(shown).filter(|found| found.is_finite());
+                return Singular { certified, found, at, boxes, complete };
             }
         }
     }
@@ -207,15 +208,16 @@ impl Search {
         both.into_iter().unzip()
     }
 
-    /// The signed value at a point.
+    /// The signed value at a point; infinite where nothing is known of it.
     fn value_at(&self, at: &[f64]) -> f64 {
         let (forms, _) = self.matrix.evaluate::<0>(&mut Vec::new(), at, &vec![0.0; at.len()]);
+        // Where nothing is known of an entry its centre says nothing.
+        if !forms.iter().all(|form| form.centre.is_finite() && form.radius().is_finite()) {
+            return f64::INFINITY;
+        }
         let entries: Vec<f64> = forms.iter().map(|form| form.centre).collect();
         let matrix = DMatrix::from_row_slice(self.rows, entries.len() / self.rows, &entries);
-        match matrix.iter().all(|entry| entry.is_finite()) {
-            true => self.sign() * self.sorted(matrix).0[0],
-            false => f64::INFINITY,
-        }
+        self.sign() * self.sorted(matrix).0[0]
     }
 
     fn look<const N: usize>(&self, registers: &mut Vec<Form<N>>, cell: &Cell) -> Look {

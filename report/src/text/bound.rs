@@ -96,11 +96,16 @@ fn of_joints(dexterity: &Dexterity) -> Table {
 fn least(rows: &[(&str, &Least, f64)]) -> Table {
     let mut table = Table::new(&["of", "never below", "found", "found at"]);
     for (name, least, factor) in rows {
-        let decimals = number::decimals((factor * least.found).max(1e-3), 5);
-        let place = if least.place.is_empty() { "home" } else { &least.place };
+        let found = least.found.map(|found| factor * found);
+        let decimals = number::decimals(found.unwrap_or(factor * least.certified).max(1e-3), 5);
+        let place = match least.found {
+            None => "nowhere",
+            Some(_) if least.place.is_empty() => "home",
+            Some(_) => &least.place,
+        };
         let certified = number::rounded_down(factor * least.certified, decimals);
         let mark = if least.complete { "" } else { " (gap not reached)" };
-        let found = number::fixed(factor * least.found, decimals);
+        let found = found.map_or("not known".to_owned(), |found| number::rounded_up(found, decimals));
         table.row([(*name).to_owned(), certified, found, unbroken(place) + mark]);
     }
     table.right(&[1, 2])

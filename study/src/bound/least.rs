@@ -22,7 +22,7 @@ impl Domain {
         Some(Dexterity { point: least(&point), pose: pose.as_ref().map(least) })
     }
 
-    /// Of the tool point, N/m: the inverse of how far a force of 1 N moves it at most; none if nothing gives way.
+    /// Of the tool point, N/m: the inverse of how far a force of 1 N moves it at most; none if no force moves it.
     pub(super) fn stiffness(
         &self,
         effort: &Effort,
@@ -32,12 +32,12 @@ impl Domain {
         let still = |symbol| home(symbol, &self.spec);
         let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), still, effort, watch);
         let certified = (1.0 / largest.certified).next_down().max(0.0);
-        Some(self.least(&Singular { certified, found: 1.0 / largest.found, ..largest }))
+        Some(self.least(&Singular { certified, found: largest.found.map(f64::recip), ..largest }))
     }
 
     fn least(&self, least: &Singular) -> Least {
         let (at, place) = self.place(&least.at);
         let Singular { certified, found, boxes, complete, .. } = *least;
-        Least { certified, found, at, boxes, complete, place }
+        Least { certified, found: found.filter(|found| found.is_finite()), at, boxes, complete, place }
     }
 }

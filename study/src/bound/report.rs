@@ -156,8 +156,8 @@ pub struct Dexterity {
 pub struct Least {
     /// It is no less than this.
     pub certified: f64,
-    /// It is no more than this.
-    pub found: f64,
+    /// It is no more than this; none if there was no number wherever it was looked for.
+    pub found: Option<f64>,
     /// Where `found` is.
     pub at: IndexMap<String, f64>,
     /// How many boxes were looked at.
