@@ -9,7 +9,8 @@ use abbe::lanes::{Kernel, Lanes, Register, Tiles};
 use abbe_codegen::expr::{Function, Lookup, Table};
 use abbe_codegen::program::Action;
 
-use crate::tape::{Chain, Instruction, Link, LinkKind, Operation, Part, Slot, Tape};
+use crate::operation::{Chain, Instruction, Link, LinkKind, Operation, Slot};
+use crate::tape::{Part, Tape};
 
 /// How many tiles of a batch are evaluated together: enough to hide the choice of an operation, few enough for
 /// all slots to stay in the cache.

@@ -19,14 +19,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `tape` is a program with its registers packed, `chains` of its operations as one; `lanes` evaluates it. `bound` finds the largest value of a node over a box, with a
-//! proof.
+//! A program comes as `chains` of its steps, each an `operation` on slots; `pack` makes a `tape` of them, and `lanes` evaluates it. `bound` finds
+//! the largest value of a node over a box, with a proof.
 
 pub mod bound;
 
 mod chains;
 mod interpreter;
 mod lanes;
+mod operation;
+mod pack;
 mod tape;
 
 pub use interpreter::Interpreter;
