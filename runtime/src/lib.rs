@@ -16,6 +16,7 @@
 //! | `analysis` | the modules `analysis` (errors over a workspace) and `laws` (tests of your manipulator) | those of `lanes` and `nalgebra`, rand |
 //! | `identify` | the modules `identify` (errors from measurements) and `control` (charts of a machine that is checked again and again) | those of `analysis` |
 //! | `parallel` | sweeps on all cores: the same results, sooner | those of `analysis`, rayon |
+//! | `serde` | errors, and parts of budgets, that can be written and read | those of `analysis`, serde |
 //!
 //! | convention | here |
 //! |---|---|
@@ -27,78 +28,9 @@
 //! | units | the spec's length unit, radians |
 #![cfg_attr(not(feature = "std"), no_std)]
 
-mod chain;
-mod checked_functions;
-pub mod checks;
-pub mod compensator;
-mod component;
-mod delegate;
-mod description;
-pub mod distinct;
-#[cfg(feature = "std")]
-mod drawn_pose;
-mod error;
-mod floats;
-pub mod function;
-mod lookup_table;
-mod manipulator;
-#[cfg(feature = "nalgebra")]
-mod nalgebra_views;
-mod pose;
-mod scalar;
-mod shared;
-mod sin_cos;
-#[cfg(feature = "lanes")]
-mod twist;
-#[cfg(target_arch = "x86_64")]
-mod x86;
+pub use abbe_core::*;
 
 #[cfg(feature = "analysis")]
-pub mod analysis;
+pub use abbe_analysis as analysis;
 #[cfg(feature = "identify")]
-pub mod control;
-#[cfg(feature = "identify")]
-pub mod identify;
-#[cfg(feature = "lanes")]
-pub mod lanes;
-#[cfg(not(feature = "lanes"))]
-#[doc(hidden)]
-#[macro_export]
-macro_rules! lane_functions {
-    ($($any:tt)*) => {};
-}
-#[cfg(feature = "analysis")]
-pub mod laws;
-
-pub use chain::{chain, deviation, located, real_pose};
-pub use component::Component;
-pub use delegate::Delegate;
-pub use description::{
-    Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
-    Variable, VariableKind,
-};
-pub use distinct::ErrorColumns;
-#[cfg(feature = "std")]
-pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
-pub use error::{Error, MINIMUM_MARGIN, Quantity};
-pub use function::Function;
-pub use lookup_table::LookupTable;
-pub use manipulator::Manipulator;
-#[cfg(feature = "nalgebra")]
-pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
-pub use pose::Pose;
-pub use scalar::Scalar;
-pub use shared::{List, Text};
-
-/// Includes every module that `abbe_codegen::compile` generated in this crate's build script.
-///
-/// ```ignore
-/// // build.rs:   fn main() { abbe_codegen::compile("specs") }
-/// abbe::include_manipulators!();
-/// ```
-#[macro_export]
-macro_rules! include_manipulators {
-    () => {
-        include!(concat!(env!("OUT_DIR"), "/abbe_manipulators.rs"));
-    };
-}
+pub use abbe_calibration::{control, identify};

@@ -1,6 +1,6 @@
 //! Six values in the order of ε, and the two vectors that they are.
 
-use abbe::Component;
+use abbe_core::Component;
 
 use crate::expr::{Motion, motion};
 use crate::graph::{Node, Vector};

@@ -23,8 +23,8 @@ pub struct EffectNode {
 
 impl EffectNode {
     /// What it acts on.
-    pub fn effect(&self) -> abbe::Effect {
-        abbe::Effect::new(self.source, self.frame, self.component)
+    pub fn effect(&self) -> abbe_core::Effect {
+        abbe_core::Effect::new(self.source, self.frame, self.component)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe::Scalar;
+use abbe_core::Scalar;
 
 use super::{Dimension, Function, Symbol, Table};
 use crate::diagnostic::Span;

@@ -1,6 +1,6 @@
 //! The functions that an expression may call.
 
-use abbe::Scalar;
+use abbe_core::Scalar;
 
 /// A function of one argument; `atan2`, `min` and `max` are operators of two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

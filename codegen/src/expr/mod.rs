@@ -19,7 +19,7 @@ mod transform;
 mod unit;
 mod value;
 
-pub use abbe::LengthUnit;
+pub use abbe_core::LengthUnit;
 pub use dimension::Dimension;
 pub use expression::{Binary, Expression, Kind, Lookup, Term};
 pub use function::{FUNCTION_NAMES, Function};

@@ -1,6 +1,6 @@
 //! Functions that a spec gives by points.
 
-use abbe::LookupTable;
+use abbe_core::LookupTable;
 
 use super::Dimension;
 use super::cubic::slopes;

@@ -1,6 +1,6 @@
 //! Products of elementary motions: `Tx(d1) Ry(q4) Tz(300 mm)`.
 
-use abbe::Component;
+use abbe_core::Component;
 
 use super::parse::Parser;
 use super::scope::Allowed;

@@ -1,6 +1,6 @@
 //! Unit names and their conversion into the coherent system of a spec.
 
-use abbe::LengthUnit;
+use abbe_core::LengthUnit;
 
 use super::Dimension;
 

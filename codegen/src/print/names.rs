@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use abbe::Function;
+use abbe_core::Function;
 
 use crate::expr::Symbol;
 use crate::program::{Action, Array, Operand, Program, Routine, Stage};

@@ -1,6 +1,6 @@
 //! What a manipulator is called and has, as records within records.
 
-use abbe::Description;
+use abbe_core::Description;
 
 use super::layout::Writer;
 

@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-use abbe::Description;
-use abbe::function::Count;
+use abbe_core::Description;
+use abbe_core::function::Count;
 
 use super::body::body;
 use super::expression::{Syntax, Value};

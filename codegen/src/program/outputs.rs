@@ -1,6 +1,6 @@
 //! Which nodes of a model are the outputs of which function: told here, and nowhere else.
 
-use abbe::Function;
+use abbe_core::Function;
 
 use super::Program;
 use super::select::Selections;

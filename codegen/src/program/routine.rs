@@ -3,8 +3,8 @@
 //! A stage is a straight-line [`Program`], once or for every frame, the call of another routine, or a table of sums. Most
 //! functions are one program that reads the arguments as symbols and writes whole results.
 
-use abbe::function::Count;
-use abbe::{Description, Function};
+use abbe_core::function::Count;
+use abbe_core::{Description, Function};
 
 use super::{Operations, Program};
 

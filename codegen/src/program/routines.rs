@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use abbe::function::{Count, Signature};
-use abbe::{Description, Function};
+use abbe_core::function::{Count, Signature};
+use abbe_core::{Description, Function};
 
 use super::loops::Loops;
 use super::outputs::{Outputs, fewest, ways};
@@ -156,7 +156,11 @@ impl Routines {
 /// The arrays of a signature, in its order, and the margin.
 fn arguments_and_results(signature: &Signature, orientation: Orientation) -> Vec<Array> {
     let array = |role| {
-        move |array: &abbe::function::Array| Array { name: array.name, shape: array.shape.to_vec(), role }
+        move |array: &abbe_core::function::Array| Array {
+            name: array.name,
+            shape: array.shape.to_vec(),
+            role,
+        }
     };
     let arguments = signature.arguments.iter().map(array(Role::Argument));
     let results = signature.results.iter().map(array(Role::Result));

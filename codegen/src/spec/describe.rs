@@ -2,7 +2,7 @@
 
 use indexmap::IndexSet;
 
-use abbe::{Description, Effect, Frame, Input, Parameter, Source, Variable};
+use abbe_core::{Description, Effect, Frame, Input, Parameter, Source, Variable};
 
 use super::{ChainNumber, Spec};
 

@@ -25,7 +25,7 @@ mod tables;
 mod tunable;
 mod types;
 
-pub use abbe::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
+pub use abbe_core::{Class, Component, Distribution, LengthUnit, Orientation, VariableKind};
 pub use covariance::{Covariance, Identified};
 pub use fitted::Fitted;
 pub use keys::TABLES;

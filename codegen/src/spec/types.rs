@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use abbe::{Class, Component, LengthUnit, Orientation, VariableKind};
+use abbe_core::{Class, Component, LengthUnit, Orientation, VariableKind};
 
 use super::{Covariance, Fitted};
 use crate::diagnostic::Span;

@@ -1,6 +1,6 @@
 //! Corrected commands in C: the fixed number of steps of `abbe::compensator`, term by term.
 
-use abbe::VariableKind;
+use abbe_core::VariableKind;
 
 use super::real::Real;
 use super::shortest::Solver;

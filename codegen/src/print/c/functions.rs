@@ -143,7 +143,7 @@ impl Printer<'_> {
         let upper = self.upper();
         if let Some(margin) = margin {
             self.writer.lines(&format!("const {real} margin = {margin};"));
-            self.writer.open(&format!("if (!(margin >= {}))", real.number(abbe::MINIMUM_MARGIN)));
+            self.writer.open(&format!("if (!(margin >= {}))", real.number(abbe_core::MINIMUM_MARGIN)));
             self.writer
                 .lines(&format!("return (isnan(margin) != 0) ? {upper}_NOT_FINITE : {upper}_SINGULAR;"));
             self.writer.close("}");

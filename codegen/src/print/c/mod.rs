@@ -194,7 +194,7 @@ fn sums_of_terms(writer: &mut Writer, Sums { name, constants, factors }: &Sums, 
 
 /// How many of everything there are.
 fn counts(writer: &mut Writer, upper: &str, routines: &Routines) {
-    use abbe::function::Count;
+    use abbe_core::function::Count;
     let entries = [
         ("FRAMES", Count::Frames, "Frames."),
         ("ERRORS", Count::Errors, "Generalized errors: six a frame."),

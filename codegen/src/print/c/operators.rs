@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use abbe::Function;
+use abbe_core::Function;
 
 use super::real::Real;
 use crate::expr::{Function as Operator, Lookup};

@@ -1,7 +1,7 @@
 //! A function that holds the functions, as a target's compiler made them, against numbers of the generator.
 
-use abbe::Function;
-use abbe::function::Array;
+use abbe_core::Function;
+use abbe_core::function::Array;
 
 use super::real::Real;
 use crate::chain::Model;

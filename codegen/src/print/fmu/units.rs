@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use abbe::LengthUnit;
+use abbe_core::LengthUnit;
 
 use super::xml::Element;
 use crate::expr::Dimension;

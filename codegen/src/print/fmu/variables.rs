@@ -1,7 +1,7 @@
 //! The variables of a machine: their names, units, limits and starts, in the order of their value references.
 
-use abbe::function::Signature;
-use abbe::{Function, Orientation, Quantity, VariableKind};
+use abbe_core::function::Signature;
+use abbe_core::{Function, Orientation, Quantity, VariableKind};
 
 use super::units::Unit;
 use crate::expr::Dimension;

@@ -35,7 +35,7 @@ fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
         let signature = function.signature();
         writer.documentation(routine.documentation);
         writer.documentation_line("");
-        let numbers = |array: &abbe::function::Array| {
+        let numbers = |array: &abbe_core::function::Array| {
             let shape = array.shape.iter().map(|count| count.value(&routines.description).to_string());
             format!(
                 "{} Numbers: {}; {}.",

@@ -1,6 +1,6 @@
 //! Routines as functions.
 
-use abbe::function;
+use abbe_core::function;
 
 use super::operators::{Matlab, number};
 use crate::print::flat::Flat;

@@ -1,7 +1,7 @@
 //! Routines as functions.
 
-use abbe::Quantity;
-use abbe::function;
+use abbe_core::Quantity;
+use abbe_core::function;
 
 use super::operators::{Python, number};
 use crate::print::flat::Flat;

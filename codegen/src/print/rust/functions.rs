@@ -1,7 +1,7 @@
 //! The array functions of a module: generic over the scalar, without checks.
 
-use abbe::Function;
-use abbe::function::Count;
+use abbe_core::Function;
+use abbe_core::function::Count;
 
 use super::operators::Rust;
 use crate::print::expression::{Expression, Value};

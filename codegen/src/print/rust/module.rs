@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe::Function;
+use abbe_core::Function;
 
 use super::face;
 use super::functions::{error_columns, raw_function, shares_columns};

@@ -1,6 +1,6 @@
 //! A routine while it is written: its arrays, and its stages so far.
 
-use abbe::function::Count;
+use abbe_core::function::Count;
 
 use super::Loops;
 use super::body::Body;

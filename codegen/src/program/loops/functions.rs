@@ -1,6 +1,6 @@
 //! Jacobians and what is accumulated over the frames.
 
-use abbe::function::Count;
+use abbe_core::function::Count;
 
 use super::body::Body;
 use super::draft::{Draft, POSE, RowsArray};

@@ -11,7 +11,7 @@ mod functions;
 mod sums;
 mod walk;
 
-use abbe::Function;
+use abbe_core::Function;
 
 use self::draft::Draft;
 use self::sums::{Sum, Twists};

@@ -1,6 +1,6 @@
 //! The way along the frames, and the routines that several functions go it by.
 
-use abbe::function::Count;
+use abbe_core::function::Count;
 
 use super::Loops;
 use super::body::Body;

@@ -1,0 +1,266 @@
+//! What all sources do together over the workspace.
+
+use super::Ellipsoid;
+use super::enclosing_sphere::Sphere;
+use super::outline::{self, Outline, View};
+use super::peak::{self, Peak};
+use super::sums::Sums;
+use abbe_core::Scalar;
+use abbe_core::lanes::{Lanes, Register};
+
+/// The largest value over the workspace, and where.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Extreme {
+    /// The value, in the length unit; 0 for an empty workspace.
+    pub value: f64,
+    /// Index of its configuration; none for an empty workspace.
+    pub configuration: Option<usize>,
+}
+
+impl Extreme {
+    pub(super) fn add(&mut self, index: usize, value: f64) {
+        if self.configuration.is_none() || value > self.value {
+            *self = Self { value, configuration: Some(index) };
+        }
+    }
+}
+
+/// What all sources do together over the workspace.
+///
+/// | way | repeatable sources r_k | random sources with bounds b_k |
+/// |---|---|---|
+/// | the paper's | Σ r_k, with signs | root sum of squares of the b_k |
+/// | GUM | | standard deviation: root sum of squares of b_k/√3 (uniform), b_k/√6 (triangular), b_k/√2 (arcsine), b_k/3 (normal) |
+/// | worst case | Σ \|r_k\| | Σ \|b_k\| |
+///
+/// Of positions in the length unit, of orientations in rad; all 0 for an empty workspace.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Combined {
+    /// max ‖Σ repeatable‖: the radius of the error sphere about zero.
+    pub repeatable_radius: Extreme,
+    /// max ‖RSS random‖.
+    pub random_radius: Extreme,
+    /// max over the configurations of ‖Σ repeatable‖ + ‖RSS random‖.
+    pub radius: Extreme,
+    /// The largest \|Σ repeatable\| along x, y, z of `F_0`.
+    pub repeatable: [f64; 3],
+    /// The largest root sum of squares along x, y, z of `F_0`.
+    pub random: [f64; 3],
+    /// Root mean squares over the configurations of the three norms: repeatable, random, both added.
+    pub rms: [f64; 3],
+    /// The largest standard deviation along x, y, z of `F_0`.
+    pub standard_deviation: [f64; 3],
+    /// max √(tr Σ): the standard deviation of the position.
+    pub standard_radius: Extreme,
+    /// The largest sum of absolute values of all sources along x, y, z of `F_0`.
+    pub worst_case: [f64; 3],
+    /// max Σ ‖·‖ over all sources, whatever their signs. No draw makes more if the random sources are bounded; of a normal
+    /// one the bound is 3σ, which 0.27 % of its draws exceed.
+    pub worst_case_radius: Extreme,
+    /// max over the configurations of ‖Σ repeatable‖ + Σ ‖b_k‖: the repeatable sources as they are, the random ones at
+    /// their bounds, all in that direction. No draw makes more if these are bounded.
+    pub bounded_radius: Extreme,
+    /// The 95 % ellipsoid where the standard deviation in any direction is largest.
+    pub ellipsoid: Ellipsoid,
+    /// The smallest sphere around the position errors Σ repeatable of all configurations.
+    pub enclosing: Sphere,
+}
+
+/// Largest eigenvalues that differ by less than this share of them count as equal.
+const ALIKE: f64 = 1e-9;
+
+impl Combined {
+    /// Takes in what follows, but for the spheres, which [`Gathered`] has.
+    fn merge(&mut self, other: &Self) {
+        for (here, other) in [
+            (&mut self.repeatable_radius, &other.repeatable_radius),
+            (&mut self.random_radius, &other.random_radius),
+            (&mut self.radius, &other.radius),
+            (&mut self.standard_radius, &other.standard_radius),
+            (&mut self.worst_case_radius, &other.worst_case_radius),
+            (&mut self.bounded_radius, &other.bounded_radius),
+        ] {
+            if let Some(index) = other.configuration {
+                here.add(index, other.value);
+            }
+        }
+        for (here, other) in [
+            (&mut self.repeatable, other.repeatable),
+            (&mut self.random, other.random),
+            (&mut self.standard_deviation, other.standard_deviation),
+            (&mut self.worst_case, other.worst_case),
+        ] {
+            *here = core::array::from_fn(|i| here[i].max(other[i]));
+        }
+        if other.ellipsoid.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
+            self.ellipsoid = other.ellipsoid;
+        }
+    }
+}
+
+/// What was gathered over some configurations: [`Combined`] without the last steps.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Gathered {
+    combined: Combined,
+    outline: Outline,
+}
+
+impl Gathered {
+    /// Of no configurations, beginning with the ellipsoid of some.
+    pub(super) fn new(ellipsoid: Ellipsoid) -> Self {
+        let combined = Combined { ellipsoid, ..Combined::default() };
+        Self { combined, outline: Outline::default() }
+    }
+
+    /// Takes in what follows.
+    pub(super) fn merge(&mut self, other: &Self) {
+        self.combined.merge(&other.combined);
+        self.outline.merge(&other.outline);
+    }
+
+    /// Of the sum of the repeatable sources.
+    pub(super) fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// The result for so many configurations, with the sums of squares of the three norms, and some points.
+    pub(super) fn finish(self, count: usize, squares: [f64; 3], view: &View, known: &[[f64; 3]]) -> Combined {
+        let mut combined = self.combined;
+        combined.rms = squares.map(|sum| (sum / count.max(1) as f64).sqrt());
+        if count > 0 {
+            combined.enclosing = self.outline.sphere(view, known);
+        }
+        combined
+    }
+}
+
+/// Gathers what all sources do together in lanes.
+pub(super) struct Lane<R: Register> {
+    outline: outline::Lane<R>,
+    ellipsoid: Ellipsoid,
+    repeatable_square: Peak<R>,
+    random_square: Peak<R>,
+    radius: Peak<R>,
+    trace: Peak<R>,
+    worst_case_radius: Peak<R>,
+    bounded_radius: Peak<R>,
+    repeatable: [Lanes<R>; 3],
+    random: [Lanes<R>; 3],
+    variance: [Lanes<R>; 3],
+    worst_case: [Lanes<R>; 3],
+    squares: [Lanes<R>; 3],
+}
+
+impl<R: Register> Lane<R> {
+    /// Beginning with the ellipsoid of some configurations from everywhere, and the view of their errors.
+    pub(super) fn new(ellipsoid: Ellipsoid, view: View) -> Self {
+        let zero = Lanes::constant(0.0);
+        Self {
+            outline: outline::Lane::new(view),
+            ellipsoid,
+            repeatable_square: Peak::none(),
+            random_square: Peak::none(),
+            radius: Peak::none(),
+            trace: Peak::none(),
+            worst_case_radius: Peak::none(),
+            bounded_radius: Peak::none(),
+            repeatable: [zero; 3],
+            random: [zero; 3],
+            variance: [zero; 3],
+            worst_case: [zero; 3],
+            squares: [zero; 3],
+        }
+    }
+
+    /// Takes in the configurations of a tile; `index` says which those at its places are.
+    #[inline(always)]
+    pub(super) fn add(&mut self, sums: &Sums<R>, index: impl Fn(usize) -> usize) {
+        let &Sums { place, weight, .. } = sums;
+        self.repeatable_square.add(sums.repeatable_square, place);
+        self.random_square.add(sums.random_square, place);
+        let norms = [sums.repeatable_norm, sums.random_norm, sums.radius];
+        self.radius.add(sums.radius, place);
+        self.worst_case_radius.add(sums.norms, place);
+        self.bounded_radius.add(sums.repeatable_norm + sums.random_norms, place);
+        for (sum, norm) in self.squares.iter_mut().zip(norms) {
+            *sum = (norm * norm).mul_add(weight, *sum);
+        }
+        let covariance = &sums.covariance;
+        let diagonal = [covariance[0], covariance[1], covariance[2]];
+        self.trace.add(diagonal[0] + diagonal[1] + diagonal[2], place);
+        #[expect(clippy::needless_range_loop, reason = "four arrays go side by side")]
+        for i in 0..3 {
+            self.repeatable[i] = sums.repeatable[i].abs().max(self.repeatable[i]);
+            self.random[i] = sums.squares[i].max(self.random[i]);
+            self.variance[i] = diagonal[i].max(self.variance[i]);
+            self.worst_case[i] = sums.absolute[i].max(self.worst_case[i]);
+        }
+        if self.may_be_longer(covariance) {
+            self.longer(sums, &index);
+        }
+        self.outline.add(sums.repeatable, weight);
+    }
+
+    /// Whether `λ I − Σ` with the largest eigenvalue λ so far is not positive definite somewhere (Sylvester).
+    #[inline(always)]
+    fn may_be_longer(&self, covariance: &[Lanes<R>; 6]) -> bool {
+        let [longest, ..] = self.ellipsoid.principal.deviations;
+        let limit = Lanes::<R>::constant(longest * longest * (1.0 + ALIKE));
+        let [xx, yy, zz, xy, xz, yz] = *covariance;
+        let [a, b, c] = [limit - xx, limit - yy, limit - zz];
+        let minor = a * b - xy * xy;
+        let determinant = c * minor - yz * (a * yz - xy * xz) - xz * (b * xz - xy * yz);
+        let zero = Lanes::constant(0.0);
+        let least = a.min(minor).min(determinant);
+        // Where there is no random error all are 0, and nothing is longer.
+        zero.more_than(least).any()
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn longer(&mut self, sums: &Sums<R>, index: &dyn Fn(usize) -> usize) {
+        let [xx, yy, zz, xy, xz, yz] = sums.covariance.each_ref().map(Lanes::to_slice);
+        for (lane, place) in sums.place.to_slice().iter().enumerate() {
+            if sums.weight.to_slice()[lane] == 0.0 {
+                continue;
+            }
+            let covariance = [
+                [xx[lane], xy[lane], xz[lane]],
+                [xy[lane], yy[lane], yz[lane]],
+                [xz[lane], yz[lane], zz[lane]],
+            ];
+            let other = Ellipsoid::new(covariance, index(*place as usize));
+            if other.principal.deviations[0] > self.ellipsoid.principal.deviations[0] {
+                self.ellipsoid = other;
+            }
+        }
+    }
+
+    /// What was gathered, with the indices of the places; and the sums of squares of the three norms.
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Gathered, [f64; 3]) {
+        let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
+            let (value, configuration) =
+                peak.finish().map(|(value, place)| (f(value), Some(index(place)))).unwrap_or_default();
+            Extreme { value, configuration }
+        };
+        let roots = |largest: [Lanes<R>; 3]| largest.map(|square| peak::largest(square).sqrt());
+        let combined = Combined {
+            repeatable_radius: extreme(self.repeatable_square, f64::sqrt),
+            random_radius: extreme(self.random_square, f64::sqrt),
+            radius: extreme(self.radius, |radius| radius),
+            repeatable: self.repeatable.map(peak::largest),
+            random: roots(self.random),
+            standard_deviation: roots(self.variance),
+            standard_radius: extreme(self.trace, f64::sqrt),
+            worst_case: self.worst_case.map(peak::largest),
+            worst_case_radius: extreme(self.worst_case_radius, |radius| radius),
+            bounded_radius: extreme(self.bounded_radius, |radius| radius),
+            ellipsoid: self.ellipsoid,
+            ..Combined::default()
+        };
+        (Gathered { combined, outline: self.outline.finish() }, self.squares.map(peak::sum))
+    }
+}

@@ -1,0 +1,294 @@
+//! The outline of a cloud, and the smallest sphere around it.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+
+use super::enclosing_sphere::{Ball, Sphere};
+use super::peak;
+use abbe_core::Scalar;
+use abbe_core::lanes::{Lanes, Register};
+
+/// Points this much nearer to the centre than the sphere of some are not kept, in shares of its radius.
+const SHELL: f64 = 0.1;
+/// The most directions in which points are kept.
+const MOST: usize = 1 << 13;
+/// The finest grid has two to this power cells along an edge.
+const FINEST: u32 = 30;
+
+/// From where outlines are seen: the centre of the smallest sphere around some points. Those within the inner radius are
+/// forgotten.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) centre: [f64; 3],
+    inner: f64,
+}
+
+impl View {
+    pub(super) fn of(points: &[[f64; 3]]) -> Self {
+        let ball = Ball::around(&vectors(points).collect::<Vec<_>>());
+        Self { centre: ball.centre.into(), inner: (1.0 - SHELL) * ball.radius }
+    }
+}
+
+/// Of every direction the farthest point of a cloud, as seen from a centre.
+///
+/// Directions are the cells of a grid on the faces of a cube, so fine that different ones stay apart; while there are too many
+/// the cells double their width. What is kept follows from the points alone, neither from their order nor from how they were
+/// divided: outlines of parts merge into the outline of all.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Outline {
+    /// How far the farthest of those is that are not kept for being well inside, if there are any.
+    inside: Option<f64>,
+    /// How often the cells have doubled their width.
+    doubled: u32,
+    cells: BTreeMap<u64, Farthest>,
+}
+
+/// What is known of the points in a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Farthest {
+    point: [f64; 3],
+    distance: f64,
+    /// How far the farthest of the others is, if there are others.
+    other: Option<f64>,
+}
+
+impl Farthest {
+    /// Takes in another one. Of two that are equally far the one with the larger coordinates stays, so that order does not
+    /// matter.
+    fn merge(&mut self, mut next: Self) {
+        let order = |one: &Self| (one.distance, one.point);
+        if order(&next) > order(self) {
+            core::mem::swap(self, &mut next);
+        }
+        let other = if next.point == self.point { next.other } else { Some(next.distance) };
+        self.other = farther(self.other, other);
+    }
+}
+
+impl Outline {
+    fn add(&mut self, view: &View, point: [f64; 3]) {
+        let from = core::array::from_fn(|i| point[i] - view.centre[i]);
+        let distance = Vector3::from(from).norm();
+        self.put(cell(from, self.doubled), Farthest { point, distance, other: None });
+    }
+
+    fn put(&mut self, cell: u64, farthest: Farthest) {
+        match self.cells.get_mut(&cell) {
+            Some(known) => known.merge(farthest),
+            None => {
+                self.cells.insert(cell, farthest);
+                while self.cells.len() > MOST {
+                    self.double();
+                }
+            }
+        }
+    }
+
+    fn double(&mut self) {
+        self.doubled += 1;
+        for (cell, farthest) in core::mem::take(&mut self.cells) {
+            self.put(parent(cell, 1), farthest);
+        }
+    }
+
+    /// Takes in another outline, seen from the same centre.
+    pub(super) fn merge(&mut self, other: &Self) {
+        self.inside = farther(self.inside, other.inside);
+        while self.doubled < other.doubled {
+            self.double();
+        }
+        for (cell, farthest) in &other.cells {
+            // Cells may double their width on the way.
+            self.put(parent(*cell, self.doubled - other.doubled), *farthest);
+        }
+    }
+
+    /// Whether cells have doubled their width no more often than they can.
+    pub(super) fn is_sound(&self) -> bool {
+        self.doubled <= FINEST
+    }
+
+    /// The smallest sphere around the cloud, of which some points are known anyway.
+    ///
+    /// With `v` from the centre of the view to that of the sphere, a point at distance d in direction u is
+    /// `√(d² − 2d u·v + v²)` from the latter. Within a cell `u·v` varies by no more than its width w times `|v|`, and the square is
+    /// convex in d: points that are not kept are within the larger of its values at 0 and at the farthest of them, and
+    /// those well inside within `|v| + d`. Where this is no more than the radius, the sphere is the smallest.
+    pub(super) fn sphere(&self, view: &View, known: &[[f64; 3]]) -> Sphere {
+        let kept = self.cells.values().map(|farthest| farthest.point.into());
+        let Ball { centre, radius } = Ball::around(&vectors(known).chain(kept).collect::<Vec<_>>());
+        let v = centre - Vector3::from(view.centre);
+        let mut certain = self.inside.map_or(radius, |inside| radius.max(v.norm() + inside));
+        for Farthest { point, distance, other } in self.cells.values() {
+            let Some(other) = other else { continue };
+            let along = (Vector3::from(*point) - Vector3::from(view.centre)).dot(&v) / distance;
+            let least = along - width(self.doubled) * v.norm();
+            let square = (other * (other - 2.0 * least)).max(0.0) + v.norm_squared();
+            certain = certain.max(square.sqrt());
+        }
+        Sphere { centre: centre.into(), radius: certain, excess: certain - radius }
+    }
+}
+
+/// The larger of two distances, if there are two.
+fn farther(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    one.into_iter().chain(other).reduce(f64::max)
+}
+
+fn vectors(points: &[[f64; 3]]) -> impl Iterator<Item = Vector3<f64>> {
+    points.iter().copied().map(Vector3::from)
+}
+
+/// Number of the cell in which a direction meets the cube around the centre: its face, and its place along both edges.
+fn cell(from: [f64; 3], doubled: u32) -> u64 {
+    let mut axis = 0;
+    for i in 1..3 {
+        if from[i].abs() > from[axis].abs() {
+            axis = i;
+        }
+    }
+    let face = 2 * axis as u64 + u64::from(from[axis] < 0.0);
+    let place = |i: usize| {
+        let share = (from[(axis + i) % 3] / from[axis].abs() + 1.0) / 2.0;
+        // At the last edge, too; of a point in the centre it is 0.
+        ((share * f64::from(1_u32 << FINEST)) as u64).min((1 << FINEST) - 1)
+    };
+    parent(face << (2 * FINEST) | place(1) << FINEST | place(2), doubled)
+}
+
+/// The cell that holds this one when their width has doubled so often.
+fn parent(cell: u64, doubled: u32) -> u64 {
+    let mask = (1 << FINEST) - 1;
+    let (face, first, second) = (cell >> (2 * FINEST), cell >> FINEST & mask, cell & mask);
+    face << (2 * FINEST) | first >> doubled << FINEST | second >> doubled
+}
+
+/// Two unit vectors in a cell are no farther apart: by the diagonal of the cell on the cube, whose faces are at 1. Seen from the centre
+/// that is at most as long.
+fn width(doubled: u32) -> f64 {
+    core::f64::consts::SQRT_2 * 2.0 / f64::from(1_u32 << (FINEST - doubled))
+}
+
+/// Gathers an [`Outline`] in lanes.
+pub(super) struct Lane<R: Register> {
+    view: View,
+    /// The largest square of a distance inside; −1 if there is none.
+    inside: Lanes<R>,
+    outside: Vec<[f64; 3]>,
+}
+
+impl<R: Register> Lane<R> {
+    pub(super) fn new(view: View) -> Self {
+        Self { view, inside: Lanes::constant(-1.0), outside: Vec::new() }
+    }
+
+    /// Takes in the points of a tile; those of weight 0 repeat the last.
+    #[inline(always)]
+    pub(super) fn add(&mut self, points: [Lanes<R>; 3], weight: Lanes<R>) {
+        let centre = self.view.centre.map(Lanes::constant);
+        let from = core::array::from_fn(|i| points[i] - centre[i]);
+        let square = peak::square(from);
+        let outside = square.more_than(Lanes::constant(self.view.inner * self.view.inner));
+        if !outside.any() {
+            self.inside = square.max(self.inside);
+            return;
+        }
+        let [x, y, z] = points.each_ref().map(Lanes::to_slice);
+        let mut inside = -1.0_f64;
+        for (lane, square) in square.to_slice().iter().enumerate() {
+            if *square <= self.view.inner * self.view.inner {
+                inside = inside.max(*square);
+            } else if weight.to_slice()[lane] > 0.0 {
+                self.outside.push([x[lane], y[lane], z[lane]]);
+            }
+        }
+        self.inside = Lanes::constant(inside).max(self.inside);
+    }
+
+    pub(super) fn finish(self) -> Outline {
+        let inside = Some(peak::largest(self.inside)).filter(|square| *square >= 0.0).map(f64::sqrt);
+        let mut outline = Outline { inside, ..Outline::default() };
+        self.outside.iter().for_each(|point| outline.add(&self.view, *point));
+        outline
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::{halton, norm};
+
+    fn cloud(count: usize) -> Vec<[f64; 3]> {
+        let point = |i| core::array::from_fn(|k| (k + 1) as f64 * (halton(i, k) - 0.5) + 10.0);
+        (1..=count).map(point).collect()
+    }
+
+    fn outline(points: &[[f64; 3]], view: &View) -> Outline {
+        let mut outline = Outline::default();
+        points.iter().for_each(|point| outline.add(view, *point));
+        outline
+    }
+
+    /// More directions than are kept: the outline of all, whatever the order and however it was divided.
+    #[test]
+    fn outlines_of_parts_merge_into_that_of_all() {
+        let points = cloud(40_000);
+        let view = View::of(&points[..100]);
+        let all = outline(&points, &view);
+        assert!(all.doubled > 0 && all.cells.len() > MOST / 8);
+        let backwards = points.iter().rev().copied().collect::<Vec<_>>();
+        assert_eq!(all, outline(&backwards, &view));
+        for cut in [1, 300, 39_000] {
+            let [mut first, second] = [&points[..cut], &points[cut..]].map(|part| outline(part, &view));
+            let mut other = second.clone();
+            other.merge(&first);
+            first.merge(&second);
+            assert_eq!(all, first);
+            assert_eq!(all, other);
+        }
+        // Again and again the same points are no others.
+        let few = &points[..100];
+        assert_eq!(outline(&[few, few].concat(), &view), outline(few, &view));
+    }
+
+    #[test]
+    fn the_sphere_is_the_smallest_or_says_by_how_much_it_may_be_larger() {
+        let points = cloud(40_000);
+        let smallest = Ball::around(&vectors(&points).collect::<Vec<_>>()).radius;
+        // The better the view, the less.
+        for (known, excess) in [(3, 0.02), (30, 0.01), (512, 0.005)] {
+            let view = View::of(&points[..known]);
+            let sphere = outline(&points, &view).sphere(&view, &points[..known]);
+            let reach = |point: &[f64; 3]| norm(core::array::from_fn(|k| point[k] - sphere.centre[k]));
+            let farthest = points.iter().map(reach).fold(0.0, f64::max);
+            assert!(farthest <= sphere.radius * (1.0 + 1e-9), "{known}");
+            assert!(sphere.radius - sphere.excess <= smallest * (1.0 + 1e-9), "{known}");
+            assert!(sphere.excess < excess * smallest, "{known}: {}", sphere.excess);
+        }
+        // Where every direction is kept there is nothing that it could be larger by.
+        let few = &points[..4000];
+        let view = View::of(&few[..30]);
+        let sphere = outline(few, &view).sphere(&view, &few[..30]);
+        assert_eq!(sphere.excess, 0.0);
+        let smallest = Ball::around(&vectors(few).collect::<Vec<_>>()).radius;
+        assert!((sphere.radius / smallest - 1.0).abs() < 1e-9);
+    }
+
+    /// Two points in a cell are no farther apart, seen from the centre, than its width says.
+    #[test]
+    fn cells_are_as_wide_as_they_say() {
+        for doubled in [20, 25, 28] {
+            let mut first = BTreeMap::<u64, Vector3<f64>>::new();
+            for point in cloud(20_000) {
+                let from: [f64; 3] = core::array::from_fn(|k| (point[k] - 10.0) / (k + 1) as f64);
+                let unit = Vector3::from(from).normalize();
+                let known = first.entry(cell(from, doubled)).or_insert(unit);
+                assert!((*known - unit).norm() <= width(doubled));
+            }
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! Budgets in parts: a workspace is divided into chunks, and what was gathered of some merges with that of others.
+
+use core::fmt;
+use core::ops::{ControlFlow, Range};
+
+use super::gathering::{self, Beginning, Gathering, Scattered};
+use super::{Asked, Budget, OrientationErrors, RemainingErrors, Residual, Watch, remaining_errors};
+use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
+use crate::workspace::One;
+use crate::{Measurand, Subset, UnreachableSummary, Workspace};
+use abbe_core::lanes::Sweepable;
+use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register};
+use abbe_core::{Class, Scalar};
+
+/// How many configurations the error sphere and ellipsoid begin with.
+const SCATTERED: usize = 512;
+/// Into how many chunks a workspace is cut at least, and the most blocks of one.
+const CHUNKS: usize = 64;
+const LARGEST_CHUNK: usize = 64;
+
+/// An error budget that is made in parts, on one machine or on several.
+///
+/// The chunks of a workspace follow from its size alone. However they are divided into parts, on one instruction set
+/// the budget is the same to the last bit.
+///
+/// ```
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// # use pps::Pps;
+/// use abbe::analysis::{Asked, Survey, error_budget, joint_samples};
+///
+/// let workspace = joint_samples(&Pps, &[0, 1, 2, 3], 10_000)?;
+/// let survey = Survey::new(&Pps, &workspace, Asked::default())?;
+/// let mut part = survey.part(0..20, &mut ())?;
+/// part.append(survey.part(20..survey.chunks(), &mut ())?)?;
+/// assert_eq!(survey.finish(part), error_budget(&Pps, &workspace, Asked::default(), &mut ())?);
+/// # Ok(())
+/// # }
+/// ```
+pub struct Survey<'a> {
+    manipulator: &'a dyn Sweepable,
+    workspace: &'a dyn Workspace,
+    classes: Vec<Class>,
+    residuals: Option<&'a [Option<Residual>]>,
+    position: Beginning,
+    orientation: Beginning,
+    /// How many configurations a chunk has; the last one may have fewer.
+    chunk: usize,
+}
+
+/// What was gathered over some consecutive chunks of a [`Survey`].
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct BudgetPart {
+    chunks: Range<usize>,
+    position: Gathering,
+    orientation: Gathering,
+    compensation: Option<RemainingErrors>,
+    configurations: usize,
+    unreachable: UnreachableSummary,
+}
+
+/// A part that does not begin where the one before it ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Gap {
+    /// The first chunk that is missing, or there twice.
+    pub expected: usize,
+    /// The chunk that comes instead.
+    pub found: usize,
+}
+
+impl fmt::Display for Gap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "chunk {} should come next, but it is chunk {}", self.expected, self.found)
+    }
+}
+
+impl core::error::Error for Gap {}
+
+impl<'a> Survey<'a> {
+    /// Looks at some configurations from everywhere, from which all parts begin. Errors as for [`sweep`].
+    pub fn new(
+        manipulator: &'a dyn Sweepable,
+        workspace: &'a dyn Workspace,
+        asked: Asked<'a>,
+    ) -> Result<Self, Unevaluated> {
+        ready(manipulator, workspace)?;
+        let mut home = Vec::new();
+        sweep(manipulator, &One(workspace.home()), &mut |row| home.extend_from_slice(row.sources))
+            .map_err(|Unevaluated { error, .. }| Unevaluated { configuration: None, error })?;
+        // If one of these cannot be evaluated, the sweep over all of them will say which.
+        let known = &manipulator.description().sources;
+        let mut scattered = Measurand::ALL.map(|measurand| Scattered::new(measurand, known));
+        let _ = sweep(manipulator, &Subset { workspace, count: SCATTERED }, &mut |row| {
+            scattered.iter_mut().for_each(|scattered| scattered.add(known, row));
+        });
+        let classes = known.iter().map(|source| source.class).collect::<Vec<_>>();
+        let [first, second] = scattered;
+        Ok(Self {
+            manipulator,
+            workspace,
+            position: first.finish(&classes, &home, asked.tolerances[0]),
+            orientation: second.finish(&classes, &home, asked.tolerances[1]),
+            classes,
+            residuals: asked.residuals,
+            chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
+        })
+    }
+
+    /// Into how many chunks the workspace is cut: some sixty, and more of them if each would have more than 4096
+    /// configurations.
+    pub fn chunks(&self) -> usize {
+        self.workspace.len().div_ceil(self.chunk)
+    }
+
+    /// The configurations of some chunks, by their indices.
+    pub fn configurations(&self, chunks: &Range<usize>) -> Range<usize> {
+        let at = |chunk: usize| self.workspace.len().min(chunk.saturating_mul(self.chunk));
+        at(chunks.start)..at(chunks.end)
+    }
+
+    /// Evaluates some chunks, and no more than those that are done when the watcher ends it. Errors as for [`sweep`].
+    pub fn part(&self, chunks: Range<usize>, watch: &mut dyn Watch) -> Result<BudgetPart, Unevaluated> {
+        let chunks = chunks.start..chunks.end.min(self.chunks()).max(chunks.start);
+        let mut total = self.nothing(chunks.start);
+        let (rows, mut here) = (watch.rows(), self.workspace.home().clone());
+        in_order_until(
+            chunks.len(),
+            |i| InstructionSet::best().run(Chunk { survey: self, number: chunks.start + i, rows }),
+            |(part, blocks)| {
+                blocks.iter().for_each(|block| block.visit(&mut here, &mut |row| watch.row(row)));
+                let done = self.configurations(&part.chunks).end;
+                total.put(part);
+                match watch.done(done) {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
+            },
+        )?;
+        Ok(total)
+    }
+
+    /// Whether a part, which may come from elsewhere, can be one of this survey.
+    pub fn fits(&self, part: &BudgetPart) -> bool {
+        let sources = self.classes.len();
+        part.chunks.start <= part.chunks.end
+            && part.chunks.end <= self.chunks()
+            && part.position.is_of(sources)
+            && part.orientation.is_of(sources)
+            && part.compensation.is_some() == self.residuals.is_some()
+    }
+
+    /// The budget of what was gathered.
+    pub fn finish(&self, part: BudgetPart) -> Budget {
+        let count = part.configurations;
+        let (sources, combined, gains, least_likely) = part.position.finish(&self.position, count);
+        let (turned, turns, turn_gains, turn_least_likely) =
+            part.orientation.finish(&self.orientation, count);
+        Budget {
+            sources,
+            combined,
+            gains,
+            orientation: OrientationErrors { sources: turned, combined: turns, gains: turn_gains },
+            least_likely: [least_likely, turn_least_likely],
+            compensation: part.compensation,
+            configurations: count,
+            unreachable: part.unreachable.finish(),
+        }
+    }
+
+    /// Of no chunks, where one begins.
+    fn nothing(&self, chunk: usize) -> BudgetPart {
+        BudgetPart {
+            chunks: chunk..chunk,
+            position: Gathering::new(self.classes.len()),
+            orientation: Gathering::new(self.classes.len()),
+            compensation: self.residuals.map(|_| RemainingErrors::none()),
+            configurations: 0,
+            unreachable: UnreachableSummary::default(),
+        }
+    }
+}
+
+impl BudgetPart {
+    /// The chunks that it is of.
+    pub fn chunks(&self) -> Range<usize> {
+        self.chunks.clone()
+    }
+
+    /// How many configurations were reached and evaluated.
+    pub fn configurations(&self) -> usize {
+        self.configurations
+    }
+
+    /// How many could not be reached.
+    pub fn unreachable(&self) -> usize {
+        self.unreachable.count
+    }
+
+    /// Takes in the part that follows, of the same survey. [`Gap`] if it begins elsewhere.
+    pub fn append(&mut self, next: Self) -> Result<(), Gap> {
+        if next.chunks.start != self.chunks.end {
+            return Err(Gap { expected: self.chunks.end, found: next.chunks.start });
+        }
+        self.put(next);
+        Ok(())
+    }
+
+    fn put(&mut self, next: Self) {
+        self.position.append(next.position);
+        self.orientation.append(next.orientation);
+        if let (Some(here), Some(next)) = (&mut self.compensation, &next.compensation) {
+            here.merge(next);
+        }
+        self.configurations += next.configurations;
+        self.unreachable.append(next.unreachable);
+        self.chunks.end = next.chunks.end;
+    }
+}
+
+/// Some blocks of configurations, one after the other.
+struct Chunk<'s, 'a> {
+    survey: &'s Survey<'a>,
+    number: usize,
+    rows: bool,
+}
+
+impl<'a> Kernel for Chunk<'_, 'a> {
+    /// What was gathered, and the blocks themselves, if they are to be shown.
+    type Output = Result<(BudgetPart, Vec<Block<'a>>), Unevaluated>;
+
+    #[inline(always)]
+    fn run<R: Register>(self) -> Self::Output {
+        let Survey { manipulator, workspace, ref classes, residuals, .. } = *self.survey;
+        let (mut part, mut blocks) = (self.survey.nothing(self.number), Vec::new());
+        part.chunks.end += 1;
+        let range = self.survey.configurations(&part.chunks);
+        let mut position = gathering::Lane::<R>::new(&self.survey.position);
+        let mut orientation = gathering::Lane::<R>::new(&self.survey.orientation);
+        let mut compensated = remaining_errors::Lane::<R>::new();
+        let mut indices = Vec::with_capacity(range.len());
+        let mut block = Block::new(manipulator, workspace, BLOCK.min(range.len()));
+        for first in range.clone().step_by(BLOCK) {
+            block.evaluate(first..range.end.min(first + BLOCK))?;
+            let before = indices.len();
+            indices.extend_from_slice(&block.indices);
+            let displacements = &block.displacements;
+            let (tiles, count) = (displacements.tiles(), displacements.count());
+            let lane = Lanes::<R>::from_fn(|lane| lane as f64);
+            let place = |tile: usize| lane + Lanes::constant((before + tile * R::WIDTH) as f64);
+            let weight = |tile: usize| match count - tile * R::WIDTH {
+                left if left < R::WIDTH => Lanes::from_fn(|lane| f64::from(u8::from(lane < left))),
+                _ => Lanes::constant(1.0),
+            };
+            for k in 0..classes.len() {
+                for tile in 0..tiles {
+                    let rows = displacements.tile::<R>(tile);
+                    position.add_source(k, rows, place(tile), weight(tile));
+                    orientation.add_source(k, rows, place(tile), weight(tile));
+                }
+            }
+            let index = |place: usize| indices[place];
+            for tile in 0..tiles {
+                let rows = displacements.tile::<R>(tile);
+                let sums = position.add_sums(classes, rows, place(tile), weight(tile), index);
+                orientation.add_sums(classes, rows, place(tile), weight(tile), index);
+                if let Some(residuals) = residuals {
+                    compensated.add(residuals, &position.norm_of, &sums);
+                }
+            }
+            block.unreachable.drain(..).for_each(|unreachable| part.unreachable.add(unreachable));
+            if self.rows {
+                let size = BLOCK.min(range.len());
+                blocks.push(core::mem::replace(&mut block, Block::new(manipulator, workspace, size)));
+            }
+        }
+        let index = |place: usize| indices[place];
+        part.configurations = indices.len();
+        part.position = position.finish(self.number, index);
+        part.orientation = orientation.finish(self.number, index);
+        part.compensation = residuals.map(|_| compensated.finish(index));
+        Ok((part, blocks))
+    }
+}

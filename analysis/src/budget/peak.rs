@@ -1,0 +1,60 @@
+//! The largest value in every lane, and where.
+
+use abbe_core::Scalar;
+use abbe_core::lanes::{Lanes, Register};
+
+/// The largest value in every lane, and the place of the first configuration with it.
+#[derive(Clone, Copy)]
+pub(super) struct Peak<R: Register> {
+    value: Lanes<R>,
+    place: Lanes<R>,
+}
+
+impl<R: Register> Peak<R> {
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        Self { value: Lanes::constant(f64::NEG_INFINITY), place: Lanes::constant(-1.0) }
+    }
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, value: Lanes<R>, place: Lanes<R>) {
+        let more = value.more_than(self.value);
+        self.value = more.select(value, self.value);
+        self.place = more.select(place, self.place);
+    }
+
+    /// The largest of all lanes and its place, the first if there are several. None if nothing was added.
+    #[inline(always)]
+    pub(super) fn finish(self) -> Option<(f64, usize)> {
+        let lanes = self.value.to_slice().iter().zip(self.place.to_slice());
+        let best = lanes.fold(None, |best: Option<(f64, f64)>, (&value, &place)| match best {
+            Some(best) if best.0 > value || best.0 == value && best.1 < place => Some(best),
+            _ => Some((value, place)),
+        });
+        best.filter(|best| best.1 >= 0.0).map(|(value, place)| (value, place as usize))
+    }
+}
+
+/// The largest of all lanes.
+#[inline(always)]
+pub(super) fn largest<R: Register>(lanes: Lanes<R>) -> f64 {
+    lanes.to_slice().iter().fold(f64::NEG_INFINITY, |largest, value| largest.max(*value))
+}
+
+/// The least of all lanes.
+#[inline(always)]
+pub(super) fn least<R: Register>(lanes: Lanes<R>) -> f64 {
+    lanes.to_slice().iter().fold(f64::INFINITY, |least, value| least.min(*value))
+}
+
+/// The sum of all lanes, from the first on.
+#[inline(always)]
+pub(super) fn sum<R: Register>(lanes: Lanes<R>) -> f64 {
+    lanes.to_slice().iter().sum()
+}
+
+/// `x² + y² + z²`.
+#[inline(always)]
+pub(super) fn square<R: Register>([x, y, z]: [Lanes<R>; 3]) -> Lanes<R> {
+    x.mul_add(x, y.mul_add(y, z * z))
+}

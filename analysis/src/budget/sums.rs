@@ -1,0 +1,82 @@
+//! What all sources do together in the configurations of one tile.
+
+use super::{peak, variance};
+use abbe_core::lanes::{Lanes, Register};
+use abbe_core::{Class, Scalar};
+
+/// What all sources do together in the configurations of one tile, in three rows.
+pub(super) struct Sums<R: Register> {
+    /// Where the configurations stand in their chunk.
+    pub(super) place: Lanes<R>,
+    /// 1; 0 in lanes that repeat the last configuration.
+    pub(super) weight: Lanes<R>,
+    /// Σ r of the repeatable sources, the square of its norm, and its norm.
+    pub(super) repeatable: [Lanes<R>; 3],
+    pub(super) repeatable_square: Lanes<R>,
+    pub(super) repeatable_norm: Lanes<R>,
+    /// Σ b² of the random sources row by row, the sum of the three, and its root.
+    pub(super) squares: [Lanes<R>; 3],
+    pub(super) random_square: Lanes<R>,
+    pub(super) random_norm: Lanes<R>,
+    /// ‖Σ r‖ + √Σ b².
+    pub(super) radius: Lanes<R>,
+    /// Sums of the absolute values of all sources, row by row, and of their norms; of the norms of the random ones.
+    pub(super) absolute: [Lanes<R>; 3],
+    pub(super) norms: Lanes<R>,
+    pub(super) random_norms: Lanes<R>,
+    /// `Σ c b bᵀ` of the random sources: xx, yy, zz, xy, xz, yz.
+    pub(super) covariance: [Lanes<R>; 6],
+}
+
+impl<R: Register> Sums<R> {
+    /// Of the rows of a tile, the first of the three of the first source first, six of each source. `norm_of` takes the
+    /// norm of each source.
+    #[inline(always)]
+    pub(super) fn new(
+        classes: &[Class],
+        rows: &[Lanes<R>],
+        norm_of: &mut [Lanes<R>],
+        place: Lanes<R>,
+        weight: Lanes<R>,
+    ) -> Self {
+        let zero = Lanes::constant(0.0);
+        let (mut repeatable, mut squares, mut absolute) = ([zero; 3], [zero; 3], [zero; 3]);
+        let (mut norms, mut random_norms, mut covariance) = (zero, zero, [zero; 6]);
+        for ((class, rows), norm_of) in classes.iter().zip(rows.chunks(6)).zip(norm_of) {
+            let here = [rows[0], rows[1], rows[2]];
+            let [x, y, z] = here;
+            *norm_of = peak::square(here).sqrt();
+            norms = norms + *norm_of;
+            match class {
+                Class::Repeatable => repeatable = core::array::from_fn(|i| repeatable[i] + here[i]),
+                Class::Random(distribution) => {
+                    random_norms = random_norms + *norm_of;
+                    squares = core::array::from_fn(|i| here[i].mul_add(here[i], squares[i]));
+                    let variance = Lanes::constant(variance(*distribution));
+                    let [vx, vy, vz] = here.map(|row| row * variance);
+                    let parts = [(vx, x), (vy, y), (vz, z), (vx, y), (vx, z), (vy, z)];
+                    covariance = core::array::from_fn(|i| parts[i].0.mul_add(parts[i].1, covariance[i]));
+                }
+            }
+            absolute = core::array::from_fn(|i| absolute[i] + here[i].abs());
+        }
+        let repeatable_square = peak::square(repeatable);
+        let random_square = squares[0] + squares[1] + squares[2];
+        let (repeatable_norm, random_norm) = (repeatable_square.sqrt(), random_square.sqrt());
+        Self {
+            place,
+            weight,
+            repeatable,
+            repeatable_square,
+            repeatable_norm,
+            squares,
+            random_square,
+            random_norm,
+            radius: repeatable_norm + random_norm,
+            absolute,
+            norms,
+            random_norms,
+            covariance,
+        }
+    }
+}

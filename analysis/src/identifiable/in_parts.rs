@@ -1,0 +1,142 @@
+//! The rank of a chain of any length, from parts of it that move on their own.
+//!
+//! Seen from the tool, an error `ε_i` before the transform `A_{i+1}` counts `P Ad(A_{i+1} … A_n T)⁻¹ ε_i`, where `P` keeps what
+//! is measured. Let `A = A_1 … A_b` be the first part, `M_i(q) = Ad(A_{i+1} … A_b)⁻¹`, and `S` all that follows. Errors that no
+//! measurement sees add up to zero everywhere, and so also where only the first part has moved from `q` to `q′`:
+//!
+//! ```text
+//! D ε = P Ad(S)⁻¹ Σ_{i<b} (M_i(q) − M_i(q′)) ε_i = 0        for all q, q′, S
+//! ```
+//!
+//! for what follows has not moved. Where that holds, `μ = Σ_{i<b} M_i ε_i` is the same in every configuration as far as it is
+//! seen: the part's errors act as `μ` at frame b does, and what is left to ask is whether `ε_b + μ, ε_{b+1}, …` are seen by the
+//! rest of the chain. So the space of errors that are not seen is that of `D` times that of the rest, and
+//!
+//! ```text
+//! rank(chain) = rank(D) + rank(rest)
+//! ```
+//!
+//! without any assumption on the parts but that they share no variable. The last part moves against nothing; its rank is that
+//! of the sum itself. A lower pair has `D ε = 0` for the kernel of its `ad(S_i)` alone if poses are measured: 4 remain of each
+//! revolute joint, 2 of each prismatic one, 0 of a fixed frame, and 6 of the last part.
+
+use nalgebra::DMatrix;
+
+use super::{Identifiability, Measurement, Parts, not_finite, singular_values};
+use crate::{Configuration, Unevaluated, sampling};
+use abbe_core::{Component, Error, Manipulator, Pose, Quantity};
+
+/// What [`identifiable`](super::identifiable()) counts, part by part: the work grows with the length of the chain, not with
+/// its cube, and so do the rounding errors.
+///
+/// Every part is moved through the configurations while what follows it stands in those of others: joints have to be
+/// independent of each other, as those of [`random_joint_samples`](crate::random_joint_samples) are, and three times
+/// as many configurations as [`Parts::longest`] are enough: their rows outnumber the unknowns of every part by half if points
+/// are measured, and by more if poses are.
+///
+/// [`Error::Count`] if `parts` are not those of `A_1 … A_n, T`.
+pub fn identifiable_in_parts(
+    manipulator: &dyn Manipulator,
+    parts: &Parts,
+    configurations: &[Configuration],
+    measurement: Measurement,
+    base: bool,
+) -> Result<Identifiability, Unevaluated> {
+    let at = |configuration, error| Unevaluated { configuration, error };
+    let frames = manipulator.description().frames.len();
+    if parts.transforms() != frames + 1 {
+        let (expected, found) = (frames + 1, parts.transforms());
+        return Err(at(None, Error::Count { quantity: Quantity::Pose, expected, found }));
+    }
+    let mut transforms = vec![vec![Pose::IDENTITY; frames + 1]; configurations.len()];
+    for (i, (Configuration { q, s, .. }, transforms)) in
+        configurations.iter().zip(&mut transforms).enumerate()
+    {
+        manipulator.transforms(q, s, transforms).map_err(|error| at(Some(i), error))?;
+    }
+
+    let unknowns = 6 * (frames + usize::from(base));
+    let mut values = Vec::with_capacity(unknowns);
+    // The tool point as seen from the end of the part.
+    let mut points = vec![[0.0; 3]; configurations.len()];
+    for range in parts.ranges.iter().rev() {
+        // Of the transforms in it up to its end.
+        let mut tails: Vec<Vec<Pose>> =
+            transforms.iter().map(|transforms| transforms[range.clone()].to_vec()).collect();
+        for tails in &mut tails {
+            for i in (1..tails.len()).rev() {
+                tails[i - 1] = tails[i - 1].then(&tails[i]);
+            }
+        }
+        let is_last = range.end == frames + 1;
+        // The first transform comes after the base frame.
+        let skipped = usize::from(range.start == 0 && !base);
+        let matrix = part(&tails, &points, measurement, is_last, skipped);
+        values.extend(singular_values(triangle(matrix)).ok_or_else(|| at(None, not_finite()))?);
+        for (point, tails) in points.iter_mut().zip(&tails) {
+            *point = tails[0].apply(*point);
+        }
+    }
+    Ok(Identifiability::new(unknowns, values))
+}
+
+/// `D`, or of the last part the sum itself: a block of rows for each configuration, a column for each error. Lengths are in
+/// those of the part, so that all columns of `M_i` are of order 1, and rows in the root of their number.
+fn part(
+    tails: &[Vec<Pose>],
+    points: &[[f64; 3]],
+    measurement: Measurement,
+    is_last: bool,
+    skipped: usize,
+) -> DMatrix<f64> {
+    let count = tails.len();
+    let rows = measurement.rows();
+    let columns = 6 * (tails.first().map_or(0, Vec::len) - skipped);
+    let points: Vec<[f64; 3]> = match measurement {
+        Measurement::Pose => vec![[0.0; 3]; count],
+        Measurement::Point => points.to_vec(),
+    };
+    let origins = tails.iter().flatten().map(Pose::position).chain(points.iter().copied());
+    let length = origins.map(sampling::norm).fold(0.0, f64::max);
+    let length = if length > 0.0 { length } else { 1.0 };
+    let weight = 1.0 / (count as f64).sqrt();
+    let mut matrix = DMatrix::zeros(rows * count, columns);
+    for j in 0..count {
+        let (moved, point) = (&tails[(j + 1) % count], points[(j + 2) % count]);
+        let each = tails[j].iter().zip(moved).skip(skipped);
+        for (i, (tail, moved)) in each.enumerate() {
+            for component in Component::ALL {
+                let here = motion(tail, component, point, length);
+                let there = if is_last { [0.0; 6] } else { motion(moved, component, point, length) };
+                for k in 0..rows {
+                    let column = 6 * i + component.index();
+                    matrix[(rows * j + k, column)] = weight * (here[k] - there[k]);
+                }
+            }
+        }
+    }
+    matrix
+}
+
+/// How an error moves a point of the frame at `tail`, in the axes of that frame: its velocity, and the rotation.
+fn motion(tail: &Pose, component: Component, point: [f64; 3], length: f64) -> [f64; 6] {
+    let axis = component.axis();
+    let [x, y, z, _] = tail.0;
+    let along = [x[axis], y[axis], z[axis]];
+    if !component.is_rotation() {
+        return [along[0], along[1], along[2], 0.0, 0.0, 0.0];
+    }
+    let lever = tail.apply(point);
+    let mut velocity = [0.0; 3];
+    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    velocity[next] = -lever[last] / length;
+    velocity[last] = lever[next] / length;
+    let turned = [x, y, z].map(|axis| (0..3).map(|k| axis[k] * velocity[k]).sum());
+    let [u, v, w] = turned;
+    [u, v, w, along[0], along[1], along[2]]
+}
+
+/// A matrix with the same singular values that is no taller than wide.
+fn triangle(matrix: DMatrix<f64>) -> DMatrix<f64> {
+    if matrix.is_empty() { matrix } else { matrix.qr().r() }
+}

@@ -1,0 +1,79 @@
+//! The errors of a machine over its workspace: section 5 of the paper, on any [`Manipulator`](abbe_core::Manipulator).
+//!
+//! | folder | what |
+//! |---|---|
+//! | `workspace` | a [`Workspace`] makes configurations by index: grids and samples of joints, a presented volume, a box, a list |
+//! | `reach` | [`inverse()`] brings the tool to a target, [`compensated()`] the real tool, [`obstacle()`] says why it does not arrive |
+//! | `sweep` | [`sweep`] evaluates a workspace block by block, in parallel, and shows every [`Row`] in order; nothing is stored |
+//! | `budget` | [`error_budget`]: what every source does alone ([`SourceErrors`]), all together ([`Combined`]), what is left after compensation ([`RemainingErrors`]), what a tolerance allows ([`Admissible`]) |
+//! | `normal` | [`NormalVector`]: how likely is a norm of a normal error, and which is not exceeded with a probability; [`StudentVector`]: of one whose variance is known from few measurements |
+//! | `uncertainty` | [`Statement`]: the budget of the GUM at one configuration; [`compliance()`]: how likely a tolerance is met |
+//! | `random` | [`monte_carlo`] draws errors on the exact chain |
+//!
+//! [`identifiable()`] counts which generalized errors measurements can tell apart, [`identifiable_in_parts`] those of a chain
+//! of any length.
+//!
+//! An error budget over 10,000 random configurations:
+//!
+//! ```
+//! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
+//! # fn main() -> Result<(), Box<dyn core::error::Error>> {
+//! use abbe::analysis::{Admissible, Asked, error_budget, random_joint_samples};
+//! use pps::{DESCRIPTION, Pps};
+//!
+//! let moved = [0, 1, 2, 3]; // the three slides and the spin; the other joints stay at home
+//! let workspace = random_joint_samples(&Pps, &moved, 10_000, 1)?;
+//! let budget = error_budget(&Pps, &workspace, Asked::default(), &mut ())?;
+//! for errors in &budget.sources {
+//!     println!("{}: {:.4} mm", DESCRIPTION.sources[errors.source].name, errors.plain_max.norm);
+//! }
+//! let largest = budget.combined.radius;
+//! println!("all together: {:.3} mm in configuration {:?}", largest.value, largest.configuration);
+//! println!("all by this factor for 0.5 mm: {:?}", Admissible::new(&budget, 0.5).together);
+//! # assert!(budget.configurations == 10_000 && largest.value > 5.0);
+//! # Ok(())
+//! # }
+//! ```
+
+mod budget;
+pub mod decompose;
+mod identifiable;
+mod measurand;
+mod normal;
+mod random;
+mod reach;
+pub mod sampling;
+mod sweep;
+mod uncertainty;
+mod workspace;
+
+#[cfg(test)]
+#[path = "../../runtime/core/src/by_hand/mod.rs"]
+mod by_hand;
+#[cfg(test)]
+mod tests;
+
+pub use abbe_core::lanes::Sweepable;
+pub use budget::{
+    Admissible, Asked, Budget, BudgetPart, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, Gap,
+    OrientationErrors, RemainingErrors, Residual, SourceErrors, Sphere, Survey, Watch, covariance,
+    error_budget, variance,
+};
+pub use identifiable::{
+    Identifiability, Measurement, Parts, RANK_THRESHOLD, identifiable, identifiable_in_parts,
+};
+pub use measurand::Measurand;
+pub use normal::{FLAT, NormalVector, PROBABILITY_ERROR, Principal, StudentVector};
+pub use random::{MonteCarlo, Quantile, monte_carlo};
+use reach::Inverse;
+pub use reach::{Missing, Obstacle, ReachError, Target, compensated, inverse, mobility, obstacle};
+pub use sweep::{BLOCK, Row, Unevaluated, in_order, in_order_until, sweep};
+pub use uncertainty::{
+    COVERAGE, Compliance, Contribution, DRAWS, ErrorsAt, Statement, compliance, errors_at, normal_compliance,
+    student_95,
+};
+pub use workspace::{
+    Axis, BaseBox, Configuration, JointGrid, JointSamples, Listed, Presentation, PresentedVolume, ReachedBox,
+    Subset, ToolOrientation, Unreachable, UnreachableSummary, WithInputs, Workspace, base_box, joint_grid,
+    joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
+};

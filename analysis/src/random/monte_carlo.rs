@@ -1,0 +1,163 @@
+//! Errors drawn at one configuration, on the exact chain with true rotations.
+
+use super::Quantile;
+use crate::sampling::{draw, norm, stream};
+use crate::sweep::in_order;
+use crate::workspace::One;
+use crate::{Configuration, Ellipsoid, Measurand, Sweepable, Unevaluated, covariance, sweep};
+use abbe_core::{Class, Error, Pose, deviation, drawn_pose, repeatable_magnitudes};
+
+/// How many draws come from one stream of random numbers, and are made at once.
+const DRAWS: usize = 4096;
+
+/// What is drawn at one configuration: all sources together, repeatable ones as they are, of random ones one
+/// magnitude for all effects. Position errors in `F_0`, length unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MonteCarlo {
+    /// How many draws.
+    pub draws: usize,
+    /// The 50, 95 and 99 % quantiles of the norm of the whole error.
+    pub quantiles: [Quantile; 3],
+    /// The largest norm that was drawn.
+    pub largest: f64,
+    /// The mean error: the repeatable sources, and what the rotations of random ones add.
+    pub mean: [f64; 3],
+    /// The covariance of the draws.
+    pub covariance: [[f64; 3]; 3],
+    /// The standard error of each of its entries, `√(Var(d_i d_j) / N)`.
+    pub standard_error: [[f64; 3]; 3],
+    /// The same covariance to first order, `J_e Σ J_eᵀ`.
+    pub first_order: [[f64; 3]; 3],
+    /// The share of the draws within the first-order 95 % ellipsoid about the error without random sources; none
+    /// where that is flat. It is 0.95 for normal sources, for others not.
+    pub inside_ellipsoid: Option<f64>,
+}
+
+/// Draws all sources at a configuration, `draws` times. The result follows from the seed alone,
+/// not from the number of threads.
+///
+/// Eight bytes are held for every draw. Errors as for [`sweep`] and [`drawn_pose`].
+pub fn monte_carlo(
+    manipulator: &dyn Sweepable,
+    configuration: &Configuration,
+    draws: usize,
+    seed: u64,
+) -> Result<MonteCarlo, Error> {
+    let description = manipulator.description();
+    let mut first_order = [[0.0; 3]; 3];
+    let mut ideal = Pose::IDENTITY;
+    sweep(manipulator, &One(configuration), &mut |row| {
+        first_order = covariance(&description.sources, row.sources, Measurand::Position);
+        ideal = row.pose;
+    })
+    .map_err(|Unevaluated { error, .. }| error)?;
+    let error = |magnitudes: &[f64]| {
+        let Configuration { q, s, u } = configuration;
+        let real = drawn_pose(manipulator, q, s, u, magnitudes)?;
+        Ok::<_, Error>(Measurand::Position.rows(&deviation(description.orientation, &ideal, &real)))
+    };
+    let without_random = error(&repeatable_magnitudes(description))?;
+    let ellipsoid = Ellipsoid::new(first_order, 0);
+    let flat = ellipsoid.rank() < 3;
+    let mut sums = Sums::default();
+    let mut norms = Vec::with_capacity(draws);
+    in_order(
+        draws.div_ceil(DRAWS),
+        |block| {
+            let mut random = stream(seed, block);
+            let mut magnitudes = vec![0.0; description.sources.len()];
+            let (mut sums, mut norms) = (Sums::default(), Vec::with_capacity(DRAWS));
+            for _ in block * DRAWS..draws.min((block + 1) * DRAWS) {
+                for (source, magnitude) in description.sources.iter().zip(&mut magnitudes) {
+                    *magnitude = match source.class {
+                        Class::Repeatable => 1.0,
+                        Class::Random(distribution) => draw(distribution, &mut random),
+                    };
+                }
+                let error = error(&magnitudes)?;
+                norms.push(norm(error));
+                let d = core::array::from_fn(|i| error[i] - without_random[i]);
+                sums.add(d, inside(&ellipsoid, d));
+            }
+            Ok::<_, Error>((sums, norms))
+        },
+        |(more, drawn)| {
+            sums.merge(&more);
+            norms.extend(drawn);
+        },
+    )?;
+    norms.sort_unstable_by(f64::total_cmp);
+    let (mean, covariance, standard_error) = sums.moments();
+    Ok(MonteCarlo {
+        draws,
+        quantiles: [0.5, 0.95, 0.99].map(|probability| Quantile::from_sorted(&norms, probability)),
+        largest: norms.last().copied().unwrap_or_default(),
+        mean: core::array::from_fn(|i| without_random[i] + mean[i]),
+        covariance,
+        standard_error,
+        first_order,
+        inside_ellipsoid: (!flat && draws > 0).then(|| sums.inside as f64 / draws as f64),
+    })
+}
+
+/// `Σ_i (a_i · d / l_i)² ≤ 1` with the semi-axes l and their directions a.
+fn inside(Ellipsoid { semi_axes, principal, .. }: &Ellipsoid, d: [f64; 3]) -> bool {
+    let along = principal.components(d);
+    along.iter().zip(semi_axes).map(|(along, length)| (along / length).powi(2)).sum::<f64>() <= 1.0
+}
+
+/// Sums over draws d: of them, of their products, of the squares of these.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    count: usize,
+    inside: usize,
+    d: [f64; 3],
+    products: [[f64; 3]; 3],
+    squares: [[f64; 3]; 3],
+}
+
+impl Sums {
+    fn add(&mut self, d: [f64; 3], inside: bool) {
+        self.count += 1;
+        self.inside += usize::from(inside);
+        for i in 0..3 {
+            self.d[i] += d[i];
+            for j in 0..3 {
+                let product = d[i] * d[j];
+                self.products[i][j] += product;
+                self.squares[i][j] += product * product;
+            }
+        }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.count += other.count;
+        self.inside += other.inside;
+        for i in 0..3 {
+            self.d[i] += other.d[i];
+            for j in 0..3 {
+                self.products[i][j] += other.products[i][j];
+                self.squares[i][j] += other.squares[i][j];
+            }
+        }
+    }
+
+    /// Mean, covariance and the standard errors of that: `Cov = E[d dᵀ] − m mᵀ`.
+    fn moments(&self) -> ([f64; 3], [[f64; 3]; 3], [[f64; 3]; 3]) {
+        let count = self.count.max(1) as f64;
+        let mean = self.d.map(|sum| sum / count);
+        let matrix = |entry: &dyn Fn(usize, usize) -> f64| {
+            core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
+        };
+        let covariance = matrix(&|i, j| {
+            let entry = self.products[i][j] / count - mean[i] * mean[j];
+            // Rounding must not make a variance negative.
+            if i == j { entry.max(0.0) } else { entry }
+        });
+        let error = matrix(&|i, j| {
+            let variance = self.squares[i][j] / count - (self.products[i][j] / count).powi(2);
+            (variance.max(0.0) / count).sqrt()
+        });
+        (mean, covariance, error)
+    }
+}

@@ -1,0 +1,316 @@
+//! Damped Newton steps on a chain of lower pairs, several targets at once: one in each lane.
+//!
+//! Every lane goes its own way, by numbers of its own alone: what it finds does not depend on what is in the others.
+
+// Loops, and no closures: those could stay without the instruction set.
+#![allow(clippy::needless_range_loop)]
+
+use core::ops::ControlFlow;
+
+use super::bounds::Bounds;
+use super::joint_chain::{JointChain, scaled};
+use super::lane_chain::LaneChain;
+use super::quest::{Descent, Ended, ITERATIONS, Patience, Problem, Quest, REACHED, ROUNDING, STAGNATION};
+use super::residual::Residual;
+use super::{ReachError, Target};
+use abbe_core::lanes::{Kernel, Lanes, Register};
+use abbe_core::{Error, Pose, Quantity, Scalar};
+
+/// The most lanes that there are.
+const WIDEST: usize = 8;
+
+/// Targets of one kind: points of three rows, or poses of six.
+pub(super) struct Descents<'a, const ROWS: usize> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) chain: &'a JointChain,
+    pub(super) targets: &'a [Target],
+    pub(super) bounds: &'a Bounds,
+    /// The first start that is tried.
+    pub(super) start: usize,
+}
+
+/// What a lane is at.
+struct Lane {
+    target: usize,
+    quest: Quest,
+    bounded: bool,
+    patience: Patience,
+    iteration: usize,
+    /// When it is looked at what was gained.
+    looked_at: usize,
+    /// Whether nothing was evaluated yet.
+    fresh: bool,
+    /// Whether no variable can move.
+    stuck: bool,
+    norm: f64,
+    before: f64,
+    damping: f64,
+}
+
+/// The numbers of all lanes: variables in rad and arm lengths.
+struct Numbers<R: Register, const ROWS: usize> {
+    q: Vec<Lanes<R>>,
+    candidate: Vec<Lanes<R>>,
+    step: Vec<Lanes<R>>,
+    /// 1 where a variable may move, 0 where a limit holds it.
+    active: Vec<Lanes<R>>,
+    limits: Vec<[Lanes<R>; 2]>,
+    target: [[Lanes<R>; 3]; 4],
+    here: Residual<R, ROWS>,
+    there: Residual<R, ROWS>,
+    /// The norm of what was evaluated last.
+    after: Lanes<R>,
+}
+
+impl<const ROWS: usize> Kernel for Descents<'_, ROWS> {
+    type Output = Vec<Result<Vec<f64>, ReachError>>;
+
+    #[inline(always)]
+    fn run<R: Register>(self) -> Self::Output {
+        let mut results: Vec<Option<Result<Vec<f64>, ReachError>>> = vec![None; self.targets.len()];
+        let mut waiting = 0..self.targets.len();
+        let chain = LaneChain::<R>::new(self.chain);
+        let mut numbers = Numbers::<R, ROWS>::new(chain.joints.len());
+        let mut lanes: [Option<Lane>; WIDEST] = [const { None }; WIDEST];
+        for (place, lane) in lanes[..R::WIDTH].iter_mut().enumerate() {
+            *lane = self.next_target(&mut waiting, place, &mut numbers);
+        }
+        while lanes.iter().any(Option::is_some) {
+            numbers.there.evaluate(&chain, &numbers.candidate, &numbers.target);
+            numbers.after = numbers.there.norm;
+            numbers.take_over(&lanes);
+            for place in 0..R::WIDTH {
+                let Some(lane) = &mut lanes[place] else { continue };
+                let Some(ended) = lane.ended(&numbers, place, self.problem) else { continue };
+                let prospect = || self.bounds.prospect(&self.targets[lane.target]);
+                match lane.quest.next(self.problem, ended, prospect) {
+                    ControlFlow::Continue(descent) => {
+                        lane.begin(&descent);
+                        numbers.load(self.problem, place, &descent);
+                    }
+                    ControlFlow::Break(result) => {
+                        results[lane.target] = Some(result);
+                        lanes[place] = self.next_target(&mut waiting, place, &mut numbers);
+                    }
+                }
+            }
+            numbers.steps(&chain, &mut lanes);
+        }
+        results.into_iter().flatten().collect()
+    }
+}
+
+impl<const ROWS: usize> Descents<'_, ROWS> {
+    fn next_target<R: Register>(
+        &self,
+        waiting: &mut core::ops::Range<usize>,
+        place: usize,
+        numbers: &mut Numbers<R, ROWS>,
+    ) -> Option<Lane> {
+        let target = waiting.next()?;
+        let pose = match self.targets[target] {
+            Target::Point(point) => {
+                let Pose([x, y, z, _]) = Pose::IDENTITY;
+                Pose([x, y, z, point])
+            }
+            Target::Pose(pose) => pose,
+        };
+        let pose = scaled(&pose, self.problem.arm);
+        for (column, values) in numbers.target.iter_mut().zip(pose.0) {
+            for (lanes, value) in column.iter_mut().zip(values) {
+                put(lanes, place, value);
+            }
+        }
+        let (quest, descent) = Quest::new(self.problem, self.start);
+        let mut lane = Lane {
+            target,
+            quest,
+            bounded: true,
+            patience: descent.patience,
+            iteration: 0,
+            looked_at: 0,
+            fresh: true,
+            stuck: false,
+            norm: f64::INFINITY,
+            before: f64::INFINITY,
+            damping: 0.0,
+        };
+        lane.begin(&descent);
+        numbers.load(self.problem, place, &descent);
+        Some(lane)
+    }
+}
+
+impl Lane {
+    fn begin(&mut self, descent: &Descent) {
+        (self.bounded, self.patience) = (descent.bounded, descent.patience);
+        (self.iteration, self.looked_at, self.fresh, self.stuck) = (0, 0, true, false);
+        (self.norm, self.before, self.damping) = (f64::INFINITY, f64::INFINITY, 0.0);
+    }
+
+    /// Takes note of what a step has brought. Where the descent ended, if it did.
+    fn ended<R: Register, const ROWS: usize>(
+        &mut self,
+        numbers: &Numbers<R, ROWS>,
+        place: usize,
+        problem: &Problem<'_>,
+    ) -> Option<Result<Ended, Error>> {
+        let norm = numbers.after.to_slice()[place];
+        let ended = || Some(Ok(numbers.ended(problem, place, self.bounded)));
+        if self.fresh && !norm.is_finite() {
+            return Some(Err(Error::NotFinite { quantity: Quantity::Jacobian, index: 0 }));
+        }
+        if accepts(self.norm, norm) {
+            let squared = self.norm * self.norm;
+            self.damping = if self.damping > squared { self.damping / 10.0 } else { 0.0 };
+            (self.norm, self.fresh) = (norm, false);
+        } else {
+            // Rounding is all that is left.
+            if self.norm <= REACHED * 1e-2 || self.damping > 1e3 || self.stuck {
+                return ended();
+            }
+            self.damping = f64::max(self.damping * 10.0, 0.01 * self.norm * self.norm);
+        }
+        if self.norm <= ROUNDING || self.iteration == ITERATIONS {
+            return ended();
+        }
+        if self.iteration == self.looked_at {
+            self.looked_at += self.patience.steps;
+            if self.norm > self.before * (1.0 - self.patience.gain) {
+                return ended();
+            }
+            self.before = self.norm;
+        }
+        self.iteration += 1;
+        None
+    }
+}
+
+/// Whether a step is worth taking.
+#[inline(always)]
+fn accepts(before: f64, after: f64) -> bool {
+    after < before * (1.0 - STAGNATION)
+}
+
+impl<R: Register, const ROWS: usize> Numbers<R, ROWS> {
+    fn new(count: usize) -> Self {
+        let zero = Lanes::constant(0.0);
+        Self {
+            q: vec![zero; count],
+            candidate: vec![zero; count],
+            step: vec![zero; count],
+            active: vec![zero; count],
+            limits: vec![[zero; 2]; count],
+            target: [[zero; 3]; 4],
+            here: Residual::new(count),
+            there: Residual::new(count),
+            after: zero,
+        }
+    }
+
+    /// Where a descent begins.
+    fn load(&mut self, problem: &Problem<'_>, place: usize, descent: &Descent) {
+        for (j, &i) in problem.free.iter().enumerate() {
+            let unit = problem.unit(j);
+            let limits = problem.variable(j).limits.map(|limit| limit / unit);
+            let [lower, upper] = if descent.bounded { limits } else { [f64::NEG_INFINITY, f64::INFINITY] };
+            let value = (descent.q[i] / unit).min(upper).max(lower);
+            put(&mut self.candidate[j], place, value);
+            put(&mut self.limits[j][0], place, lower);
+            put(&mut self.limits[j][1], place, upper);
+        }
+    }
+
+    /// Goes there where it is worth it.
+    #[inline(always)]
+    fn take_over(&mut self, lanes: &[Option<Lane>; WIDEST]) {
+        let before = Lanes::<R>::from_fn(|place| match &lanes[place] {
+            Some(lane) => lane.norm * (1.0 - STAGNATION),
+            None => f64::INFINITY,
+        });
+        let better = before.more_than(self.there.norm);
+        let (zero, one) = (Lanes::<R>::constant(0.0), Lanes::<R>::constant(1.0));
+        if !better.select(zero, one).more_than(zero).any() {
+            core::mem::swap(&mut self.q, &mut self.candidate);
+            core::mem::swap(&mut self.here, &mut self.there);
+            return;
+        }
+        for (here, there) in self.q.iter_mut().zip(&self.candidate) {
+            *here = better.select(*there, *here);
+        }
+        self.here.replace(&self.there, better);
+    }
+
+    /// A step of every lane. Variables at a limit that it would push further out stay where they are.
+    #[inline(always)]
+    fn steps(&mut self, chain: &LaneChain<R>, lanes: &mut [Option<Lane>; WIDEST]) {
+        let (zero, one) = (Lanes::<R>::constant(0.0), Lanes::<R>::constant(1.0));
+        let damping = Lanes::<R>::from_fn(|place| lanes[place].as_ref().map_or(1.0, |lane| lane.damping));
+        self.active.fill(one);
+        for _ in 0..=self.q.len() {
+            self.here.damped_step(damping, &self.active, &mut self.step);
+            let mut held = zero;
+            for j in 0..self.q.len() {
+                let ([lower, upper], q, step) = (self.limits[j], self.q[j], self.step[j]);
+                // Either is zero unless at that limit, and then the step outwards.
+                let below = q.more_than(lower).select(zero, (-step).max(zero));
+                let above = upper.more_than(q).select(zero, step.max(zero));
+                let outwards = (below + above).more_than(zero);
+                self.active[j] = outwards.select(zero, self.active[j]);
+                held = outwards.select(one, held);
+            }
+            if !held.more_than(zero).any() {
+                break;
+            }
+        }
+        // No joint turns by more than 1 rad at once: linear models do not reach further.
+        let (mut largest, mut any) = (one, zero);
+        for (joint, step) in chain.joints.iter().zip(&self.step) {
+            let size = step.abs();
+            any = any.max(size);
+            if joint.turns {
+                largest = largest.max(size);
+            }
+        }
+        let share = one / largest;
+        let fresh = Lanes::<R>::from_fn(|place| match &lanes[place] {
+            Some(lane) if lane.fresh => 1.0,
+            _ => 0.0,
+        });
+        let fresh = fresh.more_than(zero);
+        for j in 0..self.q.len() {
+            let [lower, upper] = self.limits[j];
+            let moved = self.step[j].mul_add(share, self.q[j]).min(upper).max(lower);
+            self.candidate[j] = fresh.select(self.candidate[j], moved);
+        }
+        for (lane, size) in lanes.iter_mut().zip(any.to_slice()) {
+            if let Some(lane) = lane.as_mut().filter(|lane| !lane.fresh) {
+                lane.stuck = *size == 0.0;
+            }
+        }
+    }
+
+    fn ended(&self, problem: &Problem<'_>, place: usize, bounded: bool) -> Ended {
+        let mut q = problem.starts[0].clone();
+        for (j, &i) in problem.free.iter().enumerate() {
+            let value = self.q[j].to_slice()[place] * problem.unit(j);
+            let [lower, upper] = problem.variable(j).limits;
+            q[i] = if bounded { value.min(upper).max(lower) } else { value };
+        }
+        let rows: [f64; ROWS] = core::array::from_fn(|row| self.here.rows[row].to_slice()[place]);
+        let (position, turn) = rows.split_at(3);
+        let norm = |rows: &[f64]| rows.iter().fold(0.0, |norm: f64, row| norm.hypot(*row));
+        let norm_of_all = self.here.norm.to_slice()[place];
+        let position = norm(position);
+        // The rows of a turn by θ have the norm 2 sin θ/2; beyond a right angle the norm of all says more.
+        let chord =
+            if turn.is_empty() { 0.0 } else { (norm_of_all.powi(2) - position.powi(2)).max(0.0).sqrt() };
+        let chord = if chord < 1.0 { norm(turn) } else { chord };
+        Ended { q, norm: norm_of_all, position, turn: 2.0 * (chord / 2.0).min(1.0).asin() }
+    }
+}
+
+/// Sets the value of a lane.
+fn put<R: Register>(lanes: &mut Lanes<R>, place: usize, value: f64) {
+    bytemuck::cast_slice_mut::<Lanes<R>, f64>(core::slice::from_mut(lanes))[place] = value;
+}

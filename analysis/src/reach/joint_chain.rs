@@ -1,0 +1,199 @@
+//! A chain of lower pairs as numbers: `A_T = D_0 J_1(q_1) D_1 … J_n(q_n) D_n`, where `J_i` turns about, or slides along, z.
+//!
+//! The numbers are read off the manipulator's transforms in three places. That these say everything is what
+//! [`Frame::lower_pair`](abbe_core::Frame) promises. Lengths are in arm lengths.
+
+use core::f64::consts::TAU;
+
+use super::quest::Problem;
+use crate::sampling;
+use abbe_core::{Pose, VariableKind};
+
+/// By how much a joint is turned to see its axis: the third places are as far from each other, and none is opposite.
+const TURN: f64 = TAU / 3.0;
+/// How well the third place must agree, in arm lengths and rad.
+const AGREEMENT: f64 = 1e-9;
+/// At how many configurations the pose must agree, too.
+const SAMPLES: usize = 3;
+
+/// A joint and the way to it.
+#[derive(Clone, Debug)]
+pub(super) struct Joint {
+    /// From the frame on its axis to that of the joint before, or to `F_0`.
+    pub(super) before: Pose,
+    /// Whether it turns or slides.
+    pub(super) kind: VariableKind,
+}
+
+/// A chain of which some joints are free, the others where they are held.
+#[derive(Clone, Debug)]
+pub(super) struct JointChain {
+    /// The free joints, in the order of their variables.
+    pub(super) joints: Vec<Joint>,
+    /// From the tool point's frame to that of the last free joint.
+    pub(super) tool: Pose,
+}
+
+impl JointChain {
+    /// The chain with the free variables of a problem; none if it is not known to be one of lower pairs.
+    pub(super) fn new(problem: &Problem<'_>) -> Option<Self> {
+        let Problem { manipulator, ref s, ref free, arm, ref starts } = *problem;
+        let (description, start) = (manipulator.description(), &starts[0]);
+        if !description.frames.iter().all(|frame| frame.lower_pair) {
+            return None;
+        }
+        let unit = |i: usize| match description.variables[i].kind {
+            VariableKind::Revolute => 1.0,
+            VariableKind::Prismatic => arm,
+        };
+        let transforms = |share: f64| {
+            let mut q = start.clone();
+            for &i in free {
+                q[i] += share * unit(i) * size(description.variables[i].kind);
+            }
+            let mut transforms = vec![Pose::IDENTITY; description.frames.len() + 1];
+            manipulator.transforms(&q, s, &mut transforms).ok()?;
+            transforms.iter_mut().for_each(|transform| *transform = scaled(transform, arm));
+            Some(transforms)
+        };
+        let (here, forth, back) = (transforms(0.0)?, transforms(1.0)?, transforms(-1.0)?);
+        let mut joints = Vec::with_capacity(free.len());
+        let mut behind = Pose::IDENTITY;
+        for (i, frame) in description.frames.iter().enumerate() {
+            let Some(variable) = frame.variable.filter(|variable| free.contains(variable)) else {
+                behind = behind.then(&here[i]);
+                continue;
+            };
+            let kind = description.variables[variable].kind;
+            let axis = axis(kind, &here[i], &forth[i], &back[i])?;
+            joints.push(Joint { before: behind.then(&axis), kind });
+            let back_home = motion(kind, -start[variable] / unit(variable));
+            behind = back_home.then(&axis.inverse()).then(&here[i]);
+        }
+        let chain = Self { joints, tool: behind.then(here.last()?) };
+        let agrees = (0..SAMPLES).all(|index| {
+            let sample = sampling::joint_sample(description, arm, free, index);
+            let mut q = start.clone();
+            free.iter().for_each(|&i| q[i] = sample[i]);
+            let own: Vec<f64> = free.iter().map(|&i| q[i] / unit(i)).collect();
+            let pose = manipulator.pose(&q, s).map(|pose| scaled(&pose, arm));
+            pose.is_ok_and(|pose| near(&pose, &chain.pose(&own)))
+        });
+        (agrees && chain.joints.len() == free.len()).then_some(chain)
+    }
+
+    /// From the tool to the base: `J(q)⁻¹ = J(−q)`.
+    pub(super) fn reversed(&self) -> Self {
+        let mut behind = self.tool.inverse();
+        let joints = self.joints.iter().rev().map(|joint| {
+            let before = core::mem::replace(&mut behind, joint.before.inverse());
+            Joint { before, kind: joint.kind }
+        });
+        Self { joints: joints.collect(), tool: behind }
+    }
+
+    /// The same with the origin on each axis next to that on the axis after it, from the tool point on.
+    pub(super) fn centred(&self) -> Self {
+        let Self { mut joints, mut tool } = self.clone();
+        let mut after = &mut tool;
+        for joint in joints.iter_mut().rev() {
+            let next = after.position();
+            let centre = match joint.kind {
+                VariableKind::Revolute => [0.0, 0.0, next[2]],
+                VariableKind::Prismatic => next,
+            };
+            *after = shift(centre.map(|x| -x)).then(after);
+            joint.before = joint.before.then(&shift(centre));
+            after = &mut joint.before;
+        }
+        Self { joints, tool }
+    }
+
+    /// The pose of the tool point.
+    pub(super) fn pose(&self, q: &[f64]) -> Pose {
+        let joints = self.joints.iter().zip(q);
+        let last = joints.fold(Pose::IDENTITY, |pose, (joint, value)| {
+            pose.then(&joint.before).then(&motion(joint.kind, *value))
+        });
+        last.then(&self.tool)
+    }
+}
+
+/// With its lengths in arm lengths.
+pub(super) fn scaled(pose: &Pose, arm: f64) -> Pose {
+    let [x, y, z, position] = pose.0;
+    Pose([x, y, z, position.map(|p| p / arm)])
+}
+
+/// A motion without a turn.
+pub(super) fn shift(by: [f64; 3]) -> Pose {
+    let Pose([x, y, z, _]) = Pose::IDENTITY;
+    Pose([x, y, z, by])
+}
+
+/// By how much a joint is moved to see its axis.
+fn size(kind: VariableKind) -> f64 {
+    match kind {
+        VariableKind::Revolute => TURN,
+        VariableKind::Prismatic => 1.0,
+    }
+}
+
+/// A turn about z, or a slide along it.
+pub(super) fn motion(kind: VariableKind, by: f64) -> Pose {
+    let Pose([x, y, z, mut position]) = Pose::IDENTITY;
+    match kind {
+        VariableKind::Revolute => {
+            let (sine, cosine) = by.sin_cos();
+            Pose([[cosine, sine, 0.0], [-sine, cosine, 0.0], z, position])
+        }
+        VariableKind::Prismatic => {
+            position[2] = by;
+            Pose([x, y, z, position])
+        }
+    }
+}
+
+/// A frame whose z is the axis of a joint, as seen from the frame before it: from `A_i` here, and moved forth and back.
+fn axis(kind: VariableKind, here: &Pose, forth: &Pose, back: &Pose) -> Option<Pose> {
+    let home = here.inverse();
+    let (forth, back) = (forth.then(&home), back.then(&home));
+    let Pose([x, y, z, t]) = forth;
+    let (along, at) = match kind {
+        VariableKind::Revolute => {
+            let twice_sine = 2.0 * TURN.sin();
+            let a = [y[2] - z[1], z[0] - x[2], x[1] - y[0]].map(|component| component / twice_sine);
+            // t = (I − R) c, and c ⊥ a: c = (t + cot(θ/2) a × t)/2.
+            let cotangent = 1.0 / (TURN / 2.0).tan();
+            let across = cross(a, t);
+            (a, core::array::from_fn(|i| 0.5 * (t[i] + cotangent * across[i])))
+        }
+        VariableKind::Prismatic => (t, [0.0; 3]),
+    };
+    let length = sampling::norm(along);
+    // NaN is no length of 1 either.
+    if (length - 1.0).abs().is_nan() || (length - 1.0).abs() > AGREEMENT {
+        return None;
+    }
+    let along = along.map(|component| component / length);
+    let axis = frame(along, at);
+    let moved = |by: f64| axis.then(&motion(kind, by)).then(&axis.inverse());
+    (near(&moved(size(kind)), &forth) && near(&moved(-size(kind)), &back)).then_some(axis)
+}
+
+/// A frame with this z axis and origin.
+fn frame(z: [f64; 3], at: [f64; 3]) -> Pose {
+    let least = (0..3).min_by(|&i, &j| z[i].abs().total_cmp(&z[j].abs())).unwrap_or(0);
+    let x: [f64; 3] = core::array::from_fn(|i| f64::from(u8::from(i == least)) - z[i] * z[least]);
+    let length = sampling::norm(x);
+    let x = x.map(|component| component / length);
+    Pose([x, cross(z, x), z, at])
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn near(a: &Pose, b: &Pose) -> bool {
+    a.0.as_flattened().iter().zip(b.0.as_flattened()).all(|(a, b)| (a - b).abs() <= AGREEMENT)
+}

@@ -1,0 +1,24 @@
+//! Joint variables that bring the tool to a target: the ideal tool, and the real one.
+
+mod bounded;
+mod bounds;
+mod compensate;
+mod descents;
+mod extent;
+mod inverse;
+mod joint_chain;
+mod lane_chain;
+mod obstacle;
+mod quest;
+mod reach_error;
+mod real_tool;
+mod residual;
+mod search;
+#[cfg(test)]
+mod tests;
+
+pub use compensate::compensated;
+pub(crate) use inverse::Inverse;
+pub use inverse::{Target, inverse};
+pub use obstacle::{Missing, Obstacle, mobility, obstacle};
+pub use reach_error::ReachError;

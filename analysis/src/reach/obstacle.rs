@@ -1,0 +1,149 @@
+//! Why corrected commands do not bring the real tool to where it should be.
+
+use nalgebra::{DMatrix, Matrix6xX, SVD, Vector3};
+
+use super::real_tool::RealTool;
+use crate::{decompose::singular_values, sampling};
+use abbe_core::compensator::{Compensated, norms};
+use abbe_core::twist;
+use abbe_core::{Error, Manipulator, Pose, VariableKind};
+
+/// What is missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Missing {
+    /// The tool point is not reached: by how much, in the length unit.
+    Point(f64),
+    /// The tool point is reached; so much of the turn is missing, in rad.
+    Turn(f64),
+}
+
+/// What keeps the real tool from where it should be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    /// What is missing.
+    pub missing: Missing,
+    /// Along or about which axis in `F_0`: a unit vector.
+    pub axis: [f64; 3],
+    /// Variables at a limit, by index: with that limit a little further out, more could be had.
+    pub limits: Vec<usize>,
+    /// Whether no variable, limits aside, moves the tool point along the axis there, or turns the tool about it with the tool
+    /// point where it is.
+    pub immobile: bool,
+}
+
+/// How much further out a limit is put to see whether it is the obstacle: in rad and arm lengths.
+const FURTHER: [f64; 2] = [0.05, 0.02];
+/// What is left must then shrink by this share.
+const GAIN: f64 = 1e-3;
+/// A variable whose motion has less than this share along an axis does not move along it; errors turn the real machine's by
+/// less.
+const IMMOBILE: f64 = 0.02;
+/// Singular values below this share of the largest are directions that do not move.
+const SINGULAR: f64 = 1e-6;
+
+/// What keeps the tool from `target`, where [`compensated`](super::compensated()) has ended with `found`.
+///
+/// `command` is what it started from. None if nothing beyond `length` (in the length unit) and `angle` (rad) is missing.
+/// Errors as for [`compensated`](super::compensated()).
+pub fn obstacle(
+    manipulator: &dyn Manipulator,
+    target: Option<&Pose>,
+    command: &[f64],
+    s: &[f64],
+    u: &[f64],
+    found: &Compensated<Vec<f64>>,
+    [length, angle]: [f64; 2],
+) -> Result<Option<Obstacle>, Error> {
+    let (position, turn) = norms(&found.after);
+    let [x, y, z, a, b, c] = found.after;
+    let (missing, left) = match (position > length, turn > angle) {
+        (true, _) => (Missing::Point(position), Vector3::new(x, y, z)),
+        (false, true) => (Missing::Turn(turn), Vector3::new(a, b, c)),
+        (false, false) => return Ok(None),
+    };
+    let axis = left.normalize();
+    let ideal = manipulator.pose(command, s)?;
+    let mut tool = RealTool::new(manipulator, s, u, target.unwrap_or(&ideal), command)?;
+    let held: Vec<usize> = (0..command.len()).filter(|j| tool.limits[*j].contains(&found.q[*j])).collect();
+    let before = tool.left_at(&found.q)?;
+    let closed = tool.limits.clone();
+    let mut helps = |opened: &[usize]| {
+        tool.limits.clone_from(&closed);
+        for &j in opened {
+            let further = tool.in_its_unit(j, FURTHER);
+            tool.limits[j] = [closed[j][0] - further, closed[j][1] + further];
+        }
+        // A machine that cannot be evaluated beyond a limit is not helped by going there.
+        tool.descend(found.q.clone()).is_ok_and(|(place, _)| tool.left(&place) < before * (1.0 - GAIN))
+    };
+    let mut limits: Vec<usize> = held.iter().copied().filter(|j| helps(&[*j])).collect();
+    if limits.is_empty() && held.len() > 1 && helps(&held) {
+        limits = held;
+    }
+    let immobile = limits.is_empty() && immobile(&twists(manipulator, &found.q, s)?, missing, &axis);
+    Ok(Some(Obstacle { missing, axis: axis.into(), limits, immobile }))
+}
+
+/// In how many ways a machine can move its tool at once, out of six: the largest rank of `J_q` over its joint samples.
+pub fn mobility(manipulator: &dyn Manipulator, s: &[f64]) -> Result<usize, Error> {
+    let description = manipulator.description();
+    let all: Vec<usize> = (0..description.variables.len()).collect();
+    let arm = sampling::arm_length(manipulator, s)?;
+    let metres = arm * description.length.in_metres();
+    let rank = |index: usize| {
+        let q = sampling::joint_sample(description, arm, &all, index);
+        let mut columns = twists(manipulator, &q, s)?;
+        // Lengths in arm lengths, of rows and of what slides.
+        columns.rows_mut(0, 3).scale_mut(1.0 / metres);
+        for (mut column, variable) in columns.column_iter_mut().zip(&*description.variables) {
+            if variable.kind == VariableKind::Prismatic {
+                column.scale_mut(metres);
+            }
+        }
+        let values = singular_values(DMatrix::from_column_slice(6, columns.ncols(), columns.as_slice()));
+        let values = values.unwrap_or_default();
+        let largest = values.first().copied().unwrap_or(0.0);
+        Ok(values.iter().filter(|value| **value > SINGULAR * largest).count())
+    };
+    let mut most = 0;
+    let mut failure = None;
+    for index in 0..10 {
+        match rank(index) {
+            Ok(rank) => most = most.max(rank),
+            Err(error) => failure = Some(error),
+        }
+    }
+    failure.filter(|_| most == 0).map_or(Ok(most), Err)
+}
+
+/// `J_q` with the small rotation in `F_0` as rows 4–6, in metres and rad.
+fn twists(manipulator: &dyn Manipulator, q: &[f64], s: &[f64]) -> Result<Matrix6xX<f64>, Error> {
+    let description = manipulator.description();
+    let metres = description.length.in_metres();
+    let mut columns = vec![[0.0; 6]; q.len()];
+    let pose = manipulator.joint_jacobian(q, s, &mut columns)?;
+    Ok(Matrix6xX::from_fn(q.len(), |i, j| {
+        let column = twist(description.orientation, &pose, &columns[j]);
+        let unit = if description.variables[j].kind == VariableKind::Prismatic { 1.0 / metres } else { 1.0 };
+        column[i] * unit * if i < 3 { metres } else { 1.0 }
+    }))
+}
+
+fn immobile(columns: &Matrix6xX<f64>, missing: Missing, axis: &Vector3<f64>) -> bool {
+    let (point, turn) = (columns.rows(0, 3), columns.rows(3, 3));
+    match missing {
+        Missing::Point(_) => {
+            point.column_iter().all(|column| column.dot(axis).abs() <= IMMOBILE * column.norm().max(1e-12))
+        }
+        // Of all motions that leave the tool point where it is.
+        Missing::Turn(_) => {
+            let point: DMatrix<f64> = point.into_owned();
+            let along = turn.transpose() * axis;
+            let Some(svd) = SVD::try_new(point.clone(), true, true, f64::EPSILON, 1000) else { return false };
+            let largest = svd.singular_values.max();
+            let Ok(back) = svd.pseudo_inverse(SINGULAR * largest.max(1e-300)) else { return false };
+            let free = &along - &back * (&point * &along);
+            free.norm() <= IMMOBILE * turn.norm().max(1e-12)
+        }
+    }
+}

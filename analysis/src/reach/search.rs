@@ -1,0 +1,166 @@
+//! Damped Newton steps on the joint Jacobian of any manipulator, one target at a time.
+
+use core::ops::ControlFlow;
+
+use nalgebra::{DMatrix, DVector, SVD};
+
+use super::quest::{Descent, Ended, ITERATIONS, Problem, Prospect, Quest, REACHED, ROUNDING, STAGNATION};
+use super::{ReachError, Target};
+use abbe_core::{Error, Pose, Quantity, VariableKind, deviation};
+
+/// Singular values below this share of the largest are directions that do not move.
+const SINGULAR: f64 = 1e-10;
+
+/// One target. Its residuals are its rows, lengths in arm lengths; its steps are in rad and in arm lengths: a metre or a
+/// millimetre must not decide which joint moves.
+pub(super) struct Search<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) target: &'a Target,
+}
+
+/// Where a descent stands.
+struct Point {
+    q: Vec<f64>,
+    residual: DVector<f64>,
+    jacobian: DMatrix<f64>,
+}
+
+impl Search<'_> {
+    /// From start to end.
+    pub(super) fn solve(&self) -> Result<Vec<f64>, ReachError> {
+        let (mut quest, mut descent) = Quest::new(self.problem, 0);
+        loop {
+            match quest.next(self.problem, self.descend(&descent), || Prospect::Open) {
+                ControlFlow::Continue(next) => descent = next,
+                ControlFlow::Break(found) => return found,
+            }
+        }
+    }
+
+    /// What is found from the first start alone.
+    pub(super) fn nearby(&self) -> Option<Vec<f64>> {
+        let (_, descent) = Quest::new(self.problem, 0);
+        let ended = self.descend(&descent).ok()?;
+        (ended.norm <= REACHED).then_some(ended.q)
+    }
+
+    fn evaluate(&self, q: Vec<f64>) -> Result<Point, Error> {
+        let Problem { manipulator, ref s, ref free, arm, .. } = *self.problem;
+        let mut columns = vec![[0.0; 6]; q.len()];
+        let pose = manipulator.joint_jacobian(&q, s, &mut columns)?;
+        let (target, rows) = match self.target {
+            Target::Point(point) => (Pose([pose.0[0], pose.0[1], pose.0[2], *point]), 3),
+            Target::Pose(target) => (*target, 6),
+        };
+        let difference = deviation(manipulator.description().orientation, &pose, &target);
+        let row_scale = |i: usize| if i < 3 { 1.0 / arm } else { 1.0 };
+        let residual = DVector::from_fn(rows, |i, _| difference[i] * row_scale(i));
+        let jacobian = DMatrix::from_fn(rows, free.len(), |i, j| {
+            columns[free[j]][i] * row_scale(i) * self.problem.unit(j)
+        });
+        if let Some(index) = residual.iter().chain(&jacobian).position(|v| !v.is_finite()) {
+            return Err(Error::NotFinite { quantity: Quantity::Jacobian, index });
+        }
+        Ok(Point { q, residual, jacobian })
+    }
+
+    /// Levenberg: `Δq = Jᵀ (J Jᵀ + λ)⁻¹ r`, with `λ = 0` (Newton, shortest step) for as long as it helps.
+    fn descend(&self, descent: &Descent) -> Result<Ended, Error> {
+        let &Descent { ref q, bounded, patience } = descent;
+        let step = DVector::zeros(self.problem.free.len());
+        let mut here = self.evaluate(self.moved(q, &step, bounded))?;
+        let mut damping = 0.0;
+        let mut before = f64::INFINITY;
+        for iteration in 0..ITERATIONS {
+            let norm = here.residual.norm();
+            if norm <= ROUNDING {
+                break;
+            }
+            if iteration.is_multiple_of(patience.steps) {
+                if norm > before * (1.0 - patience.gain) {
+                    break;
+                }
+                before = norm;
+            }
+            let Some(step) = self.step(&here, damping, bounded) else { break };
+            match self.evaluate(self.moved(&here.q, &step, bounded)) {
+                Ok(there) if there.residual.norm() < norm * (1.0 - STAGNATION) => {
+                    here = there;
+                    damping = if damping > norm * norm { damping / 10.0 } else { 0.0 };
+                }
+                // Rounding is all that is left.
+                _ if norm <= REACHED * 1e-2 || damping > 1e3 => break,
+                _ => damping = f64::max(damping * 10.0, 0.01 * norm * norm),
+            }
+        }
+        let rows = here.residual.as_slice();
+        let (position, turn) = rows.split_at(3.min(rows.len()));
+        let norm = |rows: &[f64]| rows.iter().fold(0.0, |norm: f64, row| norm.hypot(*row));
+        Ok(Ended { norm: here.residual.norm(), position: norm(position), turn: norm(turn), q: here.q })
+    }
+
+    /// The step from a point. Variables at a limit that it would push further out stay where they are.
+    fn step(&self, here: &Point, damping: f64, bounded: bool) -> Option<DVector<f64>> {
+        let free = &self.problem.free;
+        let mut active = (0..free.len()).collect::<Vec<_>>();
+        loop {
+            if active.is_empty() {
+                return None;
+            }
+            let reduced = here.jacobian.select_columns(&active);
+            let step = damped_step(reduced, &here.residual, damping)?;
+            let mut position = 0;
+            let before = active.len();
+            active.retain(|&j| {
+                let [lower, upper] = self.problem.variable(j).limits;
+                let (value, step) = (here.q[free[j]], step[position]);
+                position += 1;
+                !(bounded && (value <= lower && step < 0.0 || value >= upper && step > 0.0))
+            });
+            if active.len() == before {
+                let mut whole = DVector::zeros(free.len());
+                for (&j, value) in active.iter().zip(step.iter()) {
+                    whole[j] = *value;
+                }
+                return Some(self.shortened(whole));
+            }
+        }
+    }
+
+    /// No joint turns by more than 1 rad at once: linear models do not reach further.
+    fn shortened(&self, step: DVector<f64>) -> DVector<f64> {
+        let turns = step.iter().enumerate();
+        let turns = turns.filter(|(j, _)| self.problem.variable(*j).kind == VariableKind::Revolute);
+        let largest = turns.map(|(_, step)| step.abs()).fold(1.0, f64::max);
+        step / largest
+    }
+
+    /// `q` moved by a step, to the limits at most if bounded.
+    fn moved(&self, q: &[f64], step: &DVector<f64>, bounded: bool) -> Vec<f64> {
+        let mut q = q.to_vec();
+        for (j, (&i, step)) in self.problem.free.iter().zip(step.iter()).enumerate() {
+            q[i] += step * self.problem.unit(j);
+            if bounded {
+                let [lower, upper] = self.problem.variable(j).limits;
+                q[i] = q[i].min(upper).max(lower);
+            }
+        }
+        q
+    }
+}
+
+/// `Jᵀ (J Jᵀ + λ)⁻¹ r = Σ σ / (σ² + λ) v (u · r)`, without the directions that do not move.
+fn damped_step(jacobian: DMatrix<f64>, residual: &DVector<f64>, damping: f64) -> Option<DVector<f64>> {
+    let columns = jacobian.ncols();
+    let svd = SVD::try_new(jacobian, true, true, f64::EPSILON, 1000)?;
+    let (u, vt) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
+    let largest = svd.singular_values.max();
+    let mut step = DVector::zeros(columns);
+    for (k, &sigma) in svd.singular_values.iter().enumerate() {
+        if sigma > SINGULAR * largest {
+            let share = sigma / (sigma * sigma + damping) * u.column(k).dot(residual);
+            step += vt.row(k).transpose() * share;
+        }
+    }
+    Some(step)
+}

@@ -1,0 +1,8 @@
+//! Deterministic points to evaluate a manipulator at, and random errors: the same on every run and every machine.
+
+mod draw;
+mod streams;
+
+pub use abbe_core::sampling::*;
+pub use draw::draw;
+pub use streams::stream;

@@ -1,0 +1,238 @@
+//! `ΔX = J_e ε` of every source at the configurations of one block.
+
+use core::ops::Range;
+
+use super::{Row, Unevaluated};
+use crate::{Configuration, ReachError, Unreachable, Workspace};
+use abbe_core::lanes::Sweepable;
+use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register, Tiles};
+use abbe_core::{Class, Error, Function, MINIMUM_MARGIN, Orientation, Pose, Quantity, Scalar, checks};
+
+/// A block of configurations, evaluated again and again for others.
+pub(crate) struct Block<'a> {
+    manipulator: &'a dyn Sweepable,
+    workspace: &'a dyn Workspace,
+    /// What the results of every source are multiplied with.
+    bounds: Vec<f64>,
+    /// Index in the workspace of every configuration that is reached.
+    pub(crate) indices: Vec<usize>,
+    arguments: Tiles,
+    /// ΔX of every source, of a random one its bound: six rows each, and the margin of Euler rows.
+    pub(crate) displacements: Tiles,
+    pub(crate) unreachable: Vec<Unreachable>,
+}
+
+impl<'a> Block<'a> {
+    /// Of a manipulator in a workspace, for as many configurations as are asked for at most.
+    pub(crate) fn new(manipulator: &'a dyn Sweepable, workspace: &'a dyn Workspace, size: usize) -> Self {
+        let description = manipulator.description();
+        let signature = Function::SourceDisplacements.signature();
+        let set = InstructionSet::best();
+        let mut arguments = Tiles::new(set, signature.arguments_len(description), size);
+        let home = workspace.home();
+        for (row, value) in home.q.iter().chain(&home.s).chain(&home.u).enumerate() {
+            arguments.fill_row(row, *value);
+        }
+        let bounds = description.sources.iter().map(|source| match source.class {
+            Class::Repeatable => 1.0,
+            Class::Random(distribution) => distribution.bound(),
+        });
+        Self {
+            manipulator,
+            workspace,
+            bounds: bounds.collect(),
+            indices: Vec::with_capacity(size),
+            arguments,
+            displacements: Tiles::new(set, signature.results_len(description), size),
+            unreachable: Vec::new(),
+        }
+    }
+
+    /// Evaluates the configurations of a range of indices, no more than there is room for.
+    pub(crate) fn evaluate(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
+        self.fill(range)?;
+        loop {
+            let evaluated = self.manipulator.source_displacements(&self.arguments, &mut self.displacements);
+            evaluated.map_err(|error| self.at(0, error))?;
+            let euler = self.manipulator.description().orientation == Orientation::EulerYzx;
+            let sound = self.displacements.instruction_set().run(Scaled {
+                displacements: &mut self.displacements,
+                bounds: &self.bounds,
+                euler,
+            });
+            let reached = self.indices.len();
+            if sound || reached == 0 {
+                break;
+            }
+            self.set_aside()?;
+            // What scalar code takes as it is stays, though lanes were nearer to a singularity by a rounding.
+            if self.indices.len() == reached {
+                break;
+            }
+        }
+        self.unreachable.sort_by_key(|unreachable| unreachable.index);
+        Ok(())
+    }
+
+    /// Writes those configurations of a range that can be reached, one after the other.
+    fn fill(&mut self, range: Range<usize>) -> Result<(), Unevaluated> {
+        self.indices.clear();
+        self.arguments.resize(range.len());
+        if self.workspace.fill_rows(range.clone(), &mut self.arguments) {
+            self.indices.extend(range);
+        } else {
+            let indices: Vec<usize> = range.collect();
+            let mut refused = None;
+            let workspace = self.workspace;
+            workspace.fill_each(&indices, &mut |place, configuration, filled| {
+                let index = indices[place];
+                match filled {
+                    Ok(()) => {
+                        let inputs = checks::inputs(&self.manipulator.description().inputs, &configuration.u);
+                        if let (None, Err(error)) = (refused, inputs) {
+                            refused = Some(Unevaluated { configuration: Some(index), error });
+                        }
+                        self.write(self.indices.len(), configuration);
+                        self.indices.push(index);
+                    }
+                    Err(reason) => {
+                        let (point, asked) = (workspace.point(index), configuration.clone());
+                        self.unreachable.push(Unreachable { index, point, asked, reason });
+                    }
+                }
+            });
+            refused.map_or(Ok(()), Err)?;
+        }
+        self.finish_filling();
+        Ok(())
+    }
+
+    fn finish_filling(&mut self) {
+        self.arguments.resize(self.indices.len());
+        self.arguments.pad();
+        self.displacements.resize(self.indices.len());
+    }
+
+    fn write(&mut self, place: usize, configuration: &Configuration) {
+        let Configuration { q, s, u } = configuration;
+        for (row, value) in q.iter().chain(s).chain(u).enumerate() {
+            self.arguments.set_value(row, place, *value);
+        }
+    }
+
+    /// Reads a configuration back, as long as those of the workspace.
+    pub(crate) fn configuration(&self, place: usize, configuration: &mut Configuration) {
+        let Configuration { q, s, u } = configuration;
+        let (first_s, first_u) = (q.len(), q.len() + s.len());
+        self.arguments.copy_rows(0..first_s, place, q);
+        self.arguments.copy_rows(first_s..first_u, place, s);
+        self.arguments.copy_rows(first_u..first_u + u.len(), place, u);
+    }
+
+    /// Where Euler rows do not exist there is nothing to sum up: set aside and counted, like a point that cannot be
+    /// reached. What else is not finite is an error.
+    fn set_aside(&mut self) -> Result<(), Unevaluated> {
+        let description = self.manipulator.description();
+        let mut here = self.workspace.home().clone();
+        let mut kept = 0;
+        for place in 0..self.indices.len() {
+            self.configuration(place, &mut here);
+            let index = self.indices[place];
+            let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+            let mut effects = vec![0.0; description.effects.len()];
+            let evaluated = self.manipulator.error_jacobian(&here.q, &here.s, &mut columns);
+            let evaluated =
+                evaluated.and_then(|_| self.manipulator.effects(&here.q, &here.s, &here.u, &mut effects));
+            match evaluated {
+                Ok(()) => {
+                    let infinite = |source: &usize| {
+                        (0..6).any(|row| !self.displacements.get(6 * source + row, place).is_finite())
+                    };
+                    if let Some(source) = (0..description.sources.len()).find(infinite) {
+                        let effect = description.effects.iter().position(|effect| effect.source == source);
+                        let index = effect.unwrap_or(0);
+                        return Err(self.at(place, Error::NotFinite { quantity: Quantity::Effects, index }));
+                    }
+                    self.indices[kept] = index;
+                    self.write(kept, &here);
+                    kept += 1;
+                }
+                Err(error @ Error::EulerSingularity { .. }) => {
+                    let (point, reason) = (self.workspace.point(index), ReachError::Evaluation(error));
+                    self.unreachable.push(Unreachable { index, point, asked: here.clone(), reason });
+                }
+                Err(error) => return Err(self.at(place, error)),
+            }
+        }
+        self.indices.truncate(kept);
+        self.finish_filling();
+        Ok(())
+    }
+
+    fn at(&self, place: usize, error: Error) -> Unevaluated {
+        Unevaluated { configuration: self.indices.get(place).copied(), error }
+    }
+
+    /// Visits the rows in order. The place holds one configuration at a time, as long as those of the workspace.
+    pub(crate) fn visit(&self, here: &mut Configuration, visit: &mut dyn FnMut(&Row)) {
+        let description = self.manipulator.description();
+        let signature = Function::Pose.signature();
+        let arguments = self.arguments.first_rows(signature.arguments_len(description));
+        let rows = signature.results_len(description);
+        let mut poses = Tiles::new(arguments.instruction_set(), rows, arguments.count());
+        let evaluated = self.manipulator.poses(&arguments, &mut poses);
+        debug_assert!(evaluated.is_ok(), "the same arguments served before");
+        let mut sources = vec![[0.0; 6]; description.sources.len()];
+        for (place, &index) in self.indices.iter().enumerate() {
+            self.configuration(place, here);
+            let mut pose = Pose::IDENTITY;
+            poses.copy_rows(0..rows, place, pose.0.as_flattened_mut());
+            self.displacements.copy_rows(0..6 * sources.len(), place, sources.as_flattened_mut());
+            let (mut repeatable, mut squares) = ([0.0; 6], [0.0; 6]);
+            for (source, deviation) in description.sources.iter().zip(&sources) {
+                for (row, entry) in deviation.iter().enumerate() {
+                    match source.class {
+                        Class::Repeatable => repeatable[row] += entry,
+                        Class::Random(_) => squares[row] += entry * entry,
+                    }
+                }
+            }
+            let random = squares.map(f64::sqrt);
+            visit(&Row { index, configuration: here, pose, sources: &sources, repeatable, random });
+        }
+    }
+}
+
+/// Multiplies the displacements of every source with its bound, and says whether all are sound.
+struct Scaled<'a> {
+    displacements: &'a mut Tiles,
+    bounds: &'a [f64],
+    euler: bool,
+}
+
+impl Kernel for Scaled<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<R: Register>(self) -> bool {
+        let zero = Lanes::<R>::constant(0.0);
+        // What is finite times 0 is 0, anything else is not.
+        let (mut nothing, mut margin) = (zero, Lanes::constant(f64::INFINITY));
+        for tile in 0..self.displacements.tiles() {
+            let rows = self.displacements.tile_mut::<R>(tile);
+            for (bound, rows) in self.bounds.iter().zip(rows.chunks_exact_mut(6)) {
+                let bound = Lanes::constant(*bound);
+                for row in rows {
+                    *row = *row * bound;
+                    nothing = row.mul_add(zero, nothing);
+                }
+            }
+            if self.euler {
+                margin = margin.min(rows[6 * self.bounds.len()]);
+                nothing = rows[6 * self.bounds.len()].mul_add(zero, nothing);
+            }
+        }
+        nothing.to_slice().iter().all(|value| *value == 0.0)
+            && margin.to_slice().iter().all(|margin| *margin >= MINIMUM_MARGIN)
+    }
+}

@@ -1,0 +1,165 @@
+//! What sources do together, against formulas written another way.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+use super::*;
+use abbe_core::{Class, Distribution};
+
+const TOLERANCE: f64 = 0.5;
+
+/// A configuration and the position errors of the sources there.
+type Errors = (Configuration, Vec<Vector3<f64>>);
+
+/// The budget of the paper's sweep, and what it was made of.
+fn papers() -> (Budget, Vec<Errors>) {
+    let workspace = presented_volume(&Pps, &presentation()).unwrap();
+    let mut rows = Vec::new();
+    let budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut |row: &Row| {
+        let sources = row.sources.iter().map(|source| Vector3::from_row_slice(&source[..3]));
+        rows.push((row.configuration.clone(), sources.collect()));
+    });
+    (budget.unwrap(), rows)
+}
+
+fn radius(errors: &[Vector3<f64>], scales: &[f64]) -> f64 {
+    let sources = &Pps.description().sources;
+    let (mut sum, mut squares) = (Vector3::zeros(), 0.0);
+    for ((source, error), scale) in sources.iter().zip(errors).zip(scales) {
+        match source.class {
+            Class::Repeatable => sum += error * *scale,
+            Class::Random(_) => squares += (error * *scale).norm_squared(),
+        }
+    }
+    sum.norm() + squares.sqrt()
+}
+
+fn largest(rows: &[Errors], scales: &[f64]) -> f64 {
+    rows.iter().map(|(_, errors)| radius(errors, scales)).fold(0.0, f64::max)
+}
+
+#[test]
+fn covariance_is_that_of_the_error_jacobian() {
+    let (budget, rows) = papers();
+    let description = Pps.description();
+    let (mut deviation, mut trace, mut longest) = (Vector3::<f64>::zeros(), 0.0_f64, 0.0_f64);
+    for (Configuration { q, s, .. }, _) in &rows {
+        let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+        Pps.error_jacobian(q, s, &mut columns).unwrap();
+        let mut effects = vec![0.0; description.effects.len()];
+        Pps.effects(q, s, &[], &mut effects).unwrap();
+        // Σ of all ε: one column of magnitudes for each random source.
+        let mut sigma = DMatrix::<f64>::zeros(columns.len(), columns.len());
+        for (k, source) in description.sources.iter().enumerate() {
+            let deviation = match source.class {
+                Class::Repeatable => 0.0,
+                Class::Random(Distribution::Uniform) => 1.0 / 3_f64.sqrt(),
+                Class::Random(Distribution::Normal) => 1.0,
+                Class::Random(Distribution::Triangular) => 1.0 / 6_f64.sqrt(),
+                Class::Random(Distribution::Arcsine) => 0.5_f64.sqrt(),
+            };
+            let mut column = DVector::<f64>::zeros(columns.len());
+            for (effect, value) in description.effects.iter().zip(&effects).filter(|(e, _)| e.source == k) {
+                column[6 * effect.frame + effect.component.index()] += value * deviation;
+            }
+            sigma += &column * column.transpose();
+        }
+        let jacobian = DMatrix::from_fn(3, columns.len(), |i, j| columns[j][i]);
+        let covariance = Matrix3::from_iterator((&jacobian * sigma * jacobian.transpose()).iter().copied());
+        deviation = deviation.sup(&covariance.diagonal().map(f64::sqrt));
+        trace = trace.max(covariance.trace());
+        longest = longest.max(covariance.symmetric_eigenvalues().max());
+    }
+    let combined = &budget.combined;
+    for i in 0..3 {
+        assert!((combined.standard_deviation[i] - deviation[i]).abs() < 1e-12);
+    }
+    assert!((combined.standard_radius.value - trace.sqrt()).abs() < 1e-12);
+    assert!((combined.ellipsoid.semi_axes[0] - (CHI_SQUARED_95[2] * longest).sqrt()).abs() < 1e-12);
+}
+
+#[test]
+fn sums_spheres_and_root_mean_squares() {
+    let (budget, rows) = papers();
+    let combined = &budget.combined;
+    let worst = rows.iter().map(|(_, errors)| errors.iter().map(|error| error.norm()).sum::<f64>());
+    assert!((combined.worst_case_radius.value - worst.fold(0.0, f64::max)).abs() < 1e-12);
+    assert!(combined.worst_case_radius.value > combined.radius.value);
+    let both = rows.iter().map(|(_, errors)| radius(errors, &[1.0; 7]).powi(2)).sum::<f64>();
+    assert!((combined.rms[2] - (both / 999.0).sqrt()).abs() < 1e-12);
+    // No point is outside the sphere, and it is no larger than the one about zero.
+    let sphere = combined.enclosing;
+    assert_eq!(sphere.excess, 0.0);
+    assert!(sphere.radius < combined.repeatable_radius.value);
+    let centre = Vector3::from(sphere.centre);
+    let random = |(_, errors): &Errors| {
+        let classes = Pps.description().sources.iter().map(|source| source.class == Class::Repeatable);
+        let sum: Vector3<f64> =
+            errors.iter().zip(classes).filter(|(_, is)| *is).map(|(error, _)| error).sum();
+        (sum - centre).norm()
+    };
+    let reach = rows.iter().map(random).fold(0.0, f64::max);
+    assert!((reach / sphere.radius - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_tolerance_is_met_at_the_scales_it_allows() {
+    let (budget, rows) = papers();
+    let admissible = Admissible::new(&budget, TOLERANCE);
+    let together = admissible.together.unwrap();
+    assert!((largest(&rows, &[together; 7]) - TOLERANCE).abs() < 1e-12);
+    for (k, alone) in admissible.alone.iter().enumerate() {
+        let mut scales = [0.0; 7];
+        scales[k] = alone.unwrap();
+        assert!((largest(&rows, &scales) - TOLERANCE).abs() < 1e-12);
+    }
+    let equal = admissible.equal.iter().map(|scale| scale.unwrap()).collect::<Vec<_>>();
+    let met = largest(&rows, &equal);
+    assert!(met <= TOLERANCE && met > 0.3 * TOLERANCE, "{met}");
+
+    for (k, gain) in budget.gains.iter().enumerate() {
+        let mut scales = [1.0; 7];
+        scales[k] = 0.99;
+        assert!((budget.combined.radius.value - largest(&rows, &scales) - gain).abs() < 1e-12);
+    }
+    assert_eq!(budget.tighten_first()[0], budget.ranks().iter().position(|rank| *rank == 1).unwrap());
+}
+
+#[test]
+fn nothing_limits_a_source_that_does_nothing() {
+    let workspace = joint_samples(&Pps, &[], 1).unwrap();
+    let mut budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut ()).unwrap();
+    for errors in &mut budget.sources {
+        errors.plain_max = Figures::default();
+    }
+    budget.combined = Combined::default();
+    let admissible = Admissible::new(&budget, TOLERANCE);
+    assert!(admissible.alone.iter().chain(&admissible.equal).all(Option::is_none));
+    assert_eq!((admissible.together, admissible.share), (None, None));
+}
+
+#[test]
+fn compensation_leaves_what_it_is_said_to() {
+    let workspace = presented_volume(&Pps, &presentation()).unwrap();
+    let left = |residual: Residual| {
+        let sources = Pps.description().sources.iter();
+        let residuals = sources.map(|source| (source.class == Class::Repeatable).then_some(residual));
+        let residuals = residuals.collect::<Vec<_>>();
+        let budget = error_budget(
+            &OneByOne(Pps),
+            &workspace,
+            Asked { residuals: Some(&residuals), ..Asked::default() },
+            &mut (),
+        )
+        .unwrap();
+        (budget.compensation.unwrap(), budget.combined)
+    };
+    let (perfect, combined) = left(Residual::Share(0.0));
+    assert_eq!((perfect.residual.value, perfect.total.value), (0.0, combined.random_radius.value));
+    let (bounded, _) = left(Residual::Bound(0.1));
+    assert!((bounded.residual_sum.value - 0.3).abs() < 1e-12);
+    assert!((bounded.residual.value - 0.03_f64.sqrt()).abs() < 1e-12);
+    assert!((bounded.total.value - 0.03_f64.sqrt() - combined.random_radius.value).abs() < 1e-12);
+    let (half, _) = left(Residual::Share(0.5));
+    let (whole, _) = left(Residual::Share(1.0));
+    assert!((whole.residual_sum.value - 2.0 * half.residual_sum.value).abs() < 1e-12);
+}

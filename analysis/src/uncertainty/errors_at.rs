@@ -1,0 +1,112 @@
+//! What every source does at one configuration.
+
+use rand::{Rng, RngExt};
+use rand_distr::StudentT;
+
+use super::compliance::is_normal;
+use crate::sampling::draw;
+use crate::sweep::sweep;
+use crate::workspace::One;
+use crate::{Configuration, Measurand, Unevaluated};
+use abbe_core::lanes::Sweepable;
+use abbe_core::{Class, Description, Distribution, Error, Source};
+
+/// What every source does at one configuration, to first order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorsAt<'a> {
+    /// Whose sources they are.
+    pub description: &'a Description,
+    /// ΔX of each source, of a random one the bound, as in [`Row::sources`](crate::Row::sources).
+    pub sources: Vec<[f64; 6]>,
+    /// The values of the effects, of random ones the magnitudes.
+    pub effects: Vec<f64>,
+}
+
+/// Evaluates the sources at a configuration. Errors as for [`sweep`].
+pub fn errors_at<'a>(
+    manipulator: &'a dyn Sweepable,
+    configuration: &Configuration,
+) -> Result<ErrorsAt<'a>, Error> {
+    let description = manipulator.description();
+    let mut sources = Vec::new();
+    sweep(manipulator, &One(configuration), &mut |row| sources.extend_from_slice(row.sources))
+        .map_err(|Unevaluated { error, .. }| error)?;
+    let mut effects = vec![0.0; description.effects.len()];
+    manipulator.effects(&configuration.q, &configuration.s, &configuration.u, &mut effects)?;
+    Ok(ErrorsAt { description, sources, effects })
+}
+
+impl ErrorsAt<'_> {
+    /// The sum of the repeatable sources.
+    pub fn bias(&self, measurand: Measurand) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (source, error) in self.description.sources.iter().zip(&self.sources) {
+            if source.class == Class::Repeatable {
+                let error = measurand.rows(error);
+                sum = core::array::from_fn(|i| sum[i] + error[i]);
+            }
+        }
+        sum
+    }
+
+    /// Whether the error is a normal vector: all random sources are normal, with standard deviations that are known.
+    pub fn is_normal(&self, measurand: Measurand) -> bool {
+        is_normal(&self.random(measurand))
+    }
+
+    /// The random sources that do something.
+    pub(super) fn random(&self, measurand: Measurand) -> Vec<RandomError> {
+        let sources = self.description.sources.iter().zip(&self.sources).enumerate();
+        let random = sources.filter_map(|(source, (Source { class, degrees_of_freedom, .. }, bound))| {
+            let Class::Random(distribution) = *class else { return None };
+            let magnitude = measurand.rows(bound).map(|b| b / distribution.bound());
+            (magnitude != [0.0; 3]).then_some(RandomError {
+                source,
+                distribution,
+                degrees_of_freedom: *degrees_of_freedom,
+                magnitude,
+            })
+        });
+        random.collect()
+    }
+}
+
+/// A random source at a configuration.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RandomError {
+    pub(super) source: usize,
+    pub(super) distribution: Distribution,
+    /// Of its standard deviation, infinite if that is known.
+    pub(super) degrees_of_freedom: f64,
+    /// ΔX where its error is its magnitude; the three rows go together.
+    pub(super) magnitude: [f64; 3],
+}
+
+impl RandomError {
+    /// Whether its standard deviation was estimated from few measurements.
+    pub(super) fn is_estimated(&self) -> bool {
+        self.degrees_of_freedom.is_finite()
+    }
+
+    /// Draws its size. An error whose standard deviation was estimated is drawn after Student's t (JCGM 101, 6.4.9).
+    pub(super) fn draw(&self, random: &mut impl Rng) -> f64 {
+        match StudentT::new(self.degrees_of_freedom) {
+            Ok(student) if self.is_estimated() => random.sample(student),
+            _ => draw(self.distribution, random),
+        }
+    }
+
+    /// The standard uncertainties along the rows, with the sign of ΔX.
+    pub(super) fn standard(&self) -> [f64; 3] {
+        self.magnitude.map(|a| a / self.distribution.divisor())
+    }
+}
+
+/// `Σ_k u_k u_kᵀ`.
+pub(super) fn covariance(random: &[RandomError]) -> [[f64; 3]; 3] {
+    let mut sum = [[0.0; 3]; 3];
+    for u in random.iter().map(RandomError::standard) {
+        sum = core::array::from_fn(|i| core::array::from_fn(|j| sum[i][j] + u[i] * u[j]));
+    }
+    sum
+}

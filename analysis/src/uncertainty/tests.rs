@@ -1,0 +1,281 @@
+//! What is stated, held against draws.
+
+use rand::RngExt;
+use rand_distr::ChiSquared;
+
+use super::errors_at::{RandomError, covariance};
+use super::statement::degrees_of_freedom;
+use super::*;
+use crate::sampling::{draw, norm, stream};
+use crate::{Measurand, NormalVector, StudentVector};
+use abbe_core::{Class, Description, Distribution, LengthUnit, List, Orientation, Source, Text};
+
+/// A machine without frames whose sources do this.
+fn machine(sources: Vec<Source>) -> Description {
+    Description {
+        name: Text::Constant("budget"),
+        title: Text::Constant("budget"),
+        length: LengthUnit::Millimetre,
+        orientation: Orientation::RotationVector,
+        frames: List::Constant(&[]),
+        variables: List::Constant(&[]),
+        parameters: List::Constant(&[]),
+        inputs: List::Constant(&[]),
+        sources: sources.into_iter().collect(),
+        effects: List::Constant(&[]),
+    }
+}
+
+fn source(class: Class) -> Source {
+    Source::new("source", class, "", "")
+}
+
+/// A budget of these distributions with its errors in so many directions.
+fn errors(description: &Description, rank: usize, seed: u64) -> ErrorsAt<'_> {
+    let mut random = stream(seed, 0);
+    let mut any = || 2.0 * random.random::<f64>() - 1.0;
+    let base = [0; 3].map(|_| [0; 3].map(|_| any()));
+    let one = |class: Class, any: &mut dyn FnMut() -> f64| {
+        let bound = match class {
+            Class::Repeatable => 1.0,
+            Class::Random(distribution) => distribution.bound(),
+        };
+        let mut row = [0.0; 6];
+        for direction in &base[..rank] {
+            let t = any() * bound;
+            for measurand in Measurand::ALL {
+                (0..3).for_each(|i| row[measurand.first() + i] += t * direction[i]);
+            }
+        }
+        row
+    };
+    let sources = description.sources.iter().map(|source| one(source.class, &mut any)).collect();
+    ErrorsAt { description, sources, effects: Vec::new() }
+}
+
+/// The share of draws, from other numbers than those of the library, whose norm is within a radius.
+fn drawn(errors: &ErrorsAt, bias: f64, radius: f64, count: usize, seed: u64) -> (f64, f64) {
+    let mut random = stream(!seed, 77);
+    let (mut within, mut largest) = (0, 0.0_f64);
+    for _ in 0..count {
+        let mut sum = [0.0; 3];
+        for (source, row) in errors.description.sources.iter().zip(&errors.sources) {
+            let t = match source.class {
+                Class::Repeatable => bias,
+                Class::Random(distribution) => draw(distribution, &mut random) / distribution.bound(),
+            };
+            (0..3).for_each(|i| sum[i] += t * row[i]);
+        }
+        let error = norm(sum);
+        largest = largest.max(error);
+        within += usize::from(error <= radius);
+    }
+    (within as f64 / count as f64, largest)
+}
+
+/// Twenty budgets of two to nine normal sources, ranks 1, 2 and 3: U holds 95 ± 0.5 % of a million draws, about the bias and
+/// along each axis.
+#[test]
+fn the_stated_uncertainty_holds_what_it_says() {
+    for seed in 0..20 {
+        let rank = 1 + seed as usize % 3;
+        let sources = (0..2 + seed as usize % 8).map(|_| source(Class::Random(Distribution::Normal)));
+        let description = machine(sources.chain([source(Class::Repeatable)]).collect());
+        let errors = errors(&description, rank, seed);
+        let statement = Statement::new(&errors, Measurand::Position, seed);
+        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], 1_000_000, seed);
+        assert!((share - COVERAGE).abs() < 0.005, "rank {rank}: {share}");
+        assert!((statement.coverage.probability - COVERAGE).abs() < 1e-8);
+        assert!(statement.coverage.draws.is_none());
+        let shares = statement.contributions.iter().map(|one| one.share).sum::<f64>();
+        assert!((shares - 1.0).abs() < 1e-12);
+        // Along an axis: the other rows of the draws are nothing.
+        let mut flat = errors.clone();
+        flat.sources.iter_mut().for_each(|row| row[1..3].fill(0.0));
+        let (share, _) = drawn(&flat, 0.0, statement.expanded()[0], 1_000_000, seed);
+        assert!((share - COVERAGE).abs() < 0.005, "along x: {share}");
+    }
+}
+
+/// Of other distributions U covers what it says of itself.
+#[test]
+fn the_coverage_of_other_distributions_is_stated() {
+    for seed in 0..12 {
+        let any = |i: usize| source(Class::Random(Distribution::ALL[(i + seed as usize) % 4]));
+        let description = machine((0..1 + seed as usize % 5).map(any).collect());
+        let errors = errors(&description, 1 + seed as usize % 3, seed);
+        let statement = Statement::new(&errors, Measurand::Orientation, seed);
+        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], 1_000_000, seed);
+        let Compliance { probability, error, .. } = statement.coverage;
+        let spread = error.hypot((share * (1.0 - share) / 1e6).sqrt());
+        assert!((share - probability).abs() < 4.0 * spread + 1e-5, "{share} {probability}");
+    }
+}
+
+/// The probability of a tolerance, with a bias, by integral and by draws.
+#[test]
+fn a_probability_is_that_of_draws() {
+    for (seed, kinds) in (0..).zip([
+        vec![Distribution::Normal; 4],
+        vec![Distribution::Uniform, Distribution::Normal, Distribution::Arcsine],
+        vec![Distribution::Triangular; 2],
+    ]) {
+        let sources = kinds.iter().map(|kind| source(Class::Random(*kind)));
+        let description = machine(sources.chain([source(Class::Repeatable)]).collect());
+        let errors = errors(&description, 3, 40 + seed);
+        let typical = norm(errors.bias(Measurand::Position)) + 0.3;
+        for limit in [0.5 * typical, typical, 1.5 * typical] {
+            let Compliance { probability, error, draws } =
+                compliance(&errors, Measurand::Position, limit, seed);
+            assert_eq!(draws.is_none(), seed == 0);
+            let (share, _) = drawn(&errors, 1.0, limit, 1_000_000, seed);
+            let spread = error + (share * (1.0 - share) / 1e6).sqrt() + 1e-6;
+            assert!((share - probability).abs() < 4.0 * spread, "{share} {probability}");
+        }
+    }
+}
+
+/// Normal sources, each with its standard deviation along an axis and its degrees of freedom.
+type Estimated = [(usize, f64, f64)];
+
+/// What is to be covered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Figure {
+    Norm,
+    FirstRow,
+}
+
+/// The share of errors within U of a figure where the standard deviations of the sources were estimated as `scales` of what
+/// they are.
+fn covered(sources: &Estimated, scales: &[f64], figure: Figure) -> f64 {
+    let errors = |scales: &[f64]| {
+        let one = |((axis, deviation, degrees_of_freedom), scale): (&(usize, f64, f64), &f64)| {
+            let mut magnitude = [0.0; 3];
+            magnitude[*axis] = deviation * scale;
+            let (source, distribution) = (0, Distribution::Normal);
+            RandomError { source, distribution, degrees_of_freedom: *degrees_of_freedom, magnitude }
+        };
+        sources.iter().zip(scales).map(one).collect::<Vec<_>>()
+    };
+    let (stated, known) = (errors(scales), covariance(&errors(&vec![1.0; scales.len()])));
+    let matrix = covariance(&stated);
+    let [row, .., norm] = degrees_of_freedom(&stated, matrix);
+    match figure {
+        Figure::Norm => {
+            let expanded = StudentVector::new(matrix, norm).quantile(COVERAGE);
+            NormalVector::new([0.0; 3], known).within(expanded)
+        }
+        Figure::FirstRow => {
+            let line = NormalVector::new([0.0; 3], [[known[0][0], 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+            line.within(student_95(row) * matrix[0][0].sqrt())
+        }
+    }
+}
+
+/// The same over all that the first two may be estimated as: an integral over `s = √(χ²/ν)` with the density
+/// `s^(ν − 1) exp(−ν s²/2)`.
+fn mean_coverage(sources: &Estimated, figure: Figure) -> f64 {
+    let scales = |i: usize| -> Vec<(f64, f64)> {
+        let degrees_of_freedom = sources[i].2;
+        if degrees_of_freedom.is_infinite() {
+            return vec![(1.0, 1.0)];
+        }
+        let reach = 1.0 + 4.5 / degrees_of_freedom.sqrt();
+        // Below three degrees of freedom the density is not flat at 0.
+        let count = if degrees_of_freedom < 3.0 { 60 } else { 10 };
+        let points = (0..count).map(|k| reach * (f64::from(k) + 0.5) / f64::from(count));
+        points
+            .map(|s| (s, s.powf(degrees_of_freedom - 1.0) * (-degrees_of_freedom * s * s / 2.0).exp()))
+            .collect()
+    };
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for (first, a) in scales(0) {
+        for (second, b) in scales(1) {
+            let mut all = vec![1.0; sources.len()];
+            (all[0], all[1]) = (first, second);
+            sum += a * b * covered(sources, &all, figure);
+            weights += a * b;
+        }
+    }
+    sum / weights
+}
+
+/// U of the norm, where standard deviations are estimated anew each time: no less than 94.5 % from three degrees of freedom on,
+/// in line, in a plane and in space.
+#[test]
+fn estimated_standard_deviations_are_covered() {
+    const KNOWN: f64 = f64::INFINITY;
+    for sources in [
+        &[(0, 1.0, 3.0), (0, 1.0, KNOWN)][..],
+        &[(0, 1.0, 3.0), (0, 0.5, KNOWN)],
+        &[(0, 1.0, 3.0), (0, 0.25, KNOWN)],
+        &[(0, 1.0, 3.0), (0, 1.0, 3.0)],
+        &[(0, 1.0, 3.0), (1, 1.0, 3.0)],
+        &[(0, 1.0, 3.0), (1, 1.0, KNOWN)],
+        &[(0, 1.0, 3.0), (1, 0.3, KNOWN)],
+        &[(0, 0.7, 3.0), (1, 1.0, KNOWN)],
+        &[(0, 1.0, 4.0), (1, 0.6, 9.0), (2, 0.3, KNOWN)],
+        &[(0, 1.0, 3.0), (1, 1.0, KNOWN), (2, 1.0, KNOWN)],
+    ] {
+        let coverage = mean_coverage(sources, Figure::Norm);
+        assert!((0.945..0.99).contains(&coverage), "{sources:?}: {coverage}");
+    }
+    // All three estimated: drawn, with a standard error of 0.25 %.
+    let sources = [(0, 1.0, 4.0), (1, 0.8, 6.0), (2, 0.5, 12.0)];
+    let mut random = stream(31, 0);
+    let mut draw = |degrees: f64| (random.sample(ChiSquared::new(degrees).unwrap()) / degrees).sqrt();
+    let mut one = || covered(&sources, &sources.map(|(.., degrees)| draw(degrees)), Figure::Norm);
+    let mean = (0..120).map(|_| one()).sum::<f64>() / 120.0;
+    assert!((0.945..0.99).contains(&mean), "{mean}");
+    // What the documents say of fewer, and of the formula of the GUM along an axis: each where it is worst.
+    for (degrees, known, figure, expected) in [
+        (2.0, 0.25, Figure::Norm, 0.942),
+        (1.0, 0.18, Figure::Norm, 0.908),
+        (9.0, 0.5, Figure::FirstRow, 0.948),
+        (4.0, 0.5, Figure::FirstRow, 0.942),
+        (2.0, 0.33, Figure::FirstRow, 0.921),
+    ] {
+        let found = mean_coverage(&[(0, 1.0, degrees), (0, known, KNOWN)], figure);
+        assert!((found - expected).abs() < 3e-3, "{degrees}, {figure:?}: {found}");
+    }
+}
+
+/// What is drawn after Student's t is within its quantiles as often as it should be.
+#[test]
+fn an_estimated_error_is_drawn_after_student() {
+    let one = Source { degrees_of_freedom: 5.0, ..source(Class::Random(Distribution::Normal)) };
+    let description = machine(vec![one]);
+    let errors = errors(&description, 1, 3);
+    let statement = Statement::new(&errors, Measurand::Position, 3);
+    assert_eq!(statement.contributions[0].degrees_of_freedom, 5.0);
+    let factors = statement.coverage_factors.map(|k| (k - 2.570_581_836).abs() < 1e-8);
+    assert_eq!((factors, statement.coverage.draws), ([true; 4], Some(DRAWS)));
+    let Compliance { probability, error, .. } = statement.coverage;
+    assert!((probability - COVERAGE).abs() < 4.0 * error, "{probability}");
+}
+
+/// Equal shares of bounded sources: neither ten million draws nor any signs of the bounds exceed the tolerance.
+#[test]
+fn certain_is_never_exceeded() {
+    let kinds =
+        [Distribution::Uniform, Distribution::Triangular, Distribution::Arcsine, Distribution::Uniform];
+    let sources = kinds.iter().map(|kind| source(Class::Random(*kind)));
+    let description = machine(sources.chain([source(Class::Repeatable)]).collect());
+    let mut errors = errors(&description, 1, 5);
+    let tolerance = 0.5;
+    // Each at its share T/n, all in line: nothing is left over.
+    for row in &mut errors.sources {
+        let size = norm(Measurand::Position.rows(row));
+        row.iter_mut().for_each(|value| *value *= tolerance / 5.0 / size);
+    }
+    let corner = |signs: u32| {
+        let row =
+            |i: usize| if signs >> i & 1 == 1 { errors.sources[i] } else { errors.sources[i].map(|v| -v) };
+        norm([0, 1, 2].map(|axis| (0..5).map(|i| row(i)[axis]).sum::<f64>()))
+    };
+    let extreme = (0..32).map(corner).fold(0.0, f64::max);
+    assert!((extreme - tolerance).abs() < 1e-12);
+    let (_, largest) = drawn(&errors, 1.0, tolerance, 10_000_000, 5);
+    assert!(largest <= tolerance * (1.0 + 1e-12), "{largest}");
+    assert!(largest > 0.7 * tolerance);
+}

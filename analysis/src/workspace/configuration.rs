@@ -1,0 +1,49 @@
+//! A configuration of a manipulator.
+
+use crate::sampling;
+use abbe_core::Description;
+
+/// A configuration: joint variables, structural parameters (the tool point is one of those), and inputs.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Configuration {
+    /// The joint variables.
+    pub q: Vec<f64>,
+    /// The structural parameters.
+    pub s: Vec<f64>,
+    /// The inputs.
+    pub u: Vec<f64>,
+}
+
+impl Configuration {
+    /// The home configuration with nominal parameters and inputs.
+    pub fn home(description: &Description) -> Self {
+        Self {
+            q: sampling::home(description),
+            s: sampling::nominal_parameters(description),
+            u: sampling::nominal_inputs(description),
+        }
+    }
+
+    /// `d1 = 1128, q4 = 0.5, x = 250`: its variables, and those parameters and inputs that are not nominal.
+    pub fn label(&self, description: &Description) -> String {
+        let variables = description.variables.iter().zip(&self.q);
+        let variables = variables.map(|(variable, value)| format!("{} = {value}", variable.name));
+        let parameters = description.parameters.iter().zip(&self.s);
+        let parameters = parameters
+            .filter(|(parameter, value)| parameter.nominal != **value)
+            .map(|(parameter, value)| format!("{} = {value}", parameter.name));
+        let inputs = description.inputs.iter().zip(&self.u);
+        let inputs = inputs
+            .filter(|(input, value)| input.nominal != **value)
+            .map(|(input, value)| format!("{} = {value}", input.name));
+        variables.chain(parameters).chain(inputs).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Takes over another one of the same manipulator.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.q.copy_from_slice(&other.q);
+        self.s.copy_from_slice(&other.s);
+        self.u.copy_from_slice(&other.u);
+    }
+}

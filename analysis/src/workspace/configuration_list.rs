@@ -1,0 +1,56 @@
+//! Configurations one after the other.
+
+use super::{Configuration, Workspace};
+use crate::ReachError;
+use abbe_core::{Error, Manipulator, Quantity};
+
+/// Configurations one after the other, a path say; see [`listed`].
+#[derive(Clone, Debug)]
+pub struct Listed {
+    home: Configuration,
+    configurations: Vec<Configuration>,
+    limits: Vec<[f64; 2]>,
+}
+
+/// A list of configurations; those with a variable outside its limits count as unreachable.
+///
+/// [`Error::Count`] if one has not as many variables, parameters or inputs as the manipulator.
+pub fn listed(manipulator: &dyn Manipulator, configurations: Vec<Configuration>) -> Result<Listed, Error> {
+    let description = manipulator.description();
+    let home = Configuration::home(description);
+    for Configuration { q, s, u } in &configurations {
+        for (quantity, expected, found) in [
+            (Quantity::Variables, home.q.len(), q.len()),
+            (Quantity::Parameters, home.s.len(), s.len()),
+            (Quantity::Inputs, home.u.len(), u.len()),
+        ] {
+            if expected != found {
+                return Err(Error::Count { quantity, expected, found });
+            }
+        }
+    }
+    let limits = description.variables.iter().map(|variable| variable.limits).collect();
+    Ok(Listed { home, configurations, limits })
+}
+
+impl Workspace for Listed {
+    fn len(&self) -> usize {
+        self.configurations.len()
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(self.configurations.get(index).unwrap_or(&self.home));
+        let q = &configuration.q;
+        let outside = |(value, [lower, upper]): (&f64, &[f64; 2])| value < lower || value > upper;
+        match q.iter().zip(&self.limits).position(outside) {
+            Some(variable) => {
+                Err(ReachError::OutsideLimits { variable, value: q[variable], limits: self.limits[variable] })
+            }
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! Every combination of the values of some variables.
+
+use super::axis::{combinations, combine, in_range};
+use super::{Axis, Configuration, Workspace};
+use crate::ReachError;
+use abbe_core::{Error, Manipulator, Quantity};
+
+/// Every combination of the values of some variables; see [`joint_grid`].
+#[derive(Clone, Debug)]
+pub struct JointGrid {
+    home: Configuration,
+    axes: Vec<Axis>,
+}
+
+/// Every combination of the values of some variables, the last one fastest; the others stay at home.
+///
+/// Parameters and inputs are nominal; [`with_inputs`](super::with_inputs) moves these. [`Error::Count`] if an axis names a variable that there is not.
+pub fn joint_grid(manipulator: &dyn Manipulator, axes: &[Axis]) -> Result<JointGrid, Error> {
+    let description = manipulator.description();
+    let indices = axes.iter().map(|axis| axis.index);
+    in_range(indices, Quantity::Variables, description.variables.len())?;
+    Ok(JointGrid { home: Configuration::home(description), axes: axes.to_vec() })
+}
+
+impl Workspace for JointGrid {
+    fn len(&self) -> usize {
+        combinations(&self.axes)
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        configuration.copy_from(&self.home);
+        combine(index, &self.axes, &mut configuration.q);
+        Ok(())
+    }
+}

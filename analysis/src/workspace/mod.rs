@@ -1,0 +1,31 @@
+//! The configurations over which errors are analyzed.
+//!
+//! A [`Workspace`] makes configurations by index: grids and samples of joints, a volume of tool points presented at one
+//! point, a box of points, a list; each of them with inputs that go through values of their own. What could not be reached is counted by reason.
+
+mod axis;
+mod base_box;
+mod configuration;
+mod configuration_list;
+mod configurations;
+mod joint_grid;
+mod joint_samples;
+mod presented_volume;
+mod subset;
+mod unreachable;
+mod with_inputs;
+
+pub use axis::Axis;
+pub(crate) use axis::in_range;
+pub use base_box::{BaseBox, ReachedBox, ToolOrientation, base_box};
+pub use configuration::Configuration;
+pub use configuration_list::{Listed, listed};
+pub(crate) use configurations::One;
+pub use configurations::Workspace;
+pub use joint_grid::{JointGrid, joint_grid};
+pub(crate) use joint_samples::STREAM;
+pub use joint_samples::{JointSamples, joint_samples, random_joint_samples};
+pub use presented_volume::{Presentation, PresentedVolume, presented_volume};
+pub use subset::Subset;
+pub use unreachable::{Unreachable, UnreachableSummary};
+pub use with_inputs::{WithInputs, with_inputs};

@@ -1,0 +1,67 @@
+//! The paper's workspace: a volume of tool points, each presented at a fixed point of the room.
+
+use super::axis::{combinations, combine, in_range};
+use super::{Axis, Configuration, Workspace};
+use crate::{ReachError, Target, inverse, sampling};
+use abbe_core::{Error, Manipulator, Quantity};
+
+/// What is presented where, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Presentation {
+    /// Where every tool point is to be brought, in `F_0`: the isocentre.
+    pub point: [f64; 3],
+    /// The grid of tool points: values of structural parameters.
+    pub tool_points: Vec<Axis>,
+    /// The grid of approaches: values of variables that are held, the spin say.
+    pub approaches: Vec<Axis>,
+    /// The variables that bring the tool point there. All others stay at home.
+    pub solved: Vec<usize>,
+}
+
+/// Every tool point in every approach, presented at one point of `F_0`; see [`presented_volume`].
+pub struct PresentedVolume<'a> {
+    manipulator: &'a dyn Manipulator,
+    presentation: Presentation,
+    home: Configuration,
+}
+
+/// Every tool point in every approach, presented at one point of `F_0`; approaches vary fastest.
+///
+/// Each is solved for from home, whatever was solved before. [`Error::Count`] if an index names a variable or a
+/// parameter that there is not; other errors as for [`Manipulator::transforms`].
+pub fn presented_volume<'a>(
+    manipulator: &'a dyn Manipulator,
+    presentation: &Presentation,
+) -> Result<PresentedVolume<'a>, Error> {
+    let description = manipulator.description();
+    let Presentation { tool_points, approaches, solved, .. } = presentation;
+    let indices = approaches.iter().map(|axis| axis.index).chain(solved.iter().copied());
+    in_range(indices, Quantity::Variables, description.variables.len())?;
+    let indices = tool_points.iter().map(|axis| axis.index);
+    in_range(indices, Quantity::Parameters, description.parameters.len())?;
+
+    let home = Configuration::home(description);
+    sampling::arm_length(manipulator, &home.s)?;
+    Ok(PresentedVolume { manipulator, presentation: presentation.clone(), home })
+}
+
+impl Workspace for PresentedVolume<'_> {
+    fn len(&self) -> usize {
+        combinations(&self.presentation.tool_points)
+            .saturating_mul(combinations(&self.presentation.approaches))
+    }
+
+    fn home(&self) -> &Configuration {
+        &self.home
+    }
+
+    fn fill(&self, index: usize, configuration: &mut Configuration) -> Result<(), ReachError> {
+        let Presentation { point, tool_points, approaches, solved } = &self.presentation;
+        configuration.copy_from(&self.home);
+        let tool_point = combine(index, approaches, &mut configuration.q);
+        combine(tool_point, tool_points, &mut configuration.s);
+        let Configuration { q, s, .. } = &*configuration;
+        configuration.q = inverse(self.manipulator, s, q, solved, &Target::Point(*point))?;
+        Ok(())
+    }
+}

@@ -1,0 +1,231 @@
+//! Since when a series is no longer what it was, and how fast it moves.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::distributions::student_quantile;
+
+/// How a series left its level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It moves at a constant speed.
+    Drift,
+    /// It is at another level all at once.
+    Jump,
+}
+
+/// A level, and how it was left: `x = level + speed · max(0, t − since)`, or `x = level + jump` from then on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// How it was left.
+    pub kind: Kind,
+    /// Since when; of a jump the first number after it.
+    pub since: f64,
+    /// When it was with 95 % probability; nothing before the series if it may have been before that.
+    pub between: [Option<f64>; 2],
+    /// The level before.
+    pub level: f64,
+    /// Speed, or jump.
+    pub size: f64,
+    /// One standard deviation of the size; that of the time is in it.
+    pub standard_deviation: f64,
+    /// How numbers scatter about this: one standard deviation.
+    pub scatter: f64,
+    /// By how much the sum of squares about it is smaller than about one level.
+    pub explained: f64,
+    /// Covariance of the time and the speed of a drift.
+    covariance: [[f64; 2]; 2],
+}
+
+/// One time at which it may have begun: its sum of squares and what goes with it.
+#[derive(Clone, Copy)]
+struct Fitted {
+    at: f64,
+    level: f64,
+    size: f64,
+    squares: f64,
+}
+
+/// Times of a drift that are tried between two numbers.
+const BETWEEN: usize = 4;
+
+impl Change {
+    /// The likelier of a drift and a jump of the numbers `x` at ascending times `t`; none for fewer than six, or if all are the same.
+    ///
+    /// By least squares over all times at which it may have begun. The times between which it was are those whose sum of squares
+    /// is not beyond the least one by more than `F_{1,n−3}` (95 %) of the scatter.
+    pub fn fit(t: &[f64], x: &[f64]) -> Option<Self> {
+        let n = t.len().min(x.len());
+        if n < 6 {
+            return None;
+        }
+        let (t, x) = (&t[..n], &x[..n]);
+        let mean = x.iter().sum::<f64>() / n as f64;
+        let without: f64 = x.iter().map(|x| (x - mean).powi(2)).sum();
+        let (drifts, jumps) = (drifts(t, x), jumps(t, x));
+        let least = |all: &[Fitted]| all.iter().copied().min_by(|a, b| a.squares.total_cmp(&b.squares));
+        let (drift, jump) = (least(&drifts)?, least(&jumps)?);
+        let (kind, best, all) = match drift.squares <= jump.squares {
+            true => (Kind::Drift, drift, drifts),
+            false => (Kind::Jump, jump, jumps),
+        };
+        if best.squares.is_nan() || without <= 0.0 {
+            return None;
+        }
+        let freedom = n - 3;
+        let variance = best.squares / freedom as f64;
+        let bound = best.squares + variance * student_quantile(0.975, freedom).powi(2);
+        let within = |fitted: &&Fitted| fitted.squares <= bound;
+        let first = all.iter().find(within).map_or(best.at, |fitted| fitted.at);
+        let last = all.iter().rev().find(within).map_or(best.at, |fitted| fitted.at);
+        let earliest = all.first().is_none_or(|fitted| first > fitted.at);
+        // A jump was after the number before it.
+        let first = match kind {
+            Kind::Drift => first,
+            Kind::Jump => t.iter().copied().rev().find(|t| *t < first).unwrap_or(first),
+        };
+        let covariance = covariance(kind, &best, t, variance);
+        Some(Self {
+            kind,
+            since: best.at,
+            between: [earliest.then_some(first), Some(last)],
+            level: best.level,
+            size: best.size,
+            standard_deviation: covariance[1][1].sqrt(),
+            scatter: variance.sqrt(),
+            explained: without - best.squares,
+            covariance,
+        })
+    }
+
+    /// When a drift is so far from the level, and one standard deviation of that time; none of a jump.
+    pub fn reaches(&self, distance: f64) -> Option<(f64, f64)> {
+        let speed = self.size.abs();
+        if self.kind == Kind::Jump || speed <= 0.0 {
+            return None;
+        }
+        // t = since + d/|v|: ∂t/∂v = −d/(v |v|).
+        let by_speed = -distance / (self.size * speed);
+        let [[time, both], [_, size]] = self.covariance;
+        let variance = time + 2.0 * by_speed * both + by_speed * by_speed * size;
+        Some((self.since + distance / speed, variance.max(0.0).sqrt()))
+    }
+
+    /// The number that the change predicts at a time, less the level before.
+    pub fn moved(&self, at: f64) -> f64 {
+        match self.kind {
+            Kind::Drift => self.size * (at - self.since).max(0.0),
+            Kind::Jump if at >= self.since => self.size,
+            Kind::Jump => 0.0,
+        }
+    }
+}
+
+/// `x ≈ level + size · g`: two sums each.
+fn fitted(at: f64, x: &[f64], g: impl Fn(usize) -> f64) -> Fitted {
+    let n = x.len() as f64;
+    let (mut sum_g, mut sum_x) = (0.0, 0.0);
+    for (i, x) in x.iter().enumerate() {
+        (sum_g, sum_x) = (sum_g + g(i), sum_x + x);
+    }
+    let (mean_g, mean_x) = (sum_g / n, sum_x / n);
+    let (mut gg, mut gx) = (0.0, 0.0);
+    for (i, x) in x.iter().enumerate() {
+        let away = g(i) - mean_g;
+        (gg, gx) = (gg + away * away, gx + away * (x - mean_x));
+    }
+    let size = if gg > 0.0 { gx / gg } else { 0.0 };
+    let level = mean_x - size * mean_g;
+    let squares = x.iter().enumerate().map(|(i, x)| (x - level - size * g(i)).powi(2)).sum();
+    Fitted { at, level, size, squares }
+}
+
+/// From the first number on, to where three are left.
+fn drifts(t: &[f64], x: &[f64]) -> Vec<Fitted> {
+    let steps = (0..t.len() - 3).flat_map(|i| (0..BETWEEN).map(move |part| (i, part)));
+    let times = steps.map(|(i, part)| t[i] + (t[i + 1] - t[i]) * part as f64 / BETWEEN as f64);
+    times.map(|at| fitted(at, x, |i| (t[i] - at).max(0.0))).collect()
+}
+
+/// Between any two numbers, one being left on either side.
+fn jumps(t: &[f64], x: &[f64]) -> Vec<Fitted> {
+    (1..t.len()).map(|first| fitted(t[first], x, |i| f64::from(u8::from(i >= first)))).collect()
+}
+
+/// Of time and size, from the derivatives of `level + size · g` by all three.
+fn covariance(kind: Kind, best: &Fitted, t: &[f64], variance: f64) -> [[f64; 2]; 2] {
+    let mut normal = Matrix3::<f64>::zeros();
+    for t in t {
+        let row = match kind {
+            Kind::Drift if *t > best.at => Vector3::new(1.0, -best.size, t - best.at),
+            Kind::Jump if *t >= best.at => Vector3::new(1.0, 0.0, 1.0),
+            _ => Vector3::new(1.0, 0.0, 0.0),
+        };
+        normal += row * row.transpose();
+    }
+    // A jump has no derivative by its time; nor can a drift that was there from the first number on tell its level.
+    let from_the_first = t.iter().filter(|t| **t <= best.at).count() < 2;
+    if kind == Kind::Jump || from_the_first {
+        normal[(1, 1)] = 1e300;
+        normal[(0, 1)] = 0.0;
+        normal[(1, 0)] = 0.0;
+        normal[(1, 2)] = 0.0;
+        normal[(2, 1)] = 0.0;
+    }
+    let inverse = normal.try_inverse().unwrap_or(Matrix3::repeat(f64::INFINITY)) * variance;
+    [[inverse[(1, 1)], inverse[(1, 2)]], [inverse[(2, 1)], inverse[(2, 2)]]]
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::RngExt;
+    use rand_distr::StandardNormal;
+
+    use super::{Change, Kind};
+    use abbe_analysis::sampling::stream;
+
+    fn noisy(run: usize, t: &[f64], truth: impl Fn(f64) -> f64) -> Vec<f64> {
+        let mut random = stream(17, run);
+        t.iter().map(|t| truth(*t) + random.sample::<f64, _>(StandardNormal)).collect()
+    }
+
+    #[test]
+    fn nothing_but_the_truth_where_there_is_no_noise() {
+        let t: Vec<f64> = (0..30).map(f64::from).collect();
+        let drift: Vec<f64> = t.iter().map(|t| 2.0 - 0.5 * (t - 12.25).max(0.0)).collect();
+        let found = Change::fit(&t, &drift).unwrap();
+        assert_eq!(found.kind, Kind::Drift);
+        assert!((found.since - 12.25).abs() < 1e-9 && (found.size + 0.5).abs() < 1e-9);
+        assert!((found.reaches(10.0).unwrap().0 - 32.25).abs() < 1e-6);
+        let jump: Vec<f64> = t.iter().map(|t| if *t > 8.5 { 3.0 } else { 1.0 }).collect();
+        let found = Change::fit(&t, &jump).unwrap();
+        assert_eq!((found.kind, found.since, found.between[0]), (Kind::Jump, 9.0, Some(8.0)));
+        assert!((found.size - 2.0).abs() < 1e-9 && (found.moved(8.9), found.moved(9.0)) == (0.0, found.size));
+        assert!(Change::fit(&t, &[1.0; 30]).is_none());
+    }
+
+    /// Coverage of the times and of the speed, over 500 machines that drift since a time that is not one of the numbers.
+    #[test]
+    fn uncertainties_are_what_they_say() {
+        let t: Vec<f64> = (0..60).map(f64::from).collect();
+        let (runs, since, speed) = (500, 33.4, 0.25);
+        let (mut drifts, mut times, mut speeds, mut reached) = (0.0, 0.0, 0.0, 0.0);
+        for run in 0..runs {
+            let x = noisy(run, &t, |t| 5.0 + speed * (t - since).max(0.0));
+            let found = Change::fit(&t, &x).unwrap();
+            if found.kind == Kind::Jump {
+                continue;
+            }
+            drifts += 1.0;
+            let [first, last] = found.between.map(|end| end.unwrap_or(f64::NEG_INFINITY));
+            times += f64::from(u8::from(first <= since && since <= last));
+            speeds += f64::from(u8::from((found.size - speed).abs() < found.standard_deviation));
+            let (when, sigma) = found.reaches(10.0).unwrap();
+            reached += f64::from(u8::from((when - since - 10.0 / speed).abs() < sigma));
+        }
+        assert!(drifts > 0.97 * runs as f64, "{drifts}");
+        // Four standard errors: 4 √(0.95 · 0.05/500) = 0.039 and 4 √(0.68 · 0.32/500) = 0.083.
+        assert!((times / drifts - 0.95).abs() < 0.039, "{}", times / drifts);
+        assert!((speeds / drifts - 0.683).abs() < 0.083, "{}", speeds / drifts);
+        assert!((reached / drifts - 0.683).abs() < 0.083, "{}", reached / drifts);
+    }
+}

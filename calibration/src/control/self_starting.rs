@@ -1,0 +1,77 @@
+//! Numbers of a series against those before them, as standard normal numbers.
+
+use super::distributions::{normal_quantile, student_tails};
+
+/// What is known of a series so far.
+///
+/// `Q_k = Φ⁻¹(T_{k−2}(√((k−1)/k) (x_k − x̄_{k−1}) / s_{k−1}))`: for normal numbers of any mean and standard deviation these are
+/// independent and standard normal, from the third on. Quesenberry, *SPC Q charts for start-up processes*, 1991. So a chart needs
+/// no reference period, and its false alarms are as stated from the first day.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SelfStarting {
+    count: usize,
+    mean: f64,
+    squares: f64,
+}
+
+impl SelfStarting {
+    /// The next number of the series as a standard normal one; 0 for the first two, which have nothing to be held against.
+    pub fn next(&mut self, x: f64) -> f64 {
+        let Self { count, mean, squares } = *self;
+        let n = count as f64;
+        let away = x - mean;
+        let scatter = (squares / (n - 1.0) * (1.0 + 1.0 / n)).sqrt();
+        let standard = match (count, away) {
+            (0 | 1, _) | (_, 0.0) => 0.0,
+            // Half of the probability is beyond on that side.
+            _ => -normal_quantile(0.5 * student_tails(away / scatter.max(1e-300), count - 1)).copysign(-away),
+        };
+        let moved = mean + away / (n + 1.0);
+        *self = Self { count: count + 1, mean: moved, squares: squares + away * (x - moved) };
+        standard
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::RngExt;
+    use rand_distr::StandardNormal;
+
+    use super::SelfStarting;
+    use abbe_analysis::sampling::stream;
+
+    /// Mean 0, variance 1, no correlation with the one before, tails of a normal number; whatever mean and scale the series has.
+    #[test]
+    fn they_are_independent_standard_normal_numbers() {
+        let (mut sum, mut squares, mut lagged, mut beyond, mut count) = (0.0, 0.0, 0.0, 0, 0.0);
+        for series in 0..4000 {
+            let mut random = stream(11, series);
+            let mut chart = SelfStarting::default();
+            let mut before = 0.0;
+            for k in 0..25 {
+                let q = chart.next(1e3 + 0.02 * random.sample::<f64, _>(StandardNormal));
+                if k < 2 {
+                    assert_eq!(q, 0.0);
+                    continue;
+                }
+                (sum, squares, lagged, count) = (sum + q, squares + q * q, lagged + q * before, count + 1.0);
+                beyond += usize::from(q.abs() > 2.575_829);
+                before = q;
+            }
+        }
+        let four_sigma = 4.0 / f64::sqrt(count);
+        assert!((sum / count).abs() < four_sigma && (lagged / count).abs() < four_sigma, "{sum} {lagged}");
+        assert!((squares / count - 1.0).abs() < four_sigma * 2f64.sqrt(), "{}", squares / count);
+        assert!((beyond as f64 / count - 0.01).abs() < four_sigma * 0.0995, "{beyond} of {count}");
+    }
+
+    #[test]
+    fn the_sign_is_that_of_the_difference() {
+        let mut chart = SelfStarting::default();
+        for x in [1.0, 1.1, 0.9, 1.0] {
+            chart.next(x);
+        }
+        let mut other = chart;
+        assert!(other.next(1.5) > 1.0 && chart.next(0.5) < -1.0);
+    }
+}

@@ -1,0 +1,292 @@
+//! How well the unknowns are known: what one configuration tells is not told anew by the next visit or the next target.
+//!
+//! With `J` and `r` in units of the uncertainty, `N = JᵀJ`, and priors of information `P`:
+//!
+//! - One point a configuration, never visited again: all numbers are independent, `σ² = rᵀr/(n − p)`, and
+//!   `C = (N/σ² + P)⁻¹`.
+//! - Points visited again: visits share what the model does not say of the configuration, `V_c = τ² 1 1ᵀ + σ_w² I` along
+//!   each axis. With `S_c` the sum of the rows of `J` of a configuration, and means `r̄_c`:
+//!   `σ_w² = Σ (r − r̄_c)²/(n − m)` of `m` means; `τ² = (Σ n_c r̄_c² − σ_w² (m − p))/(n − tr(N⁻¹ Σ S_cᵀ S_c))`, the
+//!   expected value of that sum. `M = τ² Σ S_cᵀ S_c + σ_w² N`, and `C = (N M⁻¹ N + P)⁻¹`.
+//! - Several targets, or poses: the sandwich `C = B (Σ g_c g_cᵀ + P) B`, `B = (N + P)⁻¹`, with
+//!   `g_c = J_cᵀ (I − H_c)^(−1/2) r_c`, `H_c = J_c B J_cᵀ`: Bell and McCaffrey, *Bias reduction in standard errors for
+//!   linear regression with multi-stage samples*, 2002 (CR2). CR1 is too small where few configurations stand behind
+//!   many unknowns, CR3 too large.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DMatrixView, DVector, DVectorView};
+
+use super::linearize::{by_blocks, with_priors};
+use super::solver::Solver;
+use super::triangle::Triangle;
+use super::{Configurations, Failure};
+use abbe_analysis::decompose::symmetric_eigen;
+
+/// What is counted as independent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Independent {
+    /// Every number: one point at every configuration.
+    Numbers,
+    /// Every point of a configuration; visits of it share its errors.
+    Points,
+    /// Every configuration; all numbers of it share its errors.
+    Configurations,
+}
+
+/// How well the unknowns are known.
+pub(super) struct Known {
+    pub(super) covariance: DMatrix<f64>,
+    /// Standard deviation of a number, in units of the uncertainty.
+    pub(super) sigma: f64,
+    /// Degrees of freedom of all this.
+    pub(super) freedom: f64,
+    pub(super) independent: Independent,
+    /// How many configurations stand behind it.
+    pub(super) configurations: usize,
+}
+
+/// The numbers that a rigid body's place has: no configuration tells more of it than these.
+pub(super) const POSE: usize = 6;
+
+impl Solver<'_> {
+    /// At the solution; rows without weight do not count.
+    pub(super) fn known(&self) -> Result<Known, Failure> {
+        let used = || (0..self.data.len()).filter(|i| self.weights[*i] > 0.0);
+        let data = || used().map(|i| &self.data[i]);
+        let configurations = Configurations::new(data());
+        let numbers = configurations.numbers(data());
+        let at_most = |most: usize| numbers.iter().map(|count| (*count as usize).min(most)).sum::<usize>();
+        let n: usize = data().map(super::Observation::count).sum();
+        let p = self.x.len();
+        let (means, bounded) = (at_most(usize::MAX), at_most(POSE));
+        let several = at_most(3) < means;
+        let count = configurations.count;
+        let known = |covariance, sigma, freedom, independent| Known {
+            covariance,
+            sigma,
+            freedom: f64::max(freedom, 1.0),
+            independent,
+            configurations: count,
+        };
+        if !several && n == means {
+            let freedom = n as f64 - p as f64;
+            let sigma = (self.cost_of_data() / freedom.max(1.0)).sqrt();
+            return Ok(known(self.covariance(sigma), sigma, freedom, Independent::Numbers));
+        }
+        let groups = configurations.rows().of(&used().collect::<Vec<_>>());
+        let groups = groups.slices();
+        if several {
+            let (covariance, sigma) = self.sandwich(&groups, n)?;
+            let freedom = (count as f64 - 1.0).min(bounded as f64 - p as f64);
+            return Ok(known(covariance, sigma, freedom, Independent::Configurations));
+        }
+        let (covariance, sigma, freedom) = self.visits(&groups, [n, means])?;
+        Ok(known(covariance, sigma, freedom, Independent::Points))
+    }
+
+    /// Points visited again: covariance, σ and degrees of freedom.
+    fn visits(
+        &self,
+        groups: &[&[usize]],
+        [n, means]: [usize; 2],
+    ) -> Result<(DMatrix<f64>, f64, f64), Failure> {
+        let p = self.x.len();
+        let block = |_: usize, groups: &[&[usize]]| {
+            let mut room = self.model.room();
+            let mut sums = Triangle::new(p);
+            let (mut between, mut within) = (0.0, 0.0);
+            for rows in groups {
+                // By number of the configuration: the sum of its rows of J, that of its residuals, and how many there are.
+                let mut numbers: BTreeMap<usize, (DVector<f64>, f64, f64)> = BTreeMap::new();
+                for i in rows.iter().copied() {
+                    let mut places = self.data[i].places().into_iter();
+                    let weight = self.weights[i].sqrt();
+                    self.linear(&mut room, i, |residual, row| {
+                        let place = places.next().unwrap_or_default();
+                        let (s, sum, count) =
+                            numbers.entry(place).or_insert_with(|| (DVector::zeros(p), 0.0, 0.0));
+                        s.iter_mut().zip(row).for_each(|(s, value)| *s += weight * value);
+                        (*sum, *count) = (*sum + weight * residual, *count + 1.0);
+                        within += (weight * residual).powi(2);
+                    })?;
+                }
+                for (s, sum, count) in numbers.values() {
+                    between += sum * sum / count;
+                    within -= sum * sum / count;
+                    sums.push(s.as_slice(), 0.0, 1.0);
+                }
+            }
+            Ok((sums, between, within))
+        };
+        let (mut sums, mut between, mut within) = (Triangle::new(p), 0.0, 0.0);
+        by_blocks(groups, block, |part| {
+            sums.merge(part.0);
+            between += part.1;
+            within += part.2;
+        })?;
+        let (n, m, p) = (n as f64, means as f64, p as f64);
+        let alone = within.max(0.0) / (n - m);
+        let plain = || {
+            let sigma = (self.cost_of_data() / (n - p).max(1.0)).sqrt();
+            Ok((self.covariance(sigma), sigma, n - p))
+        };
+        let r = self
+            .data_alone
+            .view((0, 0), (self.x.len().min(self.data_alone.nrows()), self.x.len()))
+            .into_owned();
+        let sums = sums.finish().columns(0, self.x.len()).into_owned();
+        // W = R_S R⁻¹, with R_Sᵀ R_S = Σ S_cᵀ S_c: from Rᵀ Wᵀ = R_Sᵀ.
+        let Some(w) = r.transpose().solve_lower_triangular(&sums.transpose()).map(|w| w.transpose()) else {
+            return plain();
+        };
+        let shared = (between - alone * (m - p)) / (n - w.norm_squared()).max(1.0);
+        if shared <= 0.0 {
+            return plain();
+        }
+        // M = Rᵀ K R with K = τ² Wᵀ W + σ_w² I, so that N M⁻¹ N = Rᵀ K⁻¹ R.
+        let mut k = w.tr_mul(&w) * shared;
+        let tiny = 1e-12 * k.amax();
+        (0..k.nrows()).for_each(|i| k[(i, i)] += alone.max(tiny));
+        let Some(rows) = k.cholesky().and_then(|k| k.l().solve_lower_triangular(&r)) else {
+            return plain();
+        };
+        Ok((self.inverse(&rows), (shared + alone).sqrt(), m - p))
+    }
+
+    /// Several numbers of a configuration that may share errors of any kind: covariance and σ.
+    fn sandwich(&self, groups: &[&[usize]], n: usize) -> Result<(DMatrix<f64>, f64), Failure> {
+        let p = self.x.len();
+        let bread = self.problem.a.rows(0, p.min(self.problem.a.nrows()));
+        let Some(l) = bread.solve_upper_triangular(&DMatrix::identity(bread.nrows(), p)) else {
+            return Ok((DMatrix::from_element(p, p, f64::INFINITY), f64::INFINITY));
+        };
+        let block = |_: usize, groups: &[&[usize]]| {
+            let mut room = self.model.room();
+            let (mut rows, mut residuals, mut ends) = (Vec::new(), Vec::new(), Vec::new());
+            for group in groups {
+                for i in group.iter().copied() {
+                    let weight = self.weights[i].sqrt();
+                    self.linear(&mut room, i, |residual, row| {
+                        rows.extend(row.iter().map(|value| weight * value));
+                        residuals.push(weight * residual);
+                    })?;
+                }
+                ends.push(residuals.len());
+            }
+            // In coordinates of B^(1/2), a column for every number: J̃ᵀ = Lᵀ Jᵀ.
+            let all = l.tr_mul(&DMatrix::from_vec(p, residuals.len(), rows));
+            let residuals = DVector::from_vec(residuals);
+            let mut parts = DMatrix::zeros(p, groups.len());
+            let (mut squares, mut spent, mut start) = (0.0, 0.0, 0);
+            for (mut part, end) in parts.column_iter_mut().zip(ends) {
+                let (j, r) = (all.columns(start, end - start), residuals.rows(start, end - start));
+                let raised = raised(&j, &r);
+                part.copy_from(&raised.0);
+                (squares, spent, start) = (squares + raised.1, spent + raised.2, end);
+            }
+            Ok((&parts * parts.transpose(), squares, spent))
+        };
+        let (mut meat, mut squares, mut n) = (DMatrix::zeros(p, p), 0.0, n as f64);
+        by_blocks(groups, block, |part| {
+            meat += part.0;
+            squares += part.1;
+            n -= part.2;
+        })?;
+        for (k, prior) in self.priors.iter().enumerate() {
+            if let Some(sigma) = prior {
+                let row = l.row(k).transpose() / *sigma;
+                meat.ger(1.0, &row, &row, 1.0);
+            }
+        }
+        Ok((&l * meat * l.transpose(), (squares / n.max(1.0)).sqrt()))
+    }
+
+    /// `(AᵀA + P)⁻¹` with the information `P` of the priors.
+    fn inverse(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
+        let p = self.x.len();
+        let mut triangle = Triangle::new(p);
+        a.transpose().column_iter().for_each(|row| triangle.push(row.as_slice(), 0.0, 1.0));
+        let problem = with_priors(triangle, &self.priors, self.x.as_slice());
+        let inverse = problem.a.rows(0, p).solve_upper_triangular(&DMatrix::identity(p, p));
+        inverse.map_or_else(
+            || DMatrix::from_element(p, p, f64::INFINITY),
+            |inverse| &inverse * inverse.transpose(),
+        )
+    }
+
+    /// `(JᵀJ/σ² + P)⁻¹` with the information `P` of the priors.
+    pub(super) fn covariance(&self, sigma: f64) -> DMatrix<f64> {
+        self.inverse(&(self.data_alone.columns(0, self.x.len()) / sigma.max(1e-300)))
+    }
+}
+
+/// `J̃ᵀ (I − H)^(−1/2) r` and `rᵀ (I − H)⁻¹ r` with `H = J̃ J̃ᵀ`, and how many directions the configuration alone determines:
+/// nothing is left of the residuals along those.
+///
+/// With `G = J̃ᵀ J̃`, smaller where there are many numbers, `J̃ᵀ (I − H)^(−1/2) r = (I − G)^(−1/2) J̃ᵀ r` and
+/// `rᵀ (I − H)⁻¹ r = rᵀr + (J̃ᵀ r)ᵀ (I − G)⁻¹ (J̃ᵀ r)`.
+fn raised(j: &DMatrixView<'_, f64>, r: &DVectorView<'_, f64>) -> (DVector<f64>, f64, f64) {
+    if j.ncols() <= j.nrows() {
+        let (root, squares, spent) = root(j.tr_mul(j), &r.into_owned());
+        return (j * root, squares, spent);
+    }
+    let (root, squares, spent) = root(j * j.transpose(), &(j * r));
+    (root, r.norm_squared() + squares, spent)
+}
+
+/// `(I − G)^(−1/2) v`, `vᵀ (I − G)⁻¹ v`, and how many eigenvalues of G are 1.
+fn root(g: DMatrix<f64>, v: &DVector<f64>) -> (DVector<f64>, f64, f64) {
+    if g.trace() < 0.05 {
+        // The series: what is left out is below 3e-5 of it.
+        let once = &g * v;
+        let twice = &g * &once;
+        let squares = v.norm_squared() + v.dot(&once) + once.norm_squared();
+        return (v + once * 0.5 + twice * 0.375, squares, 0.0);
+    }
+    let Some(eigen) = symmetric_eigen(g) else {
+        return (v * f64::NAN, f64::NAN, 0.0);
+    };
+    let along = eigen.eigenvectors.tr_mul(v);
+    let rest = eigen.eigenvalues.map(|value| 1.0 - value);
+    let spent = rest.iter().filter(|rest| **rest < 1e-9).count() as f64;
+    let raised = along.zip_map(&rest, |along, rest| if rest < 1e-9 { 0.0 } else { along / rest.sqrt() });
+    (&eigen.eigenvectors * &raised, raised.norm_squared(), spent)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::{raised, root};
+
+    /// Few numbers of many unknowns, and many of few.
+    #[test]
+    fn numbers_and_unknowns_say_the_same() {
+        for (p, m, size) in [(3, 5, 0.05), (3, 5, 0.3), (5, 3, 0.05), (5, 3, 0.3)] {
+            let j = DMatrix::from_fn(p, m, |k, i| size * (1.0 + 1.7 * k as f64 + 0.9 * (i * i) as f64).sin());
+            let r = DVector::from_fn(m, |i, _| (2.0 + i as f64).cos());
+            let (found, squares, spent) = raised(&j.as_view(), &r.as_view());
+            let (expected, of_numbers, _) = root(j.tr_mul(&j), &r);
+            let (_, of_unknowns, _) = root(&j * j.transpose(), &(&j * &r));
+            assert!((found - &j * expected).norm() < 1e-5 && spent == 0.0);
+            assert!((squares - of_numbers).abs() < 1e-4);
+            assert!((squares - r.norm_squared() - of_unknowns).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn the_series_is_the_root() {
+        let v = DVector::from_vec(vec![0.3, -1.2, 0.7]);
+        let u = DVector::from_vec(vec![0.1, 0.15, -0.05]);
+        let small = &u * u.transpose();
+        let (series, squares, _) = root(small.clone(), &v);
+        let inverse = (DMatrix::identity(3, 3) - small).try_inverse().unwrap();
+        assert!((squares - v.dot(&(&inverse * &v))).abs() < 1e-4);
+        assert!((series.norm_squared() - squares).abs() < 1e-4);
+        let large = DMatrix::from_diagonal(&DVector::from_vec(vec![0.75, 0.0, 1.0]));
+        let (raised, squares, spent) = root(large, &v);
+        assert!((raised[0] - 0.6).abs() < 1e-12 && (raised[1] + 1.2).abs() < 1e-12 && raised[2] == 0.0);
+        assert!((squares - (0.36 + 1.44)).abs() < 1e-12 && spent == 1.0);
+    }
+}

@@ -1,0 +1,86 @@
+//! The derivatives of a point and of an orientation by the six errors of a frame, wherever those errors are.
+//!
+//! With `P` the product before `E`, and `E` a translation by `(e_x, e_y, e_z)` to the origin `o` and then
+//! `R = R_y(e_s) R_z(e_r) R_x(e_p)`, every rotation turns what comes after it about an axis through `o`:
+//! `a_s = P ŷ`, `a_r = P R_y ẑ`, `a_p = P R_y R_z x̂`. So `∂p/∂e = a × (p − o)`, `ω = a`; a translation along axis k
+//! is `P ê_k`. At ε = 0 these are the columns of `J_e`.
+
+use abbe_core::displacement;
+use abbe_core::{Component, Pose, Scalar};
+
+/// A frame's errors, and how what lies behind it moves with them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    /// By component: the direction of a translation, or the axis of a rotation.
+    axes: [[f64; 3]; 6],
+    origin: [f64; 3],
+    /// The product, `E` included.
+    pub(super) after: Pose,
+}
+
+/// The errors of a frame, and what follows from them alone: worked out once for as long as they stay the same.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Displaced {
+    errors: [f64; 6],
+    pose: Pose,
+    /// Sine and cosine of the spin.
+    spin: (f64, f64),
+}
+
+impl Displaced {
+    pub(super) const NOTHING: Self = Self { errors: [0.0; 6], pose: Pose::IDENTITY, spin: (0.0, 1.0) };
+
+    /// By these errors.
+    pub(super) fn by(&mut self, errors: &[f64; 6]) -> &Self {
+        if self.errors != *errors {
+            let spin = Scalar::sin_cos(errors[Component::Spin.index()]);
+            *self = Self { errors: *errors, pose: displacement(errors), spin };
+        }
+        self
+    }
+}
+
+impl Frame {
+    /// The errors behind the product `before`.
+    pub(super) fn new(before: &Pose, errors: &Displaced) -> Self {
+        let after = before.then(&errors.pose);
+        let (sine, cosine) = errors.spin;
+        let [x, y, z, _] = before.0;
+        let roll = before.turn([sine, 0.0, cosine]);
+        // Component order: x, y, z, spin, roll, pitch. R_x leaves its own axis where it is.
+        Self { axes: [x, y, z, y, roll, after.0[0]], origin: after.position(), after }
+    }
+
+    /// How a point moves.
+    pub(super) fn point(&self, component: Component, point: [f64; 3]) -> [f64; 3] {
+        let axis = self.axes[component.index()];
+        if !component.is_rotation() {
+            return axis;
+        }
+        cross(axis, core::array::from_fn(|i| point[i] - self.origin[i]))
+    }
+
+    /// How everything turns.
+    pub(super) fn turn(&self, component: Component) -> [f64; 3] {
+        if component.is_rotation() { self.axes[component.index()] } else { [0.0; 3] }
+    }
+}
+
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// `J_l⁻¹(r) ω`: how the rotation vector `r` of a rotation changes when it is turned further by ω.
+///
+/// `J_l⁻¹ = I − ½[r] + (1/θ² − (1 + cos θ)/(2 θ sin θ)) [r]²`.
+pub(super) fn turned(r: [f64; 3], omega: [f64; 3]) -> [f64; 3] {
+    let angle = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt();
+    let factor = if angle < 1e-4 {
+        1.0 / 12.0
+    } else {
+        1.0 / (angle * angle) - (1.0 + angle.cos()) / (2.0 * angle * angle.sin())
+    };
+    let once = cross(r, omega);
+    let twice = cross(r, once);
+    core::array::from_fn(|i| omega[i] - 0.5 * once[i] + factor * twice[i])
+}

@@ -1,0 +1,302 @@
+//! What is left of a fit against the order in which it was measured: does the machine warm up or drift?
+//!
+//! A row's error is the mean over its targets. Where configurations were visited again, errors are taken about the mean of
+//! their configuration, which takes all errors of the model away; elsewhere what grows with a joint or its square is taken
+//! away first, so that a way through the workspace is not taken for time. Whether the rest follows time is told by a
+//! permutation test (Freedman and Lane, 1983): the largest squared correlation of x, y, z and the distance with `t` and
+//! with `exp(−t/T)`, `T` of 3, 10 and 30 % of the time, against that of the same rows in random orders. So its rate of
+//! false alarms is the level at which p is held, whatever the errors look like.
+
+use core::borrow::Borrow;
+
+use nalgebra::{DMatrix, DVector};
+use rand::RngExt;
+
+use super::linearize::by_blocks;
+use super::{Configurations, Failure, Model, Observation};
+use abbe_analysis::sampling::{norm, stream};
+
+/// How what is left follows the order of rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drift {
+    /// The correlation of what is left with what is left of the next row.
+    pub lag_1: f64,
+    /// How likely so large a correlation is, either sign, in a random order.
+    pub p_of_lag_1: f64,
+    /// What follows time best.
+    pub follows: Follows,
+    /// The time constant as a share of the time that was taken; none for a straight line.
+    pub settling: Option<f64>,
+    /// By how much it changes from the first row to the last: the length unit.
+    pub change: f64,
+    /// How likely it follows time as well in a random order.
+    pub p: f64,
+    /// The mean distance of the first tenth of the rows, and of the last.
+    pub ends: [f64; 2],
+}
+
+/// What follows time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Follows {
+    /// The error along x, y or z: 0, 1, 2.
+    Axis(usize),
+    /// The distance between model and measurement.
+    Distance,
+}
+
+/// The most pieces of time that are told apart: rows of a piece are averaged.
+const PIECES: usize = 400;
+
+/// Random orders.
+const ORDERS: usize = 999;
+
+/// Fewer rows tell nothing of time.
+const FEWEST: usize = 20;
+
+/// Time constants, as shares of the time that was taken.
+const SETTLING: [f64; 3] = [0.03, 0.1, 0.3];
+
+/// Judges rows at `x`; none if there are too few to tell.
+///
+/// Of a million rows no error is kept: it is worked out each time that it is asked for, and added to that of its piece.
+pub fn drift<R: Borrow<Observation> + Sync>(
+    model: &Model,
+    rows: &[R],
+    x: &[f64],
+) -> Result<Option<Drift>, Failure> {
+    let row = |i: u32| rows[i as usize].borrow();
+    let time = |i: u32| row(i).time().unwrap_or(f64::from(i));
+    let mut order: Vec<u32> = (0..rows.len() as u32).filter(|i| model.tells_place(row(*i))).collect();
+    // A stable sort takes room for half of them, and they are in order most of the time.
+    if !order.is_sorted_by(|a, b| time(*a).total_cmp(&time(*b)).is_le()) {
+        order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
+    }
+    let errors = |take: &mut dyn FnMut([f64; 3])| {
+        let block = |_: usize, order: &[u32]| {
+            let mut room = model.room();
+            let mean = |i: &u32| {
+                let (mut sum, mut count) = ([0.0; 3], 0.0);
+                model.each_deviation(&mut room, row(*i), x, |error| {
+                    sum = core::array::from_fn(|axis| sum[axis] + error[axis]);
+                    count += 1.0;
+                })?;
+                Ok(sum.map(|sum| sum / count))
+            };
+            order.iter().map(mean).collect::<Result<Vec<_>, _>>()
+        };
+        by_blocks(&order, block, |means| means.into_iter().for_each(&mut *take))
+    };
+    let (row, time) = (|place: usize| row(order[place]), |place: usize| time(order[place]));
+    judged(&Timed { count: order.len(), row: &row, time: &time, errors: &errors })
+}
+
+/// Rows in the order of time.
+struct Timed<'o> {
+    count: usize,
+    row: &'o dyn Fn(usize) -> &'o Observation,
+    time: &'o dyn Fn(usize) -> f64,
+    /// Gives the errors of all away, one after the other.
+    errors: &'o Errors<'o>,
+}
+
+type Errors<'o> = dyn Fn(&mut dyn FnMut([f64; 3])) -> Result<(), Failure> + 'o;
+
+fn judged(&Timed { count, row, time, errors }: &Timed) -> Result<Option<Drift>, Failure> {
+    let configurations = Configurations::new((0..count).map(row));
+    let visits = configurations.visits();
+    let at = |i: usize| configurations.number[i] as usize;
+    let again: u32 = visits.iter().filter(|visits| **visits > 1).sum();
+    let visited_again = 2 * again as usize > count;
+    let with_norm = |[x, y, z]: [f64; 3]| [x, y, z, norm([x, y, z])];
+    // By configuration the mean of its visits, where they are taken off.
+    let mut means = vec![[-0.0; 4]; if visited_again { configurations.count } else { 0 }];
+    if visited_again {
+        let mut rows = 0..count;
+        errors(&mut |error| {
+            let (at, value) = (rows.next().map_or(0, at), with_norm(error));
+            (0..4).for_each(|a| means[at][a] += value[a]);
+        })?;
+        means
+            .iter_mut()
+            .zip(&visits)
+            .for_each(|(mean, visits)| *mean = mean.map(|sum| sum / f64::from(*visits)));
+    }
+    let is_kept = |i: usize| !visited_again || visits[at(i)] > 1;
+    let kept = if visited_again { again as usize } else { count };
+    if kept < FEWEST {
+        return Ok(None);
+    }
+    let length = kept.div_ceil(PIECES);
+    let n = kept.div_ceil(length);
+    let first = (0..count).find(|i| is_kept(*i)).map_or(0.0, time);
+    let last = (0..count).rfind(|i| is_kept(*i)).map_or(0.0, time);
+    let since = |i: usize| if last > first { (time(i) - first) / (last - first) } else { 0.0 };
+    let joints = row(0).q.len();
+    let joints = if !visited_again && n > 6 * joints { joints } else { 0 };
+    // Piece by piece: the error and its norm, the time, every joint and its square.
+    let mut pieces = DMatrix::repeat(n, 5 + 2 * joints, -0.0);
+    let (mut ends, tenth) = ([-0.0; 2], count / 10);
+    let (mut i, mut place) = (0, 0);
+    errors(&mut |error| {
+        let value = with_norm(error);
+        ends[0] += if i < tenth { value[3] } else { -0.0 };
+        ends[1] += if i >= count - tenth { value[3] } else { -0.0 };
+        if is_kept(i) {
+            let mut piece = pieces.row_mut(place / length);
+            let mean = means.get(at(i)).copied().unwrap_or_default();
+            (0..4).for_each(|a| piece[a] += value[a] - mean[a]);
+            piece[4] += since(i);
+            for (joint, q) in row(i).q[..joints].iter().enumerate() {
+                piece[5 + 2 * joint] += q;
+                piece[6 + 2 * joint] += q.powi(2);
+            }
+            place += 1;
+        }
+        i += 1;
+    })?;
+    let ends = ends.map(|sum| sum / tenth.max(1) as f64);
+    for (k, mut piece) in pieces.row_iter_mut().enumerate() {
+        piece /= length.min(kept - k * length) as f64;
+    }
+    let column = |k: usize| pieces.column(k).into_owned();
+    let mut nuisance = vec![DVector::repeat(n, 1.0)];
+    nuisance.extend((0..2 * joints).map(|k| column(5 + k)));
+    let nuisance = orthonormal(&nuisance);
+    let cleaned = |column: DVector<f64>| nuisance.iter().fold(column, |c, z| &c - z * z.dot(&c));
+    let values: Vec<DVector<f64>> = (0..4).map(|a| cleaned(column(a))).collect();
+    let shapes = [None].into_iter().chain(SETTLING.map(Some));
+    let shape = |settling: Option<f64>, t: f64| settling.map_or(t, |constant| (-t / constant).exp());
+    let bases: Vec<(Option<f64>, DVector<f64>)> =
+        shapes.map(|settling| (settling, cleaned(column(4).map(|t| shape(settling, t))))).collect();
+    let table = DMatrix::from_columns(&values);
+    let squares: Vec<f64> = values.iter().map(DVector::norm_squared).collect();
+    // The best of all, and its place.
+    let best = |order: &[usize]| {
+        let mut best = (0.0, 0, 0);
+        for (j, (_, basis)) in bases.iter().enumerate() {
+            let length = basis.norm_squared();
+            for a in (0..4).filter(|a| squares[*a] > 0.0 && length > 1e-9) {
+                let along: f64 = order.iter().zip(basis.iter()).map(|(i, b)| table[(*i, a)] * b).sum();
+                let share = along * along / (length * squares[a]);
+                best = if share > best.0 { (share, j, a) } else { best };
+            }
+        }
+        best
+    };
+    let neighbours = |order: &[usize]| {
+        let products = order
+            .windows(2)
+            .map(|pair| (0..3).map(|a| table[(pair[0], a)] * table[(pair[1], a)]).sum::<f64>());
+        products.sum::<f64>() / squares[..3].iter().sum::<f64>().max(f64::MIN_POSITIVE)
+    };
+    let mut order: Vec<usize> = (0..n).collect();
+    let ((share, j, a), lag_1) = (best(&order), neighbours(&order));
+    let mut random = stream(0x0064_7269_6674, 0);
+    let mut reached = [1.0; 2];
+    for _ in 0..ORDERS {
+        (1..n).for_each(|i| order.swap(i, random.random_range(0..=i)));
+        reached[0] += f64::from(u8::from(best(&order).0 >= share));
+        reached[1] += f64::from(u8::from(neighbours(&order).abs() >= lag_1.abs()));
+    }
+    let [p, p_of_lag_1] = reached.map(|count| count / (ORDERS + 1) as f64);
+    let (settling, basis) = &bases[j];
+    let slope = basis.dot(&values[a]) / basis.norm_squared().max(f64::MIN_POSITIVE);
+    Ok(Some(Drift {
+        lag_1,
+        p_of_lag_1,
+        follows: if a < 3 { Follows::Axis(a) } else { Follows::Distance },
+        settling: *settling,
+        change: slope * (shape(*settling, 1.0) - shape(*settling, 0.0)),
+        p,
+        ends,
+    }))
+}
+
+/// Gram and Schmidt; columns that say nothing new are left out.
+fn orthonormal(columns: &[DVector<f64>]) -> Vec<DVector<f64>> {
+    let mut all: Vec<DVector<f64>> = Vec::new();
+    for column in columns {
+        let length = column.norm();
+        // Twice is enough.
+        let rest =
+            [(); 2].iter().fold(column.clone(), |rest, ()| all.iter().fold(rest, |c, z| &c - z * z.dot(&c)));
+        if rest.norm() > 1e-8 * length {
+            all.push(rest.normalize());
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    use super::{Drift, Follows, Timed, judged};
+    use crate::identify::{Measurement, Observation};
+
+    /// Rows of a machine of two joints, with an error that the function says of time (0 to 1) and joints.
+    fn rows(
+        seed: u64,
+        count: usize,
+        visits: usize,
+        error: impl Fn(f64, &[f64]) -> [f64; 3],
+    ) -> Option<Drift> {
+        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let places: Vec<[f64; 2]> =
+            (0..count / visits).map(|_| [(); 2].map(|()| random.random_range(-1.0..1.0))).collect();
+        let row = |i: usize| {
+            let configuration = i % places.len();
+            let row = Observation::new(
+                i as u64,
+                places[configuration].to_vec(),
+                Vec::new(),
+                Measurement::Points(vec![].into()),
+            );
+            Observation { configuration: configuration as u32, ..row }
+        };
+        let rows: Vec<Observation> = (0..count).map(row).collect();
+        let normal = rand_distr::Normal::new(0.0, 1.0).unwrap();
+        let errors = rows
+            .iter()
+            .enumerate()
+            .map(|(i, row)| error(i as f64 / count as f64, &row.q).map(|e| e + random.sample(normal)));
+        let errors: Vec<[f64; 3]> = errors.collect();
+        let errors = |take: &mut dyn FnMut([f64; 3])| {
+            errors.iter().for_each(|error| take(*error));
+            Ok(())
+        };
+        judged(&Timed { count, row: &|i| &rows[i], time: &|i| i as f64, errors: &errors }).unwrap()
+    }
+
+    /// 1 % of orders without drift are called one: of 300, 3 ± 1.7.
+    #[test]
+    fn false_alarms_are_as_rare_as_stated() {
+        for visits in [1, 5] {
+            let alarms =
+                |seed| rows(seed, 60, visits, |_, q| [3.0 * q[0], 0.0, 2.0 * q[1] * q[1]]).unwrap().p <= 0.01;
+            let alarms = (0..300).filter(|seed| alarms(*seed)).count();
+            assert!(alarms <= 8, "{visits}: {alarms} of 300");
+        }
+    }
+
+    #[test]
+    fn warming_and_drifting_are_told() {
+        let warming = rows(1, 300, 1, |t, _| [0.0, 3.0 * (-t / 0.1).exp(), 0.0]).unwrap();
+        assert!(warming.p <= 0.01 && warming.follows == Follows::Axis(1), "{warming:?}");
+        assert!(warming.settling == Some(0.1) && (warming.change + 3.0).abs() < 1.2, "{warming:?}");
+        let drifting = rows(2, 300, 10, |t, q| [5.0 * q[0], 0.0, 2.0 * t]).unwrap();
+        assert!(drifting.p <= 0.01 && drifting.follows == Follows::Axis(2), "{drifting:?}");
+        assert!((drifting.change - 2.0).abs() < 0.8);
+        assert!(rows(3, 15, 1, |_, _| [0.0; 3]).is_none());
+    }
+
+    /// A swing of variance 4.5 in noise of variance 1: neighbours correlate by about 0.8, less what the joints explain of it.
+    #[test]
+    fn neighbours_tell_what_no_line_and_no_settling_does() {
+        let swinging = rows(4, 300, 1, |t, _| [3.0 * (6.0 * t).sin(); 3]).unwrap();
+        assert!(swinging.lag_1 > 0.5 && swinging.p_of_lag_1 <= 0.01, "{swinging:?}");
+        let still = rows(4, 300, 1, |_, _| [0.0; 3]).unwrap();
+        assert!(still.lag_1.abs() < 0.2, "{still:?}");
+    }
+}

@@ -1,0 +1,92 @@
+//! Data left out in turn: how good the model is on what it has not seen.
+
+use nalgebra::DVector;
+
+use super::fit::REJECTED;
+use super::linearize::{push, with_priors};
+use super::triangle::{Problem, Triangle};
+use super::{Configurations, Distances, Failure, Fit, Model, Observation};
+use abbe_analysis::in_order;
+use abbe_analysis::sampling::halton;
+
+/// The part that each observation is left out with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Folds {
+    /// How many there are.
+    pub count: usize,
+    /// By observation.
+    pub fold: Vec<u32>,
+}
+
+impl Folds {
+    /// Configurations dealt to `count` folds of the same number, in an order without rhyme: neighbours do not stay
+    /// together, visits of one configuration do, and the same every time.
+    pub fn new(data: &[Observation], count: usize) -> Self {
+        let Configurations { count: configurations, number } = Configurations::new(data);
+        let count = count.clamp(2, configurations.max(2));
+        let mut order: Vec<u32> = (0..configurations as u32).collect();
+        let key = |i: u32| (halton(i as usize + 1, 1) * 1e3).fract();
+        order.sort_unstable_by(|a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
+        let mut fold = vec![0; configurations];
+        order.iter().enumerate().for_each(|(place, i)| fold[*i as usize] = (place % count) as u32);
+        let mut number = number;
+        number.iter_mut().for_each(|number| *number = fold[*number as usize]);
+        Self { count, fold: number }
+    }
+}
+
+/// The triangle of each fold, at `x`.
+fn triangles(
+    model: &Model,
+    data: &[Observation],
+    x: &[f64],
+    weights: &[f64],
+    folds: &Folds,
+) -> Result<Vec<Triangle>, Failure> {
+    let one = |fold: usize| {
+        let mut triangle = Triangle::new(model.unknowns.len());
+        let mut room = model.room();
+        for (i, observation) in
+            data.iter().enumerate().filter(|(i, _)| folds.fold[*i] as usize == fold && weights[*i] > 0.0)
+        {
+            push(model, &mut room, observation, x, weights[i], &mut triangle)?;
+        }
+        Ok(triangle)
+    };
+    let mut triangles = Vec::new();
+    in_order(folds.count, one, |triangle| triangles.push(triangle))?;
+    Ok(triangles)
+}
+
+/// Position errors of every fold under the fit of all others, with the exact model; rejected rows do not count.
+///
+/// The other folds' fit is one step from the fit of all data, which has converged: what that leaves is of second
+/// order in a difference that is small already.
+pub fn cross_validate(
+    model: &Model,
+    data: &[Observation],
+    fit: &Fit,
+    count: usize,
+) -> Result<Distances, Failure> {
+    let folds = Folds::new(data, count);
+    let kept = model.with(fit.identifiable.kept.iter().map(|k| model.unknowns[*k]).collect());
+    let x: Vec<f64> = fit.identifiable.kept.iter().map(|k| fit.x[*k]).collect();
+    let priors: Vec<Option<f64>> =
+        fit.identifiable.kept.iter().map(|k| fit.priors.get(*k).copied().flatten()).collect();
+    let parts = triangles(&kept, data, &x, &fit.weights, &folds)?;
+    let solve = |left_out: usize| {
+        let step =
+            others(&parts, left_out, &priors, &x).solve(0.0).unwrap_or_else(|| DVector::zeros(x.len()));
+        x.iter().zip(step.iter()).map(|(x, step)| x + step).collect::<Vec<f64>>()
+    };
+    let solutions: Vec<Vec<f64>> = (0..folds.count).map(solve).collect();
+    kept.distances_of(data, |i| (fit.weights[i] >= REJECTED).then(|| &solutions[folds.fold[i] as usize][..]))
+}
+
+/// All folds but one.
+fn others(parts: &[Triangle], left_out: usize, priors: &[Option<f64>], x: &[f64]) -> Problem {
+    let rest = parts.iter().enumerate().filter(|(fold, _)| *fold != left_out);
+    let mut all = Triangle::new(x.len());
+    rest.for_each(|(_, part)| all.merge(part.clone()));
+    with_priors(all, priors, x)
+}

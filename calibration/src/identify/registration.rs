@@ -1,0 +1,82 @@
+//! The rigid motion that brings points onto others best: three targets make a frame, and more than three do too.
+
+use nalgebra::{Matrix3, Vector3};
+
+use abbe_analysis::decompose::{svd3, symmetric_eigen};
+use abbe_core::Pose;
+
+/// A motion and how well it fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Registration {
+    /// `to ≈ pose · from`.
+    pub pose: Pose,
+    /// Root mean square distance that remains, per point.
+    pub rms: f64,
+    /// How far the points are from a line, as a share of how far they are spread: 0 if they are in line.
+    pub breadth: f64,
+}
+
+/// Least squares over all rotations: with `H = Σ (from − mean)(to − mean)ᵀ = U Σ Vᵀ`, `R = V diag(1, 1, det) Uᵀ`.
+///
+/// None for fewer than three pairs, and for places too far away to be squared. Where the points are in line ([`Registration::breadth`] 0) the turn about that
+/// line is arbitrary.
+pub fn register(from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Registration> {
+    register_pairs(from.iter().copied().zip(to.iter().copied()))
+}
+
+/// The same of pairs of points, which are gone through three times.
+pub fn register_pairs(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])> + Clone) -> Option<Registration> {
+    let (mut n, mut a, mut b) = (0, Vector3::zeros(), Vector3::zeros());
+    for (p, q) in pairs.clone() {
+        (n, a, b) = (n + 1, a + Vector3::from(p), b + Vector3::from(q));
+    }
+    if n < 3 {
+        return None;
+    }
+    let (a, b) = (a / f64::from(n), b / f64::from(n));
+    let (mut h, mut spread) = (Matrix3::zeros(), Matrix3::zeros());
+    for (p, q) in pairs.clone() {
+        let p = Vector3::from(p) - a;
+        h += p * (Vector3::from(q) - b).transpose();
+        spread += p * p.transpose();
+    }
+    let spread = symmetric_eigen(spread)?.eigenvalues;
+    let mut sizes: Vec<f64> = spread.iter().map(|v| v.max(0.0).sqrt()).collect();
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    let breadth = if sizes[0] > 0.0 { sizes[1] / sizes[0] } else { 0.0 };
+    let svd = svd3(h)?;
+    let (u, v) = (svd.u?, svd.v_t?.transpose());
+    // The last singular value is the smallest only if they are sorted: nalgebra sorts those of `svd`.
+    let sign = (v * u.transpose()).determinant().signum();
+    let r = v * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * u.transpose();
+    let t = b - r * a;
+    let pose = Pose([r.column(0).into(), r.column(1).into(), r.column(2).into(), t.into()]);
+    let square = |(p, q): ([f64; 3], [f64; 3])| {
+        let p = pose.apply(p);
+        (0..3).map(|i| (p[i] - q[i]).powi(2)).sum::<f64>()
+    };
+    let rms = (pairs.map(square).sum::<f64>() / f64::from(n)).sqrt();
+    Some(Registration { pose, rms, breadth })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use abbe_core::real_pose;
+
+    const POINTS: [[f64; 3]; 3] = [[-200.0, 10.0, 150.0], [250.0, 0.0, -100.0], [30.0, 40.0, 300.0]];
+
+    #[test]
+    fn registration_undoes_a_motion() {
+        let motion = real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[[5.0, -3.0, 800.0, 0.4, -1.9, 2.5]]);
+        let moved: Vec<[f64; 3]> = POINTS.iter().map(|p| motion.apply(*p)).collect();
+        let found = register(&POINTS, &moved).unwrap();
+        for (a, b) in found.pose.0.as_flattened().iter().zip(motion.0.as_flattened()) {
+            assert!((a - b).abs() < 1e-10);
+        }
+        assert!(found.rms < 1e-10 && found.breadth > 0.1);
+        let line = [[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 3.0]];
+        assert!(register(&line, &line).unwrap().breadth < 1e-6);
+        assert!(register(&line[..2], &line[..2]).is_none());
+    }
+}

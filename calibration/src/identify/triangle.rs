@@ -1,0 +1,165 @@
+//! A tall least-squares problem, taken in row by row and kept as a triangle.
+//!
+//! Of the stack `[J | r]` only the factor `R` of its QR decomposition is kept: `‖J x − r‖` follows from it for every
+//! `x`, and memory does not grow with the number of rows.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::reflections::{BLOCK, Fold};
+use abbe_core::lanes::InstructionSet;
+
+/// The triangle of a stack of rows.
+#[derive(Clone, Debug)]
+pub(super) struct Triangle {
+    /// `R`, row by row.
+    r: Vec<f64>,
+    /// The rows that wait, column by column.
+    waiting: Vec<[f64; BLOCK]>,
+    filled: usize,
+}
+
+impl Triangle {
+    /// Of no rows; `unknowns` columns and one for the right side.
+    pub(super) fn new(unknowns: usize) -> Self {
+        let width = unknowns + 1;
+        Self { r: vec![0.0; width * width], waiting: vec![[0.0; BLOCK]; width], filled: 0 }
+    }
+
+    /// Takes in a row: the derivatives and the right side, all times `weight`.
+    pub(super) fn push(&mut self, row: &[f64], right: f64, weight: f64) {
+        let (place, last) = (self.filled, self.waiting.len() - 1);
+        for (column, value) in self.waiting[..last].iter_mut().zip(row) {
+            column[place] = value * weight;
+        }
+        self.waiting[last][place] = right * weight;
+        self.filled += 1;
+        if self.filled == BLOCK {
+            self.fold();
+        }
+    }
+
+    /// Takes in the rows of another one of the same width.
+    pub(super) fn merge(&mut self, mut other: Self) {
+        other.fold();
+        for row in other.r.chunks_exact(self.waiting.len()) {
+            self.push(row, row[row.len() - 1], 1.0);
+        }
+    }
+
+    fn fold(&mut self) {
+        if self.filled > 0 {
+            self.waiting.iter_mut().for_each(|column| column[self.filled..].fill(0.0));
+            InstructionSet::best().run(Fold { triangle: &mut self.r, block: &mut self.waiting });
+            self.filled = 0;
+        }
+    }
+
+    /// `R` of the unknowns and of the right side: `width` columns, as many rows.
+    pub(super) fn finish(mut self) -> DMatrix<f64> {
+        self.fold();
+        let width = self.waiting.len();
+        DMatrix::from_row_slice(width, width, &self.r)
+    }
+}
+
+/// A linear least-squares problem `min ‖A x − b‖`, small.
+#[derive(Clone, Debug)]
+pub(super) struct Problem {
+    pub(super) a: DMatrix<f64>,
+    pub(super) b: DVector<f64>,
+}
+
+impl Problem {
+    /// Some columns of a finished triangle, as often as they are named.
+    pub(super) fn from_triangle(triangle: &DMatrix<f64>, columns: &[usize]) -> Self {
+        let last = triangle.ncols() - 1;
+        let columns_and_right: Vec<usize> = columns.iter().copied().chain([last]).collect();
+        let full = triangle.select_columns(&columns_and_right);
+        let r = full.qr().unpack_r();
+        let p = columns.len();
+        Self { a: r.columns(0, p).into_owned(), b: r.column(p).into_owned() }
+    }
+
+    /// By how much `‖b‖²` falls at the least: `‖Qᵀb‖²`, `A` being its own `R`.
+    pub(super) fn promise(&self) -> f64 {
+        self.b.rows(0, self.a.ncols().min(self.b.len())).norm_squared()
+    }
+
+    /// `min ‖A x − b‖² + λ ‖D x‖²` with `D` the lengths of the columns; none if it is singular.
+    pub(super) fn solve(&self, damping: f64) -> Option<DVector<f64>> {
+        let (p, rows) = (self.a.ncols(), self.a.nrows());
+        let mut right = DVector::zeros(rows + p);
+        right.rows_mut(0, rows).copy_from(&self.b);
+        let scale = self.lengths();
+        let qr = self.damped(&scale, damping).qr();
+        qr.q_tr_mul(&mut right);
+        let solution = qr.r().solve_upper_triangular(&right.rows(0, p))?;
+        unscaled(&solution, &scale)
+    }
+
+    /// `(AᵀA + λ D²) x = g`; none if it is singular.
+    pub(super) fn solve_normal(&self, g: &DVector<f64>, damping: f64) -> Option<DVector<f64>> {
+        let scale = self.lengths();
+        let r = self.damped(&scale, damping).qr().unpack_r();
+        let right = DVector::from_fn(g.len(), |j, _| g[j] / scale[j]);
+        let solution = r.solve_upper_triangular(&r.tr_solve_upper_triangular(&right)?)?;
+        unscaled(&solution, &scale)
+    }
+
+    /// `A D⁻¹` above `√λ`.
+    fn damped(&self, scale: &[f64], damping: f64) -> DMatrix<f64> {
+        let (p, rows) = (self.a.ncols(), self.a.nrows());
+        let mut stack = DMatrix::zeros(rows + p, p);
+        for j in 0..p {
+            for i in 0..rows {
+                stack[(i, j)] = self.a[(i, j)] / scale[j];
+            }
+            stack[(rows + j, j)] = damping.sqrt();
+        }
+        stack
+    }
+
+    /// The lengths of the columns; 1 where there is nothing.
+    pub(super) fn lengths(&self) -> Vec<f64> {
+        let length = |column: nalgebra::DVectorView<'_, f64>| column.norm();
+        self.a.column_iter().map(|c| Some(length(c)).filter(|l| *l > 0.0).unwrap_or(1.0)).collect()
+    }
+}
+
+/// `D⁻¹ x`, if it is finite.
+fn unscaled(solution: &DVector<f64>, scale: &[f64]) -> Option<DVector<f64>> {
+    let x = DVector::from_fn(solution.len(), |j, _| solution[j] / scale[j]);
+    x.iter().all(|value| value.is_finite()).then_some(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::{Problem, Triangle};
+
+    #[test]
+    fn it_keeps_what_least_squares_need() {
+        let value =
+            |i: usize, j: usize| ((i * 7 + j * 13) as f64 * 0.71).sin() + f64::from(u8::from(i % 5 == j));
+        let (m, p) = (1003, 5);
+        let mut triangle = Triangle::new(p);
+        let mut half = Triangle::new(p);
+        for i in 0..m {
+            let row: Vec<f64> = (0..p).map(|j| value(i, j)).collect();
+            if i < 400 { &mut triangle } else { &mut half }.push(&row, value(i, p), 1.0);
+        }
+        triangle.merge(half);
+        let r = triangle.finish();
+        let x = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]).solve(0.0).unwrap();
+        let a = DMatrix::from_fn(m, p, value);
+        let b = DVector::from_fn(m, |i, _| value(i, p));
+        let expected = (a.transpose() * &a).cholesky().unwrap().solve(&(a.transpose() * &b));
+        assert!((&x - expected).norm() < 1e-12);
+        let problem = Problem::from_triangle(&r, &[0, 1, 2, 3, 4]);
+        // The same of the normal equations, damped.
+        let g = problem.a.tr_mul(&problem.b);
+        assert!((problem.solve_normal(&g, 0.1).unwrap() - problem.solve(0.1).unwrap()).norm() < 1e-12);
+        assert!(((&problem.a * &x - &problem.b).norm_squared() - (a * x - b).norm_squared()).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,14 @@
+//! Errors learned from measurements: identification of generalized errors, and control charts of a machine that is
+//! checked again and again.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`identify`] | observations of instruments, the model of their unknowns, residuals and derivatives, fits, selection of terms, design of experiments |
+//! | [`control`] | self-starting control charts, and the date of a change |
+
+pub mod control;
+pub mod identify;
+
+#[cfg(test)]
+#[path = "../../runtime/core/src/by_hand/mod.rs"]
+mod by_hand;

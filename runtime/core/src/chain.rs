@@ -1,0 +1,126 @@
+//! The exact chain: equations (2) and (6) with true rotations, frame by frame.
+//!
+//! Generated code never uses it; it is what generated code is checked against.
+
+use crate::{Component, Orientation, Pose, Scalar};
+
+/// `A_1 A_2 … A_n · T`: the pose of the tool in `F_0`. `transforms` holds `A_1 … A_n` and `T`.
+pub fn chain(transforms: &[Pose]) -> Pose {
+    transforms.iter().fold(Pose::IDENTITY, |product, transform| product.then(transform))
+}
+
+/// `A_1 E_1 A_2 E_2 … A_n E_n · T`, equation (6), with exact rotations.
+///
+/// `transforms` holds `A_1 … A_n` and `T`; `errors` the six generalized errors of each frame. Frames beyond
+/// the end of `errors` have none.
+pub fn real_pose(transforms: &[Pose], errors: &[[f64; 6]]) -> Pose {
+    let mut product = Pose::IDENTITY;
+    for (i, transform) in transforms.iter().enumerate() {
+        product = product.then(transform);
+        if let Some(e) = errors.get(i).filter(|_| i + 1 < transforms.len()) {
+            product = product.then(&displacement(e));
+        }
+    }
+    product
+}
+
+/// `E_i`: translation `(e_x, e_y, e_z)` and `R = R_y(e_s) R_z(e_r) R_x(e_p)`.
+pub fn displacement(e: &[f64; 6]) -> Pose {
+    let (ss, cs) = Scalar::sin_cos(e[Component::Spin.index()]);
+    let (sr, cr) = Scalar::sin_cos(e[Component::Roll.index()]);
+    let (sp, cp) = Scalar::sin_cos(e[Component::Pitch.index()]);
+    let spin = Pose([[cs, 0.0, -ss], [0.0, 1.0, 0.0], [ss, 0.0, cs], [e[0], e[1], e[2]]]);
+    let roll = Pose([[cr, sr, 0.0], [-sr, cr, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
+    let pitch = Pose([[1.0, 0.0, 0.0], [0.0, cp, sp], [0.0, -sp, cp], [0.0; 3]]);
+    spin.then(&roll).then(&pitch)
+}
+
+/// The six errors of a frame from those at another place on its link, exactly: `E_i = L E_M L⁻¹` (Figure 5).
+///
+/// `place` is `L`, the pose of that place as seen from the frame; `errors` are those at the place, in its axes.
+/// The effects of a located source are this to first order; the real pose of generated code is exact.
+pub fn located(place: &Pose, errors: &[f64; 6]) -> [f64; 6] {
+    let displaced = place.then(&displacement(errors)).then(&place.inverse());
+    let ([x, y, z], [spin, roll, pitch]) = (displaced.position(), euler_yzx(&displaced));
+    [x, y, z, spin, roll, pitch]
+}
+
+/// `ΔX = X_real − X_ideal`, equation (5): the rows that `J_e ε` approximates.
+///
+/// Rows 1–3 in the length of the poses, rows 4–6 in rad as `orientation` says. Euler differences are taken to
+/// (−π, π]; they mean nothing where the Euler angles of either pose are singular.
+pub fn deviation(orientation: Orientation, ideal: &Pose, real: &Pose) -> [f64; 6] {
+    let turn = match orientation {
+        Orientation::RotationVector => {
+            let mut difference = real.then(&ideal.inverse());
+            difference.0[3] = [0.0; 3];
+            rotation_vector(&difference)
+        }
+        Orientation::EulerYzx => {
+            let (a, b) = (euler_yzx(ideal), euler_yzx(real));
+            core::array::from_fn(|i| wrap(b[i] - a[i]))
+        }
+    };
+    let (from, to) = (ideal.position(), real.position());
+    [to[0] - from[0], to[1] - from[1], to[2] - from[2], turn[0], turn[1], turn[2]]
+}
+
+/// Spin, roll and pitch of `R = R_y(σ) R_z(ρ) R_x(π)`.
+fn euler_yzx(pose: &Pose) -> [f64; 3] {
+    let [x, y, z, _] = pose.0;
+    let cosine = Scalar::sqrt(x[0] * x[0] + x[2] * x[2]);
+    [Scalar::atan2(-x[2], x[0]), Scalar::atan2(x[1], cosine), Scalar::atan2(-z[1], y[1])]
+}
+
+/// The rotation vector of a rotation: its axis times its angle.
+pub fn rotation_vector(pose: &Pose) -> [f64; 3] {
+    let [x, y, z, _] = pose.0;
+    let v = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
+    let twice_sine = Scalar::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    let angle = Scalar::atan2(twice_sine, x[0] + y[1] + z[2] - 1.0);
+    // angle / (2 sin angle) → 1/2 for small angles.
+    let scale = if twice_sine < 1e-150 { 0.5 } else { angle / twice_sine };
+    v.map(|component| component * scale)
+}
+
+fn wrap(angle: f64) -> f64 {
+    use core::f64::consts::{PI, TAU};
+    if angle > PI {
+        angle - TAU
+    } else if angle <= -PI {
+        angle + TAU
+    } else {
+        angle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_displacement_is_equation_4() {
+        let e = [1e-6, 2e-6, 3e-6, 4e-6, 5e-6, 6e-6];
+        let [_, _, _, s, r, p] = e;
+        let expected = [[1.0, r, -s], [-r, 1.0, p], [s, -p, 1.0], [e[0], e[1], e[2]]];
+        let Pose(found) = displacement(&e);
+        for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+            assert!((found - expected).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn deviations_are_the_errors_themselves_at_the_origin() {
+        let e = [1e-5, 2e-5, 3e-5, 4e-5, 5e-5, 6e-5];
+        let real = real_pose(&[Pose::IDENTITY, Pose::IDENTITY], &[e]);
+        let euler = deviation(Orientation::EulerYzx, &Pose::IDENTITY, &real);
+        let vector = deviation(Orientation::RotationVector, &Pose::IDENTITY, &real);
+        for i in 0..6 {
+            assert!((euler[i] - e[i]).abs() < 1e-15);
+        }
+        // About x, y, z: pitch, spin, roll.
+        for (i, expected) in [(3, e[5]), (4, e[3]), (5, e[4])] {
+            assert!((vector[i] - expected).abs() < 1e-8);
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! A manipulator that has no code for lanes, in batches: configuration after configuration.
+
+use super::{Batches, Tiles, check};
+use crate::twist::{roll_cosine, twist};
+use crate::{
+    Delegate, Description, Error, Function, Manipulator, Pose, distinct, drawn_pose, repeatable_magnitudes,
+};
+
+/// Any manipulator, with batches: each configuration is evaluated by itself, by the methods of [`Manipulator`].
+///
+/// What is not finite, or not defined, becomes NaN in its configuration.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OneByOne<M>(pub M);
+
+impl<M: Manipulator> Delegate for OneByOne<M> {
+    type Original = M;
+
+    fn original(&self) -> &M {
+        &self.0
+    }
+}
+
+impl<M: Manipulator> Batches for OneByOne<M> {
+    fn batch(&self, function: Function, arguments: &Tiles, results: &mut Tiles) -> Result<(), Error> {
+        one_by_one(&self.0, function, arguments, results)
+    }
+}
+
+/// Fills the results of a function, one configuration after the other.
+pub fn one_by_one(
+    manipulator: &(impl Manipulator + ?Sized),
+    function: Function,
+    arguments: &Tiles,
+    results: &mut Tiles,
+) -> Result<(), Error> {
+    let description = manipulator.description();
+    check(function, description, arguments, results)?;
+    let mut given = vec![0.0; arguments.rows()];
+    for configuration in 0..arguments.count() {
+        arguments.copy_rows(0..arguments.rows(), configuration, &mut given);
+        let mut rest = given.as_slice();
+        let mut arrays = function.signature().arguments.iter().map(|array| {
+            let (values, others) = rest.split_at(array.len(description));
+            rest = others;
+            values
+        });
+        let [q, s, third, magnitudes] = core::array::from_fn(|_| arrays.next().unwrap_or_default());
+        let values = Configuration { manipulator, description, q, s }.values(function, third, magnitudes);
+        let values = values.unwrap_or_else(|_| vec![f64::NAN; results.rows()]);
+        for (row, value) in values.into_iter().enumerate() {
+            results.set_value(row, configuration, value);
+        }
+    }
+    results.pad();
+    Ok(())
+}
+
+/// A manipulator at one configuration.
+struct Configuration<'a, M: ?Sized> {
+    manipulator: &'a M,
+    description: &'a Description,
+    q: &'a [f64],
+    s: &'a [f64],
+}
+
+impl<M: Manipulator + ?Sized> Configuration<'_, M> {
+    /// What a function gives, the margin last. Its third argument is u, ε, or variances, its fourth magnitudes.
+    fn values(&self, function: Function, third: &[f64], magnitudes: &[f64]) -> Result<Vec<f64>, Error> {
+        let Self { manipulator, description, q, s } = *self;
+        let mut values = match function {
+            Function::Transforms => flat(&self.transforms()?),
+            Function::Pose => flat(&[manipulator.pose(q, s)?]),
+            Function::ErrorJacobian => {
+                let (pose, columns) = self.error_jacobian()?;
+                [flat(&[pose]), columns.concat()].concat()
+            }
+            Function::JointJacobian => {
+                let (pose, columns) = self.joint_jacobian()?;
+                [flat(&[pose]), columns.concat()].concat()
+            }
+            Function::ParameterJacobian => {
+                let mut columns = vec![[0.0; 6]; s.len()];
+                let pose = manipulator.parameter_jacobian(q, s, &mut columns)?;
+                [flat(&[pose]), columns.concat()].concat()
+            }
+            Function::Effects => self.effects(third)?,
+            Function::GeneralizedErrors => self.generalized_errors(third)?.concat(),
+            Function::ErrorJacobianDistinct => self.distinct()?,
+            Function::Displacement => self.displacement(third)?.to_vec(),
+            Function::Covariance => self.covariance(third)?.concat(),
+            Function::PredictedDisplacement => {
+                self.displacement(&self.generalized_errors(third)?.concat())?.to_vec()
+            }
+            Function::SourceDisplacements => self.source_displacements(third)?.concat(),
+            Function::RealPose => flat(&[self.real_pose(third)?]),
+            Function::DrawnPose => flat(&[drawn_pose(self.manipulator, q, s, third, magnitudes)?]),
+            Function::CompensatorStep => {
+                let (pose, columns) = self.joint_jacobian()?;
+                let twists = columns.iter().flat_map(|column| twist(description.orientation, &pose, column));
+                flat(&[self.real_pose(third)?]).into_iter().chain(twists).collect()
+            }
+        };
+        if function.signature().has_margin(description.orientation) {
+            values.push(roll_cosine(&manipulator.pose(q, s)?));
+        }
+        Ok(values)
+    }
+
+    fn transforms(&self) -> Result<Vec<Pose>, Error> {
+        let mut transforms = vec![Pose::IDENTITY; self.description.frames.len() + 1];
+        self.manipulator.transforms(self.q, self.s, &mut transforms)?;
+        Ok(transforms)
+    }
+
+    fn error_jacobian(&self) -> Result<(Pose, Vec<[f64; 6]>), Error> {
+        let mut columns = vec![[0.0; 6]; 6 * self.description.frames.len()];
+        let pose = self.manipulator.error_jacobian(self.q, self.s, &mut columns)?;
+        Ok((pose, columns))
+    }
+
+    fn joint_jacobian(&self) -> Result<(Pose, Vec<[f64; 6]>), Error> {
+        let mut columns = vec![[0.0; 6]; self.q.len()];
+        let pose = self.manipulator.joint_jacobian(self.q, self.s, &mut columns)?;
+        Ok((pose, columns))
+    }
+
+    fn effects(&self, u: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut effects = vec![0.0; self.description.effects.len()];
+        self.manipulator.effects(self.q, self.s, u, &mut effects)?;
+        Ok(effects)
+    }
+
+    fn generalized_errors(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, Error> {
+        let mut errors = vec![[0.0; 6]; self.description.frames.len()];
+        self.manipulator.generalized_errors(self.q, self.s, u, &mut errors)?;
+        Ok(errors)
+    }
+
+    /// Pose, then of each frame the numbers that [`distinct::number`] names.
+    fn distinct(&self) -> Result<Vec<f64>, Error> {
+        let (pose, columns) = self.error_jacobian()?;
+        let mut values = flat(&[pose]);
+        for frame in columns.chunks_exact(6) {
+            values.extend(frame.iter().flat_map(|column| &column[..3]));
+            if distinct::vectors(self.description.orientation) > 6 {
+                values.extend(frame[3..].iter().flat_map(|column| &column[3..]));
+            }
+        }
+        Ok(values)
+    }
+
+    /// `J_e ε`.
+    fn displacement(&self, errors: &[f64]) -> Result<[f64; 6], Error> {
+        let (_, columns) = self.error_jacobian()?;
+        let parts = columns.iter().zip(errors).map(|(column, error)| column.map(|entry| entry * error));
+        Ok(parts.fold([0.0; 6], |sum, part| core::array::from_fn(|row| sum[row] + part[row])))
+    }
+
+    /// `J_e diag(σ²) J_eᵀ`.
+    fn covariance(&self, variances: &[f64]) -> Result<[[f64; 6]; 6], Error> {
+        let (_, columns) = self.error_jacobian()?;
+        let mut covariance = [[0.0; 6]; 6];
+        for (column, variance) in columns.iter().zip(variances) {
+            for (j, sums) in covariance.iter_mut().enumerate() {
+                *sums = core::array::from_fn(|i| sums[i] + column[i] * variance * column[j]);
+            }
+        }
+        Ok(covariance)
+    }
+
+    fn source_displacements(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, Error> {
+        let ((_, columns), effects) = (self.error_jacobian()?, self.effects(u)?);
+        let mut displacements = vec![[0.0; 6]; self.description.sources.len()];
+        for (effect, value) in self.description.effects.iter().zip(effects) {
+            let column = &columns[6 * effect.frame + effect.component.index()];
+            let sum = &mut displacements[effect.source];
+            *sum = core::array::from_fn(|row| sum[row] + column[row] * value);
+        }
+        Ok(displacements)
+    }
+
+    fn real_pose(&self, u: &[f64]) -> Result<Pose, Error> {
+        drawn_pose(self.manipulator, self.q, self.s, u, &repeatable_magnitudes(self.description))
+    }
+}
+
+fn flat(poses: &[Pose]) -> Vec<f64> {
+    poses.iter().flat_map(|pose| pose.0.concat()).collect()
+}

@@ -1,0 +1,162 @@
+//! What holds for every correct [`Manipulator`](crate::Manipulator), as functions and as tests for your own.
+//!
+//! ```
+//! struct Slide;
+//! # use abbe::*;
+//! # impl Manipulator for Slide {
+//! #     fn description(&self) -> &Description {
+//! #         static DESCRIPTION: Description = Description {
+//! #             name: Text::Constant("slide"), title: Text::Constant(""), length: LengthUnit::Metre,
+//! #             orientation: Orientation::RotationVector, frames: List::Constant(&[Frame::new("slide", Some(0))]),
+//! #             variables: List::Constant(&[Variable::new("d", VariableKind::Prismatic, [0.0, 1.0], 0.5)]),
+//! #             parameters: List::Constant(&[]), inputs: List::Constant(&[]), sources: List::Constant(&[]),
+//! #             effects: List::Constant(&[]),
+//! #         };
+//! #         &DESCRIPTION
+//! #     }
+//! #     fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
+//! #         transforms.copy_from_slice(&[self.pose(q, s)?, Pose::IDENTITY]);
+//! #         Ok(())
+//! #     }
+//! #     fn pose(&self, q: &[f64], _: &[f64]) -> Result<Pose, Error> {
+//! #         let mut pose = Pose::IDENTITY;
+//! #         let &[d] = q else { return Err(Error::Count { quantity: Quantity::Variables, expected: 1, found: q.len() }) };
+//! #         if !d.is_finite() { return Err(Error::NotFinite { quantity: Quantity::Variables, index: 0 }) }
+//! #         pose.0[3][0] = d;
+//! #         Ok(pose)
+//! #     }
+//! #     fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+//! #         for (column, row) in columns.iter_mut().zip([0, 1, 2, 4, 5, 3]) { *column = [0.0; 6]; column[row] = 1.0; }
+//! #         self.pose(q, s)
+//! #     }
+//! #     fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+//! #         columns[0] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+//! #         self.pose(q, s)
+//! #     }
+//! #     fn parameter_jacobian(&self, q: &[f64], s: &[f64], _: &mut [[f64; 6]]) -> Result<Pose, Error> { self.pose(q, s) }
+//! #     fn effects(&self, q: &[f64], s: &[f64], _: &[f64], _: &mut [f64]) -> Result<(), Error> { self.pose(q, s).map(|_| ()) }
+//! #     fn generalized_errors(&self, q: &[f64], s: &[f64], _: &[f64], _: &mut [[f64; 6]]) -> Result<(), Error> { self.pose(q, s).map(|_| ()) }
+//! # }
+//! // One line in your tests:
+//! abbe::test_manipulator!(abbe::lanes::OneByOne(Slide));
+//! # use abbe::laws;
+//! # fn main() -> Result<(), laws::Failure> {
+//! // Or ask for the figures:
+//! assert!(laws::error_jacobian(&Slide, laws::SAMPLES)?.relative < laws::DERIVATIVE_TOLERANCE);
+//! assert!((laws::remainder_slope(&Slide, laws::SAMPLES)?.slope - 2.0).abs() < laws::SLOPE_TOLERANCE);
+//! laws::all(&abbe::lanes::OneByOne(Slide), laws::SAMPLES)
+//! # }
+//! ```
+
+mod batches;
+mod contract;
+mod derivatives;
+mod differences;
+mod failure;
+mod remainder;
+mod samples;
+#[cfg(test)]
+mod tests;
+
+pub use batches::{batches, sweeps};
+pub use contract::{contract, pose};
+pub use derivatives::{error_jacobian, joint_jacobian, parameter_jacobian, source_displacements};
+pub use failure::{Discrepancy, Failure};
+pub use remainder::{Slope, remainder_slope};
+
+use crate::lanes::Sweepable;
+
+/// How many configurations [`test_manipulator!`](crate::test_manipulator) looks at.
+pub const SAMPLES: usize = 200;
+/// The largest relative discrepancy between a Jacobian and central differences.
+pub const DERIVATIVE_TOLERANCE: f64 = 1e-8;
+/// The largest relative discrepancy between two ways to compute the same.
+pub const ROUNDING_TOLERANCE: f64 = 1e-11;
+/// How far from 2 the slope of the first-order remainder may be.
+pub const SLOPE_TOLERANCE: f64 = 0.05;
+
+/// All laws, each to its tolerance; of batches those that sweeps need.
+pub fn all(manipulator: &dyn Sweepable, samples: usize) -> Result<(), Failure> {
+    contract(manipulator, samples)?.within("outputs", ROUNDING_TOLERANCE)?;
+    sweeps(manipulator, samples)?.within("batches", ROUNDING_TOLERANCE)?;
+    pose(manipulator, samples)?.within("pose", ROUNDING_TOLERANCE)?;
+    error_jacobian(manipulator, samples)?.within("error Jacobian", DERIVATIVE_TOLERANCE)?;
+    joint_jacobian(manipulator, samples)?.within("joint Jacobian", DERIVATIVE_TOLERANCE)?;
+    parameter_jacobian(manipulator, samples)?.within("parameter Jacobian", DERIVATIVE_TOLERANCE)?;
+    source_displacements(manipulator, samples)?.within("sources", DERIVATIVE_TOLERANCE)?;
+    remainder_slope(manipulator, samples)?.within(SLOPE_TOLERANCE)
+}
+
+/// Tests of all [`laws`](crate::laws) for one manipulator, at 200 configurations within its limits.
+///
+/// All its functions are compiled for lanes and held against single configurations; a manipulator without lanes is tested as
+/// [`OneByOne`](crate::lanes::OneByOne).
+///
+/// `test_manipulator!(EXPR)` makes a module `manipulator_laws` of tests; `test_manipulator!(name: EXPR)` names
+/// the module, so that there can be several. The expression sees what is in scope outside.
+#[macro_export]
+macro_rules! test_manipulator {
+    ($name:ident: $manipulator:expr) => {
+        #[cfg(test)]
+        mod $name {
+            #[allow(unused_imports)]
+            use super::*;
+            use $crate::laws;
+
+            fn holds<T>(law: Result<T, laws::Failure>) -> T {
+                law.unwrap_or_else(|failure| panic!("{failure}"))
+            }
+
+            #[test]
+            fn outputs_are_finite_and_bad_inputs_are_refused() {
+                let found = holds(laws::contract(&$manipulator, laws::SAMPLES));
+                holds(found.within("outputs", laws::ROUNDING_TOLERANCE));
+            }
+
+            #[test]
+            fn batches_say_what_single_configurations_say() {
+                let found = holds(laws::batches(&$manipulator, laws::SAMPLES));
+                holds(found.within("batches", laws::ROUNDING_TOLERANCE));
+            }
+
+            #[test]
+            fn pose_is_the_product_of_the_transforms() {
+                let found = holds(laws::pose(&$manipulator, laws::SAMPLES));
+                holds(found.within("pose", laws::ROUNDING_TOLERANCE));
+            }
+
+            #[test]
+            fn error_jacobian_is_the_derivative_of_the_exact_chain() {
+                let found = holds(laws::error_jacobian(&$manipulator, laws::SAMPLES));
+                holds(found.within("error Jacobian", laws::DERIVATIVE_TOLERANCE));
+            }
+
+            #[test]
+            fn joint_jacobian_is_the_derivative_of_the_pose() {
+                let found = holds(laws::joint_jacobian(&$manipulator, laws::SAMPLES));
+                holds(found.within("joint Jacobian", laws::DERIVATIVE_TOLERANCE));
+            }
+
+            #[test]
+            fn parameter_jacobian_is_the_derivative_of_the_pose() {
+                let found = holds(laws::parameter_jacobian(&$manipulator, laws::SAMPLES));
+                holds(found.within("parameter Jacobian", laws::DERIVATIVE_TOLERANCE));
+            }
+
+            #[test]
+            fn sources_are_the_derivatives_of_the_exact_chain() {
+                let found = holds(laws::source_displacements(&$manipulator, laws::SAMPLES));
+                holds(found.within("sources", laws::DERIVATIVE_TOLERANCE));
+            }
+
+            #[test]
+            fn first_order_remainder_is_of_second_order() {
+                let found = holds(laws::remainder_slope(&$manipulator, laws::SAMPLES));
+                holds(found.within(laws::SLOPE_TOLERANCE));
+            }
+        }
+    };
+    ($manipulator:expr) => {
+        $crate::test_manipulator!(manipulator_laws: $manipulator);
+    };
+}

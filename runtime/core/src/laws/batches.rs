@@ -1,0 +1,104 @@
+//! Batches say what single configurations say, on every instruction set.
+
+use super::samples::Subject;
+use super::{Discrepancy, Failure};
+use crate::function::{Array, Count};
+use crate::lanes::Sweepable;
+use crate::lanes::{Batches, InstructionSet, Tiles, one_by_one};
+use crate::sampling;
+use crate::{Error, Function, Manipulator, Quantity};
+
+/// Every function in batches against the same from the methods for one configuration, on every instruction set that
+/// the machine has. Lengths in arm lengths.
+pub fn batches(manipulator: &dyn Batches, samples: usize) -> Result<Discrepancy, Failure> {
+    compare(manipulator, &Function::ALL, samples, &|function, arguments, results| {
+        manipulator.batch(function, arguments, results)
+    })
+}
+
+/// The same for the two functions that sweeps need.
+pub fn sweeps(manipulator: &dyn Sweepable, samples: usize) -> Result<Discrepancy, Failure> {
+    let functions = [Function::Pose, Function::SourceDisplacements];
+    compare(manipulator, &functions, samples, &|function, arguments, results| match function {
+        Function::Pose => manipulator.poses(arguments, results),
+        _ => manipulator.source_displacements(arguments, results),
+    })
+}
+
+type Batch<'a> = dyn Fn(Function, &Tiles, &mut Tiles) -> Result<(), Error> + 'a;
+
+fn compare(
+    manipulator: &dyn Manipulator,
+    functions: &[Function],
+    samples: usize,
+    batch: &Batch,
+) -> Result<Discrepancy, Failure> {
+    let subject = Subject::new(manipulator)?;
+    let description = manipulator.description();
+    let (samples, skipped) = subject.samples(samples)?;
+    let mut discrepancy = Discrepancy { compared: samples.len(), skipped, ..Default::default() };
+    for function in functions {
+        let signature = function.signature();
+        let scales: Vec<f64> =
+            signature.results.iter().flat_map(|array| scales(array, &subject)).chain([1.0]).collect();
+        let mut expected: Option<Tiles> = None;
+        for set in InstructionSet::all() {
+            let mut arguments = Tiles::new(set, signature.arguments_len(description), samples.len());
+            for (i, sample) in samples.iter().enumerate() {
+                let given = signature.arguments.iter().flat_map(|array| -> Vec<f64> {
+                    match array.quantity {
+                        Quantity::Variables => sample.q.clone(),
+                        Quantity::Parameters => subject.s.clone(),
+                        Quantity::Inputs => subject.u.clone(),
+                        // Errors or variances.
+                        _ => (0..array.len(description))
+                            .map(|k| 1e-3 * sampling::halton(i + 1, k % 30))
+                            .collect(),
+                    }
+                });
+                given.enumerate().for_each(|(row, value)| arguments.set_value(row, i, value));
+            }
+            arguments.pad();
+            let mut results = Tiles::new(set, signature.results_len(description), samples.len());
+            let at_first = |error| Failure::Evaluation { q: samples[0].q.clone(), error };
+            if expected.is_none() {
+                one_by_one(manipulator, *function, &arguments, &mut results).map_err(at_first)?;
+                expected = Some(results.clone());
+            }
+            batch(*function, &arguments, &mut results).map_err(at_first)?;
+            let Some(expected) = &expected else { continue };
+            for (i, sample) in samples.iter().enumerate() {
+                for (row, scale) in (0..results.rows()).zip(&scales) {
+                    let (found, expected) = (results.get(row, i), expected.get(row, i));
+                    if !found.is_finite() {
+                        return Err(Failure::NotFinite { method: function.name(), q: sample.q.clone() });
+                    }
+                    discrepancy.add((found - expected).abs() / scale.max(expected.abs()), &sample.q);
+                }
+            }
+        }
+    }
+    Ok(discrepancy)
+}
+
+/// What the rows of a result are measured in.
+fn scales(array: &Array, subject: &Subject) -> Vec<f64> {
+    let description = subject.manipulator.description();
+    let arm = subject.arm;
+    let column = [arm, arm, arm, 1.0, 1.0, 1.0];
+    let unit = match *array.shape {
+        [.., Count::Exactly(4), Count::Exactly(3)] => [[1.0; 9].as_slice(), &[arm; 3]].concat(),
+        [Count::Frames, Count::Distinct, Count::Exactly(3)] => {
+            let numbers = [[1.0; 9], [arm; 9], [1.0; 9]].concat();
+            numbers[..3 * Count::Distinct.value(description)].to_vec()
+        }
+        [Count::Exactly(6), Count::Exactly(6)] => column.iter().flat_map(|a| column.map(|b| a * b)).collect(),
+        [.., Count::Exactly(6)] => column.to_vec(),
+        [Count::Effects] => {
+            let unit = |effect: &crate::Effect| column[effect.component.index()];
+            description.effects.iter().map(unit).collect()
+        }
+        _ => vec![1.0],
+    };
+    unit.into_iter().cycle().take(array.len(description)).collect()
+}

@@ -1,0 +1,77 @@
+//! Laws hold for robots that are right, by a wide margin, and break for ones that are not.
+
+use super::*;
+use crate::by_hand::{Pps, Puma};
+use crate::lanes::OneByOne;
+use crate::{Description, Error, Manipulator, Pose};
+
+#[test]
+fn right_robots_pass_by_a_wide_margin() {
+    for robot in [&Pps as &dyn Manipulator, &Puma] {
+        let found = [
+            error_jacobian(robot, SAMPLES).unwrap(),
+            joint_jacobian(robot, SAMPLES).unwrap(),
+            parameter_jacobian(robot, SAMPLES).unwrap(),
+        ];
+        for discrepancy in found {
+            assert!(discrepancy.relative < 1e-10, "{discrepancy:?}");
+            assert_eq!(discrepancy.compared, SAMPLES);
+        }
+        let slope = remainder_slope(robot, SAMPLES).unwrap();
+        assert!((slope.slope - 2.0).abs() < 0.02, "{slope:?}");
+    }
+}
+
+/// The patient positioning system with something wrong.
+struct Wrong(fn(&mut [[f64; 6]]));
+
+impl Manipulator for Wrong {
+    fn description(&self) -> &Description {
+        Pps.description()
+    }
+    fn transforms(&self, q: &[f64], s: &[f64], transforms: &mut [Pose]) -> Result<(), Error> {
+        Pps.transforms(q, s, transforms)
+    }
+    fn pose(&self, q: &[f64], s: &[f64]) -> Result<Pose, Error> {
+        Pps.pose(q, s)
+    }
+    fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        let pose = Pps.error_jacobian(q, s, columns)?;
+        self.0(columns);
+        Ok(pose)
+    }
+    fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        Pps.joint_jacobian(q, s, columns)
+    }
+    fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
+        Pps.parameter_jacobian(q, s, columns)
+    }
+    fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
+        Pps.effects(q, s, u, effects)
+    }
+    fn generalized_errors(
+        &self,
+        q: &[f64],
+        s: &[f64],
+        u: &[f64],
+        errors: &mut [[f64; 6]],
+    ) -> Result<(), Error> {
+        Pps.generalized_errors(q, s, u, errors)
+    }
+}
+
+#[test]
+fn wrong_robots_fail() {
+    // Spin and pitch exchanged: the likeliest bug.
+    let exchanged = OneByOne(Wrong(|columns| columns.chunks_exact_mut(6).for_each(|frame| frame.swap(3, 5))));
+    assert!(matches!(all(&exchanged, 20), Err(Failure::Discrepant { law: "error Jacobian", .. })));
+    // One entry in 10⁷, in the smallest rows.
+    let slightly = OneByOne(Wrong(|columns| columns[15][3] *= 1.0 + 1e-7));
+    assert!(matches!(all(&slightly, 20), Err(Failure::Discrepant { law: "error Jacobian", .. })));
+    let slope = remainder_slope(&exchanged, 20).unwrap();
+    assert!((slope.slope - 1.0).abs() < 0.1, "{slope:?}");
+    let silent = OneByOne(Wrong(|columns| columns[7][1] = f64::NAN));
+    assert!(matches!(all(&silent, 20), Err(Failure::NotFinite { method: "error_jacobian", .. })));
+    let nan = error_jacobian(&silent, 20).unwrap();
+    assert_eq!(nan.relative, f64::INFINITY);
+}

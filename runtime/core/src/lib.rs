@@ -1,0 +1,84 @@
+//! The vocabulary of `abbe`: scalars, poses, generalized errors, the exact chain, the compensator, batches in lanes, and laws.
+//!
+//! Generated code and its users name the crate `abbe`, which re-exports everything here and documents the conventions:
+//! units, frames, order of rows and columns. Without features this crate is `no_std` and never allocates.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+mod chain;
+mod checked_functions;
+pub mod checks;
+pub mod compensator;
+mod component;
+mod delegate;
+mod description;
+pub mod distinct;
+#[cfg(feature = "std")]
+mod drawn_pose;
+mod error;
+mod floats;
+pub mod function;
+mod lookup_table;
+mod manipulator;
+#[cfg(feature = "nalgebra")]
+mod nalgebra_views;
+mod pose;
+mod scalar;
+mod shared;
+mod sin_cos;
+#[cfg(feature = "lanes")]
+mod twist;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+#[cfg(feature = "lanes")]
+pub mod lanes;
+#[cfg(not(feature = "lanes"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! lane_functions {
+    ($($any:tt)*) => {};
+}
+#[cfg(feature = "laws")]
+pub mod laws;
+#[cfg(feature = "laws")]
+pub mod sampling;
+
+#[cfg(test)]
+extern crate self as abbe_core;
+#[cfg(test)]
+mod by_hand;
+
+pub use chain::{chain, deviation, displacement, located, real_pose, rotation_vector};
+pub use component::Component;
+pub use delegate::Delegate;
+pub use description::{
+    Class, Description, Distribution, Effect, Frame, Input, LengthUnit, Orientation, Parameter, Source,
+    Variable, VariableKind,
+};
+pub use distinct::ErrorColumns;
+#[cfg(feature = "std")]
+pub use drawn_pose::{drawn_pose, repeatable_magnitudes};
+pub use error::{Error, MINIMUM_MARGIN, Quantity};
+pub use function::Function;
+pub use lookup_table::LookupTable;
+pub use manipulator::Manipulator;
+#[cfg(feature = "nalgebra")]
+pub use nalgebra_views::{jacobian_view, jacobian_view_dynamic};
+pub use pose::Pose;
+pub use scalar::Scalar;
+pub use shared::{List, Text};
+#[cfg(feature = "lanes")]
+pub use twist::{roll_cosine, twist};
+
+/// Includes every module that `abbe_codegen::compile` generated in this crate's build script.
+///
+/// ```ignore
+/// // build.rs:   fn main() { abbe_codegen::compile("specs") }
+/// abbe::include_manipulators!();
+/// ```
+#[macro_export]
+macro_rules! include_manipulators {
+    () => {
+        include!(concat!(env!("OUT_DIR"), "/abbe_manipulators.rs"));
+    };
+}
