@@ -1,8 +1,9 @@
 //! `abbe doctor`: which convention some rows of joints and poses are in.
 
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{Dimension, parse_value};
 use abbe_report::text;
+use abbe_spec::document::Document;
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
 use abbe_study::Notes;
 use abbe_study::data::Source;
 use abbe_study::doctor::Doctor;

@@ -1,8 +1,9 @@
 //! Numbers that options give.
 
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{Dimension, parse_value};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::document::Document;
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
 
 use crate::failure::Failure;
 

@@ -5,9 +5,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+
 use crate::print;
-use crate::spec::Spec;
 
 /// Generates a module for every `*.toml` in a folder but studies, maps and plans (`*.study.toml`, …), for `abbe::include_manipulators!()` to include.
 ///

@@ -1,6 +1,6 @@
 //! No input makes the reader panic or hang: random text, and specs with random damage.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use proptest::prelude::*;
 
 const SPEC: &str = r#"

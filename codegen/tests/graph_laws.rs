@@ -1,7 +1,7 @@
 //! The laws of the graph: each a line, those that must not hold among them; then any expression at all.
 
-use abbe_codegen::expr::{Function, Symbol};
 use abbe_codegen::graph::{Graph, Node};
+use abbe_spec::expr::{Function, Symbol};
 use proptest::prelude::*;
 
 const VALUES: [f64; 3] = [0.7, -1.3, 2.1];

@@ -4,7 +4,7 @@
 mod told;
 
 use abbe_codegen::print::{Language, Real};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

@@ -5,7 +5,7 @@ mod told;
 
 use std::sync::LazyLock;
 
-use abbe_codegen::document::Document;
+use abbe_spec::document::Document;
 use abbe_study::{Machine, Study};
 use libfuzzer_sys::fuzz_target;
 

@@ -13,7 +13,7 @@ use libfuzzer_sys::fuzz_target;
 static MACHINE: LazyLock<Machine> = LazyLock::new(|| Machine::find("scara").expect("it is shipped"));
 
 static MAP: LazyLock<Map> = LazyLock::new(|| {
-    let joint = |variable: &abbe_codegen::spec::Variable| {
+    let joint = |variable: &abbe_spec::Variable| {
         format!(
             "{0} = {{ column = \"{0}\", unit = \"{1}\" }}\n",
             variable.name,

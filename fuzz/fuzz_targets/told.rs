@@ -1,6 +1,6 @@
 //! What every refusal has: a message, a place, a way out.
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 /// Fails unless every mistake has all three.
 pub fn told(refused: &Diagnostics) {

@@ -60,7 +60,7 @@ fn uses(program: &Program) -> Vec<usize> {
 mod tests {
     use abbe_codegen::chain::Model;
     use abbe_codegen::program::Routines;
-    use abbe_codegen::spec::Spec;
+    use abbe_spec::Spec;
 
     use super::*;
 

@@ -7,7 +7,7 @@ use abbe::lanes::{self, Batches, Tiles};
 use abbe::{Description, Error, Function, Manipulator, Pose, Quantity, checks};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::Routines;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use crate::lanes::{Batch, Block};
 use crate::tape::Tape;

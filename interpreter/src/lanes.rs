@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use abbe::Scalar;
 use abbe::lanes::{Kernel, Lanes, Register, Tiles};
-use abbe_codegen::expr::{Function, Lookup, Table};
 use abbe_codegen::program::Action;
+use abbe_spec::expr::{Function, Lookup, Table};
 
 use crate::operation::{Chain, Instruction, Link, LinkKind, Operation, Slot};
 use crate::tape::{Part, Tape};

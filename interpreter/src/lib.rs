@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use abbe::Manipulator;
-//! use abbe_codegen::spec::Spec;
+//! use abbe_spec::Spec;
 //! use abbe_interpreter::Interpreter;
 //!
 //! let spec = Spec::parse("slide.toml", r#"

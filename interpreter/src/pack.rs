@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use abbe::Function;
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::program::{Action, Block, Operand, Program, Role, Routine, Routines, Row, Stage, Step};
+use abbe_spec::expr::Symbol;
 
 use crate::chains::chains;
 use crate::operation::{Operation, Slot};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use abbe_codegen::expr::Table;
+use abbe_spec::expr::Table;
 
 use crate::operation::{Operation, Slot};
 

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use abbe::lanes::{Batches, ErrorJacobian, InstructionSet, Tiles, run};
 use abbe::{Description, Error, Function, Manipulator};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::ur5;
 

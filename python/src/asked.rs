@@ -6,10 +6,11 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use abbe::identify::{Criterion, Loss};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{Dimension, parse_value};
-use abbe_codegen::spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
+use abbe_spec::Spec;
 use abbe_report::{Provenance, text};
 use abbe_study::analyze::parts::{Part, Question, Shard, Written};
 use abbe_study::analyze::{self, Analyze};

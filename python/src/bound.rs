@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use abbe_codegen::document::Document;
+use abbe_spec::document::Document;
 use abbe_interpreter::bound::Effort;
 use abbe_report::text;
 use abbe_study::Study;

@@ -1,7 +1,6 @@
 //! Joints for a pose, and commands for the real tool.
 
-use abbe::Function;
-use abbe::Pose;
+use abbe::{Function, Pose};
 use abbe::analysis::{Target, inverse};
 use abbe_study::{compensate, mistake};
 use numpy::PyUntypedArrayMethods;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::document::Document;
+use abbe_spec::DhConvention;
 use abbe_report::text;
 use abbe_study::export::{Export, Format as Exported};
 use abbe_study::import::{Format, Import, Units};

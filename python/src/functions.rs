@@ -2,8 +2,8 @@
 
 use abbe::function::Array;
 use abbe::{Description, Function, Manipulator, Quantity};
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::parse_value;
+use abbe_spec::document::Document;
+use abbe_spec::value::parse_value;
 use abbe_study::mistake;
 use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};

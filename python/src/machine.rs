@@ -3,8 +3,8 @@
 use std::sync::OnceLock;
 
 use abbe::{Function, Manipulator};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_study::Changes;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::data::{Cells, Columns, Map, Source};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;

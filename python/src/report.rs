@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_report::Picture;
 use abbe_study::data;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};

@@ -1,7 +1,8 @@
 //! How the numbers of a figure are shown: names, units, ticks, colours.
 
+use abbe::VariableKind;
 use abbe::analysis::Measurand;
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_spec::Spec;
 
 use abbe_study::study_file::Over;
 

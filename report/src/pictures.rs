@@ -1,6 +1,6 @@
 //! The files of an analysis: every figure, and the page that holds them all.
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Figures;
 use abbe_study::mistake;

@@ -1,8 +1,10 @@
 //! Limits for rows that nothing was fitted to, and whether they are met.
 
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{Dimension, LengthUnit, parse_value};
+use abbe::LengthUnit;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::document::Document;
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
 use serde::Serialize;
 
 use crate::identify::Sizes;
@@ -108,7 +110,7 @@ impl Accepted {
 
 #[cfg(test)]
 mod tests {
-    use abbe_codegen::expr::LengthUnit;
+    use abbe::LengthUnit;
 
     use super::Acceptance;
     use crate::identify::Sizes;

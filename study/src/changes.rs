@@ -1,9 +1,10 @@
 //! What differs from the spec in one run: values of parameters and inputs, sources switched on and off.
 
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, Span};
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{Dimension, Symbol, find_name, parse_value};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
+use abbe_spec::document::Document;
+use abbe_spec::expr::{Dimension, Symbol};
+use abbe_spec::value::{find_name, parse_value};
 
 use crate::number;
 

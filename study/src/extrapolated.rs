@@ -3,8 +3,8 @@
 use abbe::Manipulator;
 use abbe::analysis::sampling;
 use abbe::identify::{Failure, Measurement, Model, Observation, Role, Room, Uncertainty, Unknown};
-use abbe_codegen::expr::Symbol;
-use abbe_codegen::spec::{Identified, Spec};
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Identified, Spec};
 use serde::Serialize;
 
 use crate::{Notes, number};
@@ -74,7 +74,7 @@ pub(crate) fn extrapolated<'r>(
     let named = spec.fitted.iter().zip(&of_each).filter(|(_, count)| **count > 0);
     let named = named.map(|(fitted, count)| {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
-        format!("{} beyond {lower} … {upper} in {count}", fitted.name(spec))
+        format!("{} beyond {lower} … {upper} in {count}", spec.name_of(fitted.symbol))
     });
     let named = named.collect::<Vec<_>>().join(", ");
     let known_there = known.map_or(String::new(), |known| known.sentence(spec));

@@ -2,8 +2,8 @@
 
 use std::io::{Cursor, Write};
 
-use abbe_codegen::diagnostic::Diagnostics;
 pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
+use abbe_spec::diagnostic::Diagnostics;
 use zip::write::SimpleFileOptions;
 use zip::{DateTime, ZipWriter};
 

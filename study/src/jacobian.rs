@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use abbe::analysis::sampling;
-use abbe::{Class, Component, Description, Error, Manipulator, Pose, Quantity};
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, Span};
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{Dimension, parse_value};
-use abbe_codegen::spec::{Spec, Variable, VariableKind};
+use abbe::{Class, Component, Description, Error, Manipulator, Pose, Quantity, VariableKind};
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics, Span};
+use abbe_spec::document::Document;
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::parse_value;
+use abbe_spec::{Spec, Variable};
 use serde::Serialize;
 
 use crate::finite::finite;

@@ -35,7 +35,7 @@
 //! let [first, ..] = &report.budget.tighten_first()[..] else { panic!("there are sources") };
 //! println!("radius {:.3} mm; tighten first: {}", report.budget.combined.radius.value, report.source(*first).name);
 //! # assert_eq!(report.source(*first).name, "assembly");
-//! # Ok::<(), abbe_codegen::diagnostic::Diagnostics>(())
+//! # Ok::<(), abbe_spec::diagnostic::Diagnostics>(())
 //! ```
 //!
 //! [`Machine`] is a spec with its name, and its generated code if it is shipped; [`Changes`] what differs from it in one

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::io::{self, Read};
 use std::rc::Rc;
 
-use abbe_codegen::bounded::Unfit;
+use abbe_spec::bounded::Unfit;
 
 /// The longest row, in bytes.
 const LONGEST: usize = 4 << 20;

@@ -1,8 +1,9 @@
 //! The shipped manipulators.
 
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe::VariableKind;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::machine::Machine;

@@ -7,11 +7,11 @@ use std::sync::Arc;
 
 use abbe::analysis::Sweepable;
 use abbe::{Class, Distribution};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::{Magnitude, Source, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, Shipped};
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
+use abbe_spec::{Magnitude, Source, Spec};
 
 use crate::changes::Changes;
 use crate::named;

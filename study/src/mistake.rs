@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abbe::identify::Failure;
 use abbe::{Class, Description, Effect, Error, Quantity};
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 
 /// What knows a way out of itself.
 pub trait WayOut: Display {

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics, nearest_file};
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::find_name;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics, nearest_file};
+use abbe_spec::document::Document;
+use abbe_spec::value::find_name;
 
 /// Whether it can be a path only: it is there, or looks like one.
 pub(crate) fn is_path(argument: &Path) -> bool {

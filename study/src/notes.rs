@@ -1,6 +1,6 @@
 //! What a job says on the way, and whether it is to stop.
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use crate::mistake;
 

@@ -2,8 +2,8 @@
 
 use abbe::analysis::Configuration;
 use abbe::{Class, LengthUnit, VariableKind};
-use abbe_codegen::expr::Symbol;
-use abbe_codegen::spec::{self, Spec};
+use abbe_spec::expr::Symbol;
+use abbe_spec::{self, Spec};
 use serde::{Serialize, Serializer};
 
 /// A number with this many decimals, nothing plain 0; a large one in powers of ten.

@@ -1,7 +1,7 @@
 //! Data that no machine of the spec gives: what is said of them, and what is not.
 
 use abbe::identify::{Loss, Measurement};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::{Calendar, Data, Map};
 use abbe_study::identify::{Identify, Prior, Settings};
 use abbe_study::measure::Measure;

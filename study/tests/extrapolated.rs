@@ -2,8 +2,8 @@
 
 use abbe::Manipulator;
 use abbe::identify::Loss;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_study::compensate::Compensate;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Settings};

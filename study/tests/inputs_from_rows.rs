@@ -1,7 +1,7 @@
 //! Backlash goes round: what `identify` finds by the order of rows, or by their poses, `measure` finds again.
 
 use abbe::identify::Loss;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Identify, Prior, Report, Settings};
 use abbe_study::measure::Measure;

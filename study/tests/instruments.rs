@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Report, Settings};
 use abbe_study::measure::Measure;

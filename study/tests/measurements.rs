@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use abbe::identify::{Criterion, Loss, Measurement, Observation};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::compensate::Compensate;
 use abbe_study::data::{Cells, Columns, Data, Map, Source};
 use abbe_study::identify::{Family, Identify, Prior, Settings};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use abbe::Pose;
 use abbe::identify::{Loss, Measurement};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Settings};
 use abbe_study::measure::Measure;

@@ -1,7 +1,7 @@
 //! What `identify` writes goes round: a spec of the machine, and a map of where it stands and what is mounted on it.
 
 use abbe::identify::Loss;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::compensate::Compensate;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Identify, Prior, Report, Settings};

@@ -1,8 +1,8 @@
 //! The verdict, and what is said of how sure it is.
 
 use abbe::analysis::{Compliance, Measurand, errors_at, normal_compliance};
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::document::Document;
 use abbe_study::analyze::figures::Gathered;
 use abbe_study::analyze::{Analyze, Report, Verdict, contributions};
 use abbe_study::{Machine, Study};

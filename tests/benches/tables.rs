@@ -8,7 +8,7 @@ use std::time::Duration;
 use abbe::analysis::sampling::halton;
 use abbe::lanes::{InstructionSet, Kernel, Lanes, Register};
 use abbe::{LookupTable, Scalar};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// How many values are looked up.

@@ -1,10 +1,11 @@
 //! What is accumulated along the chain is what `J_e` says, for random ε and σ², with rows of both kinds.
 
+use abbe::{Class, Orientation};
 use abbe_codegen::chain::{Jacobian, Model};
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::Node;
-use abbe_codegen::spec::{Class, Orientation, Spec};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 use abbe_tests::chains::{coupled_joints, general_chain};
 
 /// A value for every symbol; those of errors are between 0 and 1, so that they serve as variances too.

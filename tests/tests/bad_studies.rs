@@ -6,9 +6,9 @@
 use std::path::{Path, PathBuf};
 
 use abbe::LengthUnit;
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
 use abbe_study::data::Map;
 use abbe_study::import::{Format, Import, Units};
 use abbe_study::plan::Sets;

@@ -4,9 +4,9 @@
 use abbe::analysis::sampling::{halton, joint_sample, nominal_inputs, nominal_parameters};
 use abbe::lanes::{Batches, InstructionSet, Tiles};
 use abbe::{Function, Manipulator, Quantity, laws};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, general6r, iiwa, machine3, panda, pps, puma560, scara, stanford, ur5, wam};
+use abbe_spec::Spec;
 
 /// The shipped manipulators in the order of [`SHIPPED`]: all their functions are compiled for lanes here.
 const COMPILED: [&dyn Batches; SHIPPED.len()] = [

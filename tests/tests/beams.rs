@@ -1,8 +1,8 @@
 //! Beams under loads anywhere, against curvature integrated here: statics at every section, nothing of the generator.
 
 use abbe::Manipulator;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 
 type Vector = [f64; 3];
 

@@ -1,12 +1,12 @@
 //! What programs choose between is equal, and what they choose takes no more than what was made first.
 
-use abbe::Function;
+use abbe::{Function, Orientation};
 use abbe_codegen::chain::Model;
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::Node;
 use abbe_codegen::program::{Operations, results, straight_line};
-use abbe_codegen::spec::{Orientation, Spec};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 use abbe_tests::chains::{coupled_joints, general_chain, random_arm};
 
 /// A value for every symbol.

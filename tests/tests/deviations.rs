@@ -1,12 +1,12 @@
 //! Errors of joints, structural parameters and Denavit-Hartenberg numbers against what they are: differences of the
 //! nominal pose, with the number itself changed.
 
-use abbe::{Manipulator, Pose};
+use abbe::{Class, Manipulator, Orientation, Pose};
 use abbe_codegen::chain::Model;
-use abbe_codegen::expr::{Dimension, Expression, Symbol};
-use abbe_codegen::spec::{ChainNumber, Class, Deviation, DhConvention, DhNumber, Orientation, Source, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::expr::{Dimension, Expression, Symbol};
+use abbe_spec::{ChainNumber, Deviation, DhConvention, DhNumber, Source, Spec};
 use abbe_tests::chains::{coupled_joints, general_chain, long_chain};
 
 /// Some value for everything that has a name.
@@ -142,11 +142,9 @@ fn denavit_hartenberg_numbers_of_both_conventions() {
                     let order = spec.frames[frame].convention.unwrap().order();
                     let place = order.iter().position(|&other| other == number).unwrap();
                     let factor = changed.frames[frame].factors[place].clone();
-                    let abbe_codegen::spec::Factor::Elementary(mut more) = factor else {
-                        panic!("elementary")
-                    };
+                    let abbe_spec::Factor::Elementary(mut more) = factor else { panic!("elementary") };
                     more.amount = Expression::from_number(h, Dimension::NONE);
-                    changed.frames[frame].factors.insert(place, abbe_codegen::spec::Factor::Elementary(more));
+                    changed.frames[frame].factors.insert(place, abbe_spec::Factor::Elementary(more));
                     changed.frames[frame].convention = None;
                     Interpreter::new(changed).pose(&q, &[]).unwrap()
                 });

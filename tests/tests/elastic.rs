@@ -1,9 +1,9 @@
 //! Sources that are computed from the structure: located errors, beams, compliances, against textbook formulas.
 
 use abbe::{Manipulator, Pose, located};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 
 /// ε of the repeatable sources of a spec.
 fn errors(spec: &Spec, q: &[f64], s: &[f64], u: &[f64]) -> Vec<[f64; 6]> {

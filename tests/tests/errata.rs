@@ -1,11 +1,12 @@
 //! The errata of the paper's text, each shown to be one.
 
+use abbe::Component;
 use abbe::analysis::{Asked, Axis, Presentation, error_budget, presented_volume};
-use abbe_codegen::expr::{Expression, Symbol};
 use abbe_codegen::graph::Graph;
-use abbe_codegen::spec::{Cause, Component, Source, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::expr::{Expression, Symbol};
+use abbe_spec::{Cause, Source, Spec};
 
 const CONSISTENT: &str = "base rail curvature";
 

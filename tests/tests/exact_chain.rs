@@ -3,8 +3,8 @@
 
 use abbe::analysis::{Configuration, compensated, monte_carlo};
 use abbe::{Function, Manipulator, Pose, chain, drawn_pose, laws, located, real_pose, repeatable_magnitudes};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_tests::chains::general_chain;
 
 fn robot(text: &str) -> Interpreter {

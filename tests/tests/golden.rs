@@ -5,9 +5,9 @@
 use std::path::Path;
 
 use abbe::{LookupTable, Manipulator, Scalar};
-use abbe_codegen::spec::Spec;
 use abbe_codegen::{CompileError, compile_into, print};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_tests::chains::long_chain;
 use abbe_tests::{golden, specs};
 use expect_test::expect_file;

@@ -7,8 +7,8 @@ use abbe::laws::{self, DERIVATIVE_TOLERANCE};
 use abbe::{Description, Error, Manipulator, Pose};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::Routines;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_tests::chains::{many_parameters, revolute_chain};
 
 /// A manipulator whose transforms are counted, and whose Jacobians by joints and parameters may have an entry that is off.

@@ -1,12 +1,12 @@
 //! How many generalized errors can be known: the ranks of the stacked `J_e`, as theory has them.
 
-use abbe::Manipulator;
 use abbe::analysis::{
     Measurement, Parts, Workspace, identifiable, identifiable_in_parts, joint_samples, random_joint_samples,
 };
-use abbe_codegen::spec::{Orientation, Spec};
+use abbe::{Manipulator, Orientation};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, pps::Pps, puma560::Puma560};
+use abbe_spec::Spec;
 use abbe_tests::abuse::{Choices, plain_spec};
 use abbe_tests::chains::{coupled_joints, general_chain, revolute_chain};
 

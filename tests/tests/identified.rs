@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Harmonics, Identify, Prior, Report, Settings};
 use abbe_study::simulate::{Places, Simulate};

@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use abbe::Manipulator;
 use abbe::analysis::{Workspace, random_joint_samples, sampling};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_study::import::{Format, Import, Report};
 use nalgebra::{Matrix4, Rotation3, Unit, Vector3};

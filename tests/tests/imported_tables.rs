@@ -2,8 +2,8 @@
 
 use abbe::analysis::sampling;
 use abbe::{LengthUnit, Manipulator};
-use abbe_codegen::spec::{DhConvention, Spec};
 use abbe_interpreter::Interpreter;
+use abbe_spec::{DhConvention, Spec};
 use abbe_study::Notes;
 use abbe_study::import::{Format, Import, Report, Units};
 use nalgebra::Matrix4;

@@ -2,9 +2,9 @@
 
 use abbe::analysis::sampling::{arm_length, joint_sample, nominal_inputs, nominal_parameters};
 use abbe::{Error, Manipulator, Pose};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 
 /// Everything a manipulator says at one configuration, row by row.
 fn everything(robot: &dyn Manipulator, q: &[f64], s: &[f64], u: &[f64]) -> Result<Vec<Vec<f64>>, Error> {

@@ -10,9 +10,9 @@ use std::process::{Command, ExitCode};
 
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::Language;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
 use abbe_tests::languages::{NAMES, assert_alike, configurations};
 use abbe_tests::needs::{Missing, python, run, tool};

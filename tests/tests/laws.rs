@@ -3,9 +3,9 @@
 //! 2 ± 0.05, `J_q`, `∂X_T/∂s`, and the contract of the trait.
 
 use abbe::laws::{SAMPLES, all};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 
 #[test]
 fn generated() {

@@ -3,8 +3,8 @@
 
 use abbe::lanes::{Batches, InstructionSet, Tiles};
 use abbe::{Function, Manipulator, Pose};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_tests::chains::long_chain;
 use abbe_tests::golden::long::{FRAMES, Long, PARAMETERS, VARIABLES};
 

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use abbe::Function;
+use abbe::{Class, Function, Orientation};
 use abbe_codegen::chain::Model;
 use abbe_codegen::program::{Operations, Routines, straight_line};
-use abbe_codegen::spec::{Class, Orientation, Spec};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_tests::chains::general_chain;
 use expect_test::expect_file;
 

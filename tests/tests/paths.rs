@@ -1,9 +1,9 @@
 //! The generated functions beside pose and Jacobians, as compiled: held against the Jacobians and the exact chain.
 
 use abbe::analysis::sampling::joint_sample;
-use abbe::{Error, Manipulator, Orientation, Pose, Quantity, deviation, distinct};
-use abbe_codegen::spec::{Class, Source, Spec};
+use abbe::{Class, Error, Manipulator, Orientation, Pose, Quantity, deviation, distinct};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::{Source, Spec};
 
 const SAMPLES: usize = 100;
 

@@ -1,11 +1,12 @@
 //! The structured product rule gives what `Graph::diff` gives for the fully multiplied chain
 //! `A_1 E_1 A_2 E_2 … A_n E_n T`, differentiated by every generalized error: equations (6) and (9).
 
+use abbe::Orientation;
 use abbe_codegen::chain::{Model, transform};
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Frame, Graph, Node};
-use abbe_codegen::spec::{Orientation, Spec};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 use abbe_tests::chains::coupled_joints;
 
 /// `A_1 E_1 … A_n E_n T` with exact rotations: all 6n errors are symbols.
@@ -49,7 +50,7 @@ fn rows(graph: &mut Graph, orientation: Orientation, pose: &Frame, symbol: Symbo
             let [x, y, z] = pose.axes;
             let (r31, r23) = (graph.neg(x[2]), graph.neg(z[1]));
             let spin = graph.atan2(r31, x[0]);
-            let roll = graph.call(abbe_codegen::expr::Function::Asin, x[1]);
+            let roll = graph.call(abbe_spec::expr::Function::Asin, x[1]);
             let pitch = graph.atan2(r23, y[1]);
             [spin, roll, pitch].map(|angle| graph.diff(angle, symbol))
         }

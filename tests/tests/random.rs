@@ -4,8 +4,8 @@ use abbe::Manipulator;
 use abbe::analysis::{
     Admissible, Asked, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo,
 };
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 
 /// Two joints; `sources` are put at its end.
 fn arm(sources: &str) -> Spec {

@@ -3,9 +3,9 @@
 use abbe::Manipulator;
 use abbe::analysis::sampling::{arm_length, halton, home, joint_sample, nominal_parameters};
 use abbe::analysis::{ReachError, Target, inverse};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 
 /// How many of the poses and points of sampled configurations, within the limits, are reached from home.
 fn reached(manipulator: &dyn Manipulator, samples: usize) -> [usize; 2] {

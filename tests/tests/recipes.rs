@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use abbe::{Class, Distribution, Manipulator};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 
 fn recipes() -> Spec {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/sources.md");

@@ -1,11 +1,10 @@
 //! `J_e` against differences of the exact chain that a Python program of its own has computed: it says anew which
 //! generalized error turns about which axis (`tests/reference/chain.py`).
 
-use abbe::Manipulator;
-use abbe::Orientation;
-use abbe_codegen::spec::Spec;
+use abbe::{Manipulator, Orientation};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use serde_json::Value;
 
 #[test]

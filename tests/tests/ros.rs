@@ -8,9 +8,9 @@ use std::process::{Command, ExitCode};
 use abbe::analysis::sampling;
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::{Language, Real};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_tests::needs::{Missing, Test, run, tool};
 
 /// The joints of `test/check.cpp` in the order of the spec, m and rad, and what they are there.

@@ -3,8 +3,8 @@
 use std::process::{Command, ExitCode};
 
 use abbe_codegen::print;
-use abbe_codegen::spec::Spec;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
 use abbe_tests::needs::{Missing, Test, run, tool};
 

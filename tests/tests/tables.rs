@@ -8,9 +8,9 @@ use abbe::analysis::sampling::{halton, nominal_inputs, nominal_parameters};
 use abbe::lanes::{InstructionSet, Kernel, Lanes, Register};
 use abbe::laws::{SAMPLES, all};
 use abbe::{Error, LookupTable, Manipulator, Quantity};
-use abbe_codegen::spec::Spec;
 use abbe_codegen::{compile_into, print};
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_tests::golden::measured;
 use abbe_tests::specs;
 

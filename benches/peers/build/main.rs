@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use ours::Rounding;
 use serde_json::json;
 

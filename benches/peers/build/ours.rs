@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use abbe_codegen::print::{Language, Real};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 /// What the names of the functions end with that a compiler may contract.
 pub const CONTRACTED: &str = "_contracted";

@@ -14,7 +14,7 @@ mod row;
 mod span;
 
 use abbe::lanes::Batches;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_interpreter::Interpreter;
 
 use crate::answers::{Angles, Answers};

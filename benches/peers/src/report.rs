@@ -7,7 +7,7 @@ use abbe::Function;
 use abbe_codegen::chain::Model;
 use abbe_codegen::print;
 use abbe_codegen::program::straight_line;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use crate::answers::{Angles, Answers, COUNT};
 use crate::measure::Times;

@@ -3,9 +3,10 @@
 use std::io::Write;
 use std::path::Path;
 
+use abbe::VariableKind;
 use abbe::analysis::{Configuration, Row};
-use abbe_codegen::cell::harmless;
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_spec::Spec;
+use abbe_spec::cell::harmless;
 use abbe_study::analyze::{Analyze, Drawn, Report, figures_of, reason};
 use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};

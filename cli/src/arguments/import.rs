@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
 use abbe_study::import::Units;
 use clap::{Args, ValueEnum, ValueHint};
 

@@ -5,8 +5,8 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::parts::Change;
 use abbe_study::{Machine, Study};
 use clap::{Args, ValueHint};

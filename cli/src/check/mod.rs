@@ -2,7 +2,8 @@
 
 mod chain;
 
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe::VariableKind;
+use abbe_spec::Spec;
 use abbe_study::Notes;
 use abbe_study::check::{self, Identifiable, Law, Report};
 use abbe_study::number::{quantity, short};

@@ -2,8 +2,8 @@
 
 mod text;
 
-use abbe_codegen::spec::Spec;
 use abbe_report::Provenance;
+use abbe_spec::Spec;
 use abbe_study::compensate::{Compensate, Report, check_poses};
 use abbe_study::data::{Data, Map};
 

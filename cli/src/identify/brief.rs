@@ -1,7 +1,7 @@
 //! What comes out, on a page: how good it is, what was found, what cannot be known, and what to do.
 
-use abbe_codegen::spec::Spec;
 use abbe_report::text::{Table, wrapped};
+use abbe_spec::Spec;
 use abbe_study::identify::{Kind, Meaning, Parameter, Report, Sizes, TermGain};
 use abbe_study::number::{digits, error_decimals, fixed};
 

@@ -6,10 +6,11 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
+use abbe::VariableKind;
 use abbe::identify::Loss;
-use abbe_codegen::spec::{Spec, VariableKind};
 use abbe_report::Provenance;
 use abbe_report::text::wrapped;
+use abbe_spec::Spec;
 use abbe_study::Acceptance;
 use abbe_study::data::{Data, Map};
 use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};

@@ -1,6 +1,6 @@
 //! All that comes out, for people: `--full`.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::identify::{Gain, Kind, NotKnown, Parameter, Report, Sizes, shown_lines};
 use abbe_study::number::{self, counted, digits, fixed};
 

@@ -1,6 +1,6 @@
 //! The results for people.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::measure::{InstrumentErrors, Report, Size};
 use abbe_study::number::{digits, fixed};
 

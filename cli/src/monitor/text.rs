@@ -1,6 +1,6 @@
 //! What the checks say, for people.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::monitor::{Chart, Report};
 use abbe_study::number::{fixed, percent};
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use abbe::identify::Criterion;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::Map;
 use abbe_study::number::{digits, short};
 use abbe_study::plan::{Choice, Input, Plan, Report, Sets, Unseen};

@@ -3,8 +3,8 @@
 use std::fs;
 
 use abbe_codegen::print;
-use abbe_codegen::spec::Spec;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use tempfile::tempdir;
 
 use crate::running::{abbe, prints, write};

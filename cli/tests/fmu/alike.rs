@@ -6,8 +6,8 @@ use std::path::Path;
 
 use abbe::compensator::compensate;
 use abbe::{Class, Function, Manipulator, Pose, VariableKind};
-use abbe_codegen::spec::{MAGNITUDE, Spec};
 use abbe_interpreter::Interpreter;
+use abbe_spec::{MAGNITUDE, Spec};
 use abbe_tests::languages::{arguments, configurations};
 use serde_json::{Value, json};
 

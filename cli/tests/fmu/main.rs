@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Output};
 
 use abbe_codegen::print::{Fmi, Language};
-use abbe_codegen::spec::Spec;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_tests::chains::long_chain;
 use abbe_tests::languages::NAMES;
 use abbe_tests::needs::{Missing, python, run, tool};

@@ -30,7 +30,7 @@ fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
         return fail("CARGO_MANIFEST_DIR is not set: build with cargo");
     };
     let path = Path::new(&root).join(file.value());
-    match abbe_codegen::spec::Spec::read(&path) {
+    match abbe_spec::Spec::read(&path) {
         Ok(spec) => {
             let module: proc_macro2::TokenStream = abbe_codegen::print::rust(&spec).parse()?;
             let files = [&path].into_iter().chain(&spec.beside).map(|path| path.to_string_lossy());
@@ -50,7 +50,7 @@ fn expand(file: &LitStr) -> syn::Result<proc_macro2::TokenStream> {
 #[cfg(test)]
 mod tests {
     use abbe_codegen::print;
-    use abbe_codegen::spec::Spec;
+    use abbe_spec::Spec;
     use proc_macro2::Span;
 
     use super::*;

@@ -1,9 +1,10 @@
 //! From the tip to the base: what the errors of all frames do to the tool point, without any frame's pose in `F_0`.
 
+use abbe_spec::Spec;
+
 use super::local::Local;
 use super::rows::Rows;
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::Spec;
 
 /// The chain as local motions.
 pub(super) struct Links {

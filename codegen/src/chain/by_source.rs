@@ -1,11 +1,12 @@
 //! What the spec's own sources do to the tool point.
 
+use abbe_spec::Spec;
+
 use super::EffectNode;
 use super::accumulate::Links;
 use super::displacement::Displacement;
 use super::rows::Rows;
 use crate::graph::{Graph, Node};
-use crate::spec::Spec;
 
 /// `ΔX = J_e ε` along the chain.
 pub(super) fn along(graph: &mut Graph, links: &Links, rows: &Rows, errors: &[[Node; 6]]) -> [Node; 6] {

@@ -6,12 +6,13 @@
 //! ε_i = vee(A_i⁻¹ ∂A_i/∂x) δx          and of the tool, after E_n:   ε_n = vee(∂T/∂x T⁻¹) δx
 //! ```
 
+use abbe_spec::expr::{Elementary, Function, Motion, Symbol};
+use abbe_spec::{ChainNumber, Factor, Spec};
+
 use super::local::Local;
 use super::symbol_jacobian::{Steps, twist};
 use super::walk::walk;
-use crate::expr::{Elementary, Function, Motion, Symbol};
 use crate::graph::{Graph, Node, Op, Vector};
-use crate::spec::{ChainNumber, Factor, Spec};
 
 /// Velocity and rotation per unit of the number, in the axes of a frame.
 #[derive(Clone, Copy, Debug)]

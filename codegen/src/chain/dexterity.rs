@@ -1,9 +1,10 @@
 //! How far joints move the tool: rows of `J_q` whose least singular value is sought.
 
+use abbe_spec::Spec;
+
 use super::accumulate::Links;
 use super::joint_columns::{JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_tool, errors_of_joints, units};
 use crate::graph::{Graph, Node};
-use crate::spec::Spec;
 
 /// Rows of `J_q` at the tool point, in metres and rad, in the axes of the frame where they need the fewest operations: one entry for
 /// each joint.

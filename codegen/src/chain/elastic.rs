@@ -4,11 +4,13 @@
 //! its own frame. A beam extends from its end M back to where it is clamped, and a load of its own frame acts on it
 //! where the load's point projects onto it: beyond M at M, before the clamp not at all.
 
+use abbe_core::Component;
+use abbe_spec::expr::{Function, Motion, motion};
+use abbe_spec::{Axes, Beam, Cause, Effect, Load, Point, Spec};
+
 use super::six::{six, vectors};
 use super::walk::transform;
-use crate::expr::{Function, Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::{Axes, Beam, Cause, Component, Effect, Load, Point, Spec};
 
 /// Six errors per unit of a force and a moment, both in the order of ε.
 type Compliance = [[Node; 6]; 6];

@@ -1,10 +1,11 @@
 //! `J_e` by the structured product rule: `∂A_T/∂ε_ik = T_i G_k S_i`.
 
+use abbe_core::Component;
+use abbe_spec::expr::{Motion, motion};
+
 use super::moments::Moments;
 use super::rows::Rows;
-use crate::expr::{Motion, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::Component;
 
 /// What the six columns of a frame are made of: its axes, and of the rotations `e_s e_r e_p` the moments and rows 4–6.
 pub(crate) struct Columns {

@@ -1,12 +1,14 @@
 //! Columns of `J_q`, and what errors do, at any frame of the chain and in its axes.
 
+use abbe_core::VariableKind;
+use abbe_spec::{ChainNumber, Spec};
+
 use super::accumulate::{Accumulated, Links};
 use super::deviation::frame_twists;
 use super::displacement::Displacement;
 use super::local::Local;
 use super::six::six;
 use crate::graph::{Graph, Node, Vector};
-use crate::spec::{ChainNumber, Spec, VariableKind};
 
 /// How many joints move the tool in all ways; those of fewer are asked for the tool point alone.
 pub(super) const JOINTS_OF_A_POSE: usize = 6;

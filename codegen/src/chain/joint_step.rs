@@ -3,13 +3,14 @@
 //! d is the same in whatever axes and at whatever point both sides are taken; so both are taken at the frame where d needs
 //! the fewest operations.
 
+use abbe_spec::Spec;
+
 use super::accumulate::Links;
 use super::joint_columns::{
     JOINTS_OF_A_POINT, JOINTS_OF_A_POSE, at_origin, at_tool, errors_of_joints, units,
 };
 use super::minors::{products, solve};
 use crate::graph::{Graph, Node};
-use crate::spec::Spec;
 
 /// What joints and errors do to the tool, all at one frame and in its axes.
 pub(super) struct Equations {

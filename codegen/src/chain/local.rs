@@ -3,10 +3,11 @@
 //! A matrix that is one turn about a coordinate axis, up to an exchange of axes, is taken apart again; so is its
 //! position as far as it lies along the turned axes: `(a cos q, a sin q, 0)` is a shift by a constant before the turn.
 
+use abbe_spec::Factor;
+use abbe_spec::expr::{Elementary, Motion};
+
 use super::walk::about;
-use crate::expr::{Elementary, Motion};
 use crate::graph::{Frame, Graph, Node, Op, Vector};
-use crate::spec::Factor;
 
 /// One of the motions that make up a transform, each in the axes that those before it lead to.
 pub(crate) enum Local {
@@ -194,7 +195,7 @@ fn turn(graph: &mut Graph, axes: &[Vector; 3]) -> Option<(Local, [Vector; 3])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::Symbol;
+    use abbe_spec::expr::Symbol;
 
     /// The matrix of an elbow, `Rz(q) Tz(d) Tx(a) Rx(-π/2)`, becomes one turn by q and shifts by numbers.
     #[test]

@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
+
 use super::symbol_jacobian::{Steps, twist};
 use super::walk::walk;
-use crate::expr::Symbol;
 use crate::graph::{Graph, Node};
-use crate::spec::Spec;
 
 /// The velocity of the origin of the frame before a transform and the rotation, in its axes, that a symbol causes.
 #[derive(Clone, Debug)]

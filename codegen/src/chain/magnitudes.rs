@@ -3,15 +3,17 @@
 //! A norm is the same in the axes of any frame. So that of what a source does is taken in the axes of the first frame that it
 //! moves: the joints before that drop out of it.
 
+use abbe_core::{Class, Orientation};
+use abbe_spec::Spec;
+use abbe_spec::expr::Function;
+
 use super::accumulate::Links;
 use super::by_source::errors_by_source;
 use super::displacement::Displacement;
 use super::rows::Rows;
 use super::six::vectors;
 use super::sources;
-use crate::expr::Function;
 use crate::graph::{Graph, Node, Vector};
-use crate::spec::{Class, Orientation, Spec};
 
 /// The size of an error of the tool point.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,9 @@
 //! Everything that is generated for a manipulator, as nodes of one graph.
 
+use abbe_core::Class;
+use abbe_spec::expr::{Elementary, Motion, Symbol};
+use abbe_spec::{Factor, Spec};
+
 use super::accumulate::Accumulated;
 use super::accumulate::Links;
 use super::by_source;
@@ -15,9 +19,7 @@ use super::sources::{self, EffectNode};
 use super::symbol_jacobian;
 use super::walk::{Step, transform, walk};
 use super::ways::Ways;
-use crate::expr::{Elementary, Motion, Symbol};
 use crate::graph::{Frame, Graph, Node, Op, Vector};
-use crate::spec::{Class, Factor, Source, Spec};
 
 /// A Jacobian, or anything else with its rows: columns, rows as the spec's orientation says.
 #[derive(Clone, Debug)]
@@ -159,16 +161,16 @@ impl Model {
         let drawn = RealChain::new(g, spec, &causes, magnitudes);
         let (real_poses, drawn_poses) = (real.poses(g), drawn.poses(g));
         let (real_pose, drawn_pose) = (real_poses[real_poses.len() - 1], drawn_poses[drawn_poses.len() - 1]);
-        let more = spec.is_long() && real.is_more_than_errors_of_frames(g);
+        let more = is_long(spec) && real.is_more_than_errors_of_frames(g);
         let real_errors = more.then(|| real.errors(g));
-        let drawn_errors = if spec.is_long() { drawn.errors(g) } else { Vec::new() };
-        let mut twists_of = |symbols: Vec<Symbol>| match spec.is_long() {
+        let drawn_errors = if is_long(spec) { drawn.errors(g) } else { Vec::new() };
+        let mut twists_of = |symbols: Vec<Symbol>| match is_long(spec) {
             true => local_twists(g, spec, &symbols),
             false => Vec::new(),
         };
         let joint_local_twists = twists_of((0..spec.variables.len()).map(Symbol::Variable).collect());
         let parameter_local_twists = twists_of((0..spec.parameters.len()).map(Symbol::Parameter).collect());
-        if !spec.is_long() {
+        if !is_long(spec) {
             for errors in [&symbols, &generalized_errors] {
                 moving::equate(g, &links, errors);
             }
@@ -256,19 +258,7 @@ fn name_length(graph: &mut Graph, amount: Node, axis: usize, index: &str) {
     }
 }
 
-impl Spec {
-    /// Whether functions of the chain are loops over its frames.
-    pub fn is_long(&self) -> bool {
-        self.frames.len() > LONGEST_WITHOUT_LOOPS
-    }
-
-    /// Whether any source that is switched on is repeatable.
-    pub fn has_repeatable_source(&self) -> bool {
-        self.enabled_sources().any(|source| source.class == Class::Repeatable)
-    }
-
-    /// The sources that are switched on, in the order of the file.
-    pub fn enabled_sources(&self) -> impl Iterator<Item = &Source> {
-        self.sources.iter().filter(|source| source.enabled)
-    }
+/// Whether functions of a chain are loops over its frames.
+pub(crate) fn is_long(spec: &Spec) -> bool {
+    spec.frames.len() > LONGEST_WITHOUT_LOOPS
 }

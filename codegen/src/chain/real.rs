@@ -10,13 +10,15 @@
 //! the numbers of `A_i` as they really are, those of a `dh` frame too; then errors located elsewhere on the link, in the order of
 //! the file; then the sum of all errors of the frame itself. To first order no order matters.
 
+use abbe_core::Component;
+use abbe_spec::expr::{Expression, Motion, Symbol, motion};
+use abbe_spec::{ChainNumber, Factor, Spec};
+
 use super::accumulate::Links;
 use super::local::Local;
 use super::sources::Causes;
 use super::walk::{Step, apply_with, transform, walk};
-use crate::expr::{Expression, Motion, Symbol, motion};
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::{ChainNumber, Component, Factor, Spec};
 
 /// The chain with the errors of all sources, each times its magnitude.
 pub(super) struct RealChain<'a> {

@@ -1,11 +1,13 @@
 //! What first order leaves out, as a node whose largest value is sought.
 
+use abbe_core::Class;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
+
 use super::magnitudes::Magnitude;
 use super::real::RealChain;
 use super::sources;
-use crate::expr::Symbol;
 use crate::graph::Graph;
-use crate::spec::{Class, Spec};
 
 /// What `J_e ε` of the repeatable sources leaves out of the position of the tool point.
 ///

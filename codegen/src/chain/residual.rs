@@ -1,14 +1,16 @@
 //! What is left once the joints have taken the errors back to first order, as nodes whose largest values are sought.
 
+use abbe_core::Class;
+use abbe_spec::expr::{Elementary, Symbol};
+use abbe_spec::{ChainNumber, Factor, Spec};
+
 use super::accumulate::Links;
 use super::joint_columns::JOINTS_OF_A_POSE;
 use super::joint_step::joint_step;
 use super::magnitudes::Magnitude;
 use super::real::RealChain;
 use super::sources::{self, Causes};
-use crate::expr::{Elementary, Symbol};
 use crate::graph::{Graph, Node, Vector};
-use crate::spec::{ChainNumber, Class, Factor, Spec};
 
 /// How far the real tool is from where the ideal one should be after one step of compensation, `q′ = q − J_q⁻¹ J_e ε`.
 ///

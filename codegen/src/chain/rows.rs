@@ -1,7 +1,8 @@
 //! Rows 4–6 of a Jacobian from a small rotation.
 
+use abbe_core::Orientation;
+
 use crate::graph::{Graph, Node, Vector};
-use crate::spec::Orientation;
 
 /// What turns a small rotation ω in `F_0` into rows 4–6.
 pub(crate) enum Rows {

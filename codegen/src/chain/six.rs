@@ -1,8 +1,8 @@
 //! Six values in the order of ε, and the two vectors that they are.
 
 use abbe_core::Component;
+use abbe_spec::expr::{Motion, motion};
 
-use crate::expr::{Motion, motion};
 use crate::graph::{Node, Vector};
 
 /// Translation and rotation, x y z, of six values in the order of ε.

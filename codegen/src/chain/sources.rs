@@ -1,12 +1,14 @@
 //! ε of the sources: what is given, what a located error is at its frame, what gives way under loads.
 
+use abbe_core::{Class, Component};
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Cause, ChainNumber, Effect, Source, Spec};
+
 use super::deviation::frame_twists;
 use super::elastic::{Element, Loads};
 use super::six::{six, vectors};
 use super::walk::{transform, walk};
-use crate::expr::Symbol;
 use crate::graph::{Frame, Graph, Node};
-use crate::spec::{Cause, ChainNumber, Class, Component, Effect, Source, Spec};
 
 /// One generalized error that a source causes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

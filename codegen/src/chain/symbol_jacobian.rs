@@ -1,9 +1,9 @@
 //! `∂X_T/∂x` for a joint variable or structural parameter x that may stand anywhere in the chain.
 
+use abbe_spec::expr::Symbol;
 use indexmap::IndexMap;
 
 use super::walk::Step;
-use crate::expr::Symbol;
 use crate::graph::{Graph, Node, Vector};
 
 /// The velocity of the tool point and the rotation that a symbol causes: the sum over all factors that depend on it, each by its own small motion

@@ -1,11 +1,13 @@
 //! How far a force at the tool point moves it: the matrix whose largest singular value is sought.
 
+use abbe_core::Class;
+use abbe_spec::Spec;
+
 use super::accumulate::Links;
 use super::elastic::Loads;
 use super::joint_columns::at_tool;
 use super::sources::elastic_errors;
 use crate::graph::{Graph, Node};
-use crate::spec::{Class, Spec};
 
 /// How far a force at the tool point moves it, because of the enabled repeatable beams and compliances: in the spec's unit of length per
 /// its unit of force, which makes m/N of any unit of length.

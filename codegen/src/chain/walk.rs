@@ -1,8 +1,9 @@
 //! Along the chain, one factor after the other: equation (2).
 
-use crate::expr::{Elementary, Expression, Motion, Symbol};
+use abbe_spec::Factor;
+use abbe_spec::expr::{Elementary, Expression, Motion, Symbol};
+
 use crate::graph::{Frame, Graph, Node, Vector};
-use crate::spec::Factor;
 
 /// A factor as it stands in the chain, everything in `F_0`.
 pub(super) enum Step {

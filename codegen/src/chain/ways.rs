@@ -13,6 +13,9 @@
 //! what is simple in the axes of a frame is computed there. F_0 and two frames more, and five up to the one in question are
 //! enough: the work grows with the length of the chain.
 
+use abbe_core::Component;
+use abbe_spec::Spec;
+use abbe_spec::expr::{Symbol, motion};
 use indexmap::IndexMap;
 
 use super::accumulate::Links;
@@ -20,9 +23,7 @@ use super::deviation::local_twist;
 use super::error_jacobian::Columns;
 use super::symbol_jacobian::{Steps, twist};
 use super::walk::walk;
-use crate::expr::{Symbol, motion};
 use crate::graph::{Frame, Graph, Vector};
-use crate::spec::{Component, Spec};
 
 /// The first frames, counted from `F_0`, whose axes serve for all others.
 const FIRST: usize = 3;

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use abbe_spec::expr::{Function, Lookup, Symbol, Table};
 use indexmap::{IndexMap, IndexSet};
 
 use super::equal::Equals;
 use super::hash::Build;
-use crate::expr::{Function, Lookup, Symbol, Table};
 
 /// A handle to a node of a [`Graph`]. Operands have smaller handles than the node that uses them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

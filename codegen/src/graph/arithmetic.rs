@@ -2,8 +2,9 @@
 //!
 //! Signs move outwards until a sum takes them in, so that a term and its negative share one node.
 
+use abbe_spec::expr::{Function, Symbol};
+
 use super::{Graph, Node, Op};
-use crate::expr::{Function, Symbol};
 
 /// The largest whole exponent that is written out as multiplications.
 const LARGEST_WRITTEN_POWER: f64 = 16.0;
@@ -35,7 +36,8 @@ impl Graph {
     /// `-a`: a double sign vanishes, and so does a difference the other way round.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let (a, b) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)));
     /// let difference = g.sub(a, b);
@@ -54,7 +56,8 @@ impl Graph {
     /// `a + b`: zero vanishes, operands are ordered, signs make differences, and `sin² + cos² = 1`.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let (a, b, zero) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)), g.zero());
     /// assert_eq!(g.add(a, zero), a);
@@ -88,7 +91,8 @@ impl Graph {
     /// `a - b`: zero and equal operands vanish; a difference known the other way round is its negative.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let (a, b, zero) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)), g.zero());
     /// assert_eq!(g.sub(a, a), zero);
@@ -124,7 +128,8 @@ impl Graph {
     /// `a · b`: 0, 1 and −1 vanish, operands are ordered, signs move out.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let (a, b, zero) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)), g.zero());
     /// let one = g.constant(1.0);
@@ -158,7 +163,8 @@ impl Graph {
     /// `a / b`: `0/b` and `a/1` vanish, signs move out. A constant zero below stays: its value is no number.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let (a, b, zero) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)), g.zero());
     /// let one = g.constant(1.0);
@@ -189,7 +195,8 @@ impl Graph {
     /// `base ^ exponent`: whole exponents become products, halves square roots.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let a = g.symbol(Symbol::Variable(0));
     /// assert_eq!(g.power(a, 2.0), g.mul(a, a));

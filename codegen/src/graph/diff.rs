@@ -1,13 +1,15 @@
 //! The derivative of a node by a symbol, by forward accumulation.
 
+use abbe_spec::expr::{Function, Lookup, Symbol};
+
 use super::{Graph, Node, Op};
-use crate::expr::{Function, Lookup, Symbol};
 
 impl Graph {
     /// `∂f/∂x`.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// let x = g.symbol(Symbol::Variable(0));
     /// let sine = g.sin(x);

@@ -29,7 +29,9 @@ impl Graph {
     /// States that two nodes are equal, whatever the symbols are.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph, program::Program};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
+    /// # use abbe_codegen::program::Program;
     /// # let mut g = Graph::new();
     /// # let [a, b, c] = [0, 1, 2].map(|i| g.symbol(Symbol::Variable(i)));
     /// let (ab, ac, sum) = (g.mul(a, b), g.mul(a, c), g.add(b, c));

@@ -1,7 +1,8 @@
 //! The values of nodes at given values of the symbols: for checks, not for speed.
 
+use abbe_spec::expr::{Binary, Symbol};
+
 use super::{Graph, Node, Op};
-use crate::expr::{Binary, Symbol};
 
 impl Graph {
     /// The values of some nodes.

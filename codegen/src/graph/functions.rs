@@ -2,14 +2,16 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use abbe_spec::expr::{Function, Lookup};
+
 use super::{Graph, Node, Op};
-use crate::expr::{Function, Lookup};
 
 impl Graph {
     /// Sine: odd, and exact at (and shifted by) multiples of π/2.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let a = g.symbol(Symbol::Variable(0));
     /// let right = g.constant(std::f64::consts::FRAC_PI_2);
@@ -44,7 +46,8 @@ impl Graph {
     /// Cosine: even, and exact at (and shifted by) multiples of π/2.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let a = g.symbol(Symbol::Variable(0));
     /// let half = g.constant(std::f64::consts::PI);
@@ -96,7 +99,8 @@ impl Graph {
     /// The smaller of two: of equals one, operands are ordered, and of two negatives it is the negative of the larger.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let (a, b) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)));
     /// assert_eq!(g.min(a, a), a);
@@ -123,7 +127,8 @@ impl Graph {
     /// The larger of two, by the same rules.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let (a, b) = (g.symbol(Symbol::Variable(0)), g.symbol(Symbol::Variable(1)));
     /// assert_eq!(g.max(a, a), a);
@@ -156,7 +161,8 @@ impl Graph {
     /// Absolute value: of a negative that of the positive, of itself itself.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::{Function, Symbol}, graph::Graph};
+    /// # use abbe_spec::expr::{Function, Symbol};
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let a = g.symbol(Symbol::Variable(0));
     /// let (minus_a, size) = (g.neg(a), g.call(Function::Abs, a));
@@ -174,7 +180,8 @@ impl Graph {
     /// Sign: odd, and its own sign.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::{Function, Symbol}, graph::Graph};
+    /// # use abbe_spec::expr::{Function, Symbol};
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let a = g.symbol(Symbol::Variable(0));
     /// let (minus_a, sign) = (g.neg(a), g.call(Function::Sign, a));
@@ -195,7 +202,8 @@ impl Graph {
     /// Logarithm: that of an exponential function is its argument.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::{Function, Symbol}, graph::Graph};
+    /// # use abbe_spec::expr::{Function, Symbol};
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// # let a = g.symbol(Symbol::Variable(0));
     /// let power = g.call(Function::Exp, a);

@@ -1,7 +1,8 @@
 //! Brings a checked expression into the graph.
 
+use abbe_spec::expr::{Binary, Expression, Kind, Symbol};
+
 use super::{Graph, Node};
-use crate::expr::{Binary, Expression, Kind, Symbol};
 
 impl Graph {
     /// The node of an expression.

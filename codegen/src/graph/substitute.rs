@@ -1,13 +1,15 @@
 //! Nodes put in the place of symbols.
 
+use abbe_spec::expr::Symbol;
+
 use super::{Graph, Node, Op};
-use crate::expr::Symbol;
 
 impl Graph {
     /// Some nodes with other nodes in the place of those symbols for which there is one.
     ///
     /// ```
-    /// # use abbe_codegen::{expr::Symbol, graph::Graph};
+    /// # use abbe_spec::expr::Symbol;
+    /// # use abbe_codegen::graph::Graph;
     /// # let mut g = Graph::new();
     /// let (x, two) = (g.symbol(Symbol::Variable(0)), g.constant(2.0));
     /// let (sine, twice) = (g.sin(x), g.mul(two, x));

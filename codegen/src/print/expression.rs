@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use crate::expr::{Function, Lookup};
+use abbe_spec::expr::{Function, Lookup};
+
 use crate::program::Action;
 
 /// How strongly the outermost operator of an expression binds.

@@ -1,10 +1,12 @@
 //! What stands above a generated module.
 
+use abbe_core::Orientation;
+use abbe_spec::expr::{Binary, Expression, Function, Interpolation, Kind, Outside, Term};
+use abbe_spec::{Factor, Spec};
+
 use super::layout::Writer;
 use super::text::escaped;
-use crate::expr::{Binary, Expression, Function, Interpolation, Kind, Outside, Term};
 use crate::program::{Block, Routine, Routines, Stage};
-use crate::spec::{Factor, Orientation, Spec};
 
 /// The names of rows 1–6.
 fn rows(orientation: Orientation) -> &'static str {

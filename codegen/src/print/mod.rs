@@ -25,9 +25,10 @@ mod text;
 pub use c::Real;
 pub use fmu::Fmi;
 
+use abbe_spec::Spec;
+
 use crate::chain::Model;
 use crate::program::Routines;
-use crate::spec::Spec;
 
 /// A language that is generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,11 +2,11 @@
 
 use std::collections::HashSet;
 
-use abbe_core::Function;
+use abbe_core::{Component, Function};
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 
-use crate::expr::Symbol;
 use crate::program::{Action, Array, Operand, Program, Routine, Stage};
-use crate::spec::{Component, Spec};
 
 /// The names of one routine.
 #[derive(Clone)]

@@ -4,14 +4,14 @@ use std::collections::HashSet;
 
 use abbe_core::Description;
 use abbe_core::function::Count;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 
 use super::body::body;
 use super::expression::{Syntax, Value};
 use super::names::Names;
 use super::statement::Statement;
-use crate::expr::Symbol;
 use crate::program::{Block, Operand, Place, Program, Role, Routine, Row, Stage};
-use crate::spec::Spec;
 
 /// The statements of a routine.
 pub(super) struct Statements {

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::ops::AddAssign;
 
+use abbe_spec::expr::Function;
+
 use super::{Action, Program};
-use crate::expr::Function;
 
 /// Operations of a program, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

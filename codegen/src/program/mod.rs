@@ -6,6 +6,7 @@
 //! nodes that are equal `select` chooses those that take the fewest operations together, and `write` makes steps of them.
 
 mod count;
+mod description;
 mod fuse;
 mod loops;
 mod order;

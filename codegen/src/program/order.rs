@@ -1,7 +1,8 @@
 //! Sines and cosines first, where their angles allow it: many together take half the time of one by one.
 
+use abbe_spec::expr::Function;
+
 use super::{Action, Operand, Program, Step};
-use crate::expr::Function;
 
 impl Program {
     /// Puts all sine and cosine pairs whose angles need no function themselves next to each other at the beginning,

@@ -7,8 +7,9 @@
 use std::ops::{Add, Mul};
 use std::sync::Arc;
 
+use abbe_spec::expr::{Binary, Function, Symbol, Table};
+
 use super::{Action, Operand, Program};
-use crate::expr::{Binary, Function, Symbol, Table};
 
 /// The units of roundoff by which functions of a library, and look-ups in tables, may be off.
 const LIBRARY: f64 = 8.0;

@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use abbe_core::function::{Count, Signature};
-use abbe_core::{Description, Function};
+use abbe_core::{Description, Function, Orientation};
+use abbe_spec::Spec;
+use abbe_spec::expr::Table as LookupTable;
 
+use super::description::description;
 use super::loops::Loops;
 use super::outputs::{Outputs, fewest, ways};
 use super::routine::{Array, Block, Place, Role, Routine, Row, Stage, Sums, Table};
 use super::select::Selections;
 use super::{Operations, Program};
-use crate::chain::{EffectNode, Model};
-use crate::expr::Table as LookupTable;
-use crate::spec::{Orientation, Spec};
+use crate::chain::{EffectNode, Model, is_long};
 
 /// All functions of a manipulator, and what they share.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +34,7 @@ impl Routines {
     /// The routines of all functions: each as another one where that gives the same, as loops where the chain is long,
     /// else as a straight-line program.
     pub fn new(spec: &Spec, model: &Model) -> Self {
-        Self::with(spec, model, spec.is_long().then(|| Loops::new(spec, model)))
+        Self::with(spec, model, is_long(spec).then(|| Loops::new(spec, model)))
     }
 
     /// The same without loops, however long the chain is: what loops are checked against.
@@ -42,7 +43,7 @@ impl Routines {
     }
 
     fn with(spec: &Spec, model: &Model, mut loops: Option<Loops<'_>>) -> Self {
-        let description = spec.describe(model.effects.iter().map(EffectNode::effect));
+        let description = description(spec, model.effects.iter().map(EffectNode::effect));
         let mut list: Vec<Routine> = Vec::new();
         let mut selections = Selections::default();
         let mut known: Vec<(Function, Outputs)> = Vec::new();

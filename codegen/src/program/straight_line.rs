@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
+use abbe_spec::expr::{Function, Lookup, Symbol};
 use indexmap::IndexMap;
 
 use super::select::{Selection, Selections};
 use super::write::Writer;
-use crate::expr::{Function, Lookup, Symbol};
 use crate::graph::{Graph, Node};
 
 /// Where a value comes from.

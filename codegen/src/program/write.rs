@@ -2,9 +2,10 @@
 
 use std::rc::Rc;
 
+use abbe_spec::expr::Function;
+
 use super::select::Selection;
 use super::{Action, Operand, Program, Step};
-use crate::expr::Function;
 use crate::graph::{Graph, Node, Op, Signed};
 
 /// A value, or its negative: sums and products take signs in.

@@ -1,8 +1,8 @@
 //! What sums of errors cannot exceed, from the largest size of each part by itself: loose, but soon known of any number of joints.
 
 use abbe_codegen::chain::{Apart, Magnitude};
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::Graph;
+use abbe_spec::expr::Symbol;
 
 use super::{Effort, Moving, largest};
 

@@ -7,7 +7,7 @@
 //! sin(a + b) = sin a cos b + cos a sin b        cos(a + b) = cos a cos b − sin a sin b
 //! ```
 
-use abbe_codegen::expr::Function;
+use abbe_spec::expr::Function;
 
 use super::form::Form;
 use super::tape::{Register, Step, Tape};

@@ -237,8 +237,8 @@ fn order(depends: &[Names], names: usize) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use abbe_codegen::expr::{Function, Symbol};
     use abbe_codegen::graph::{Graph, Node};
+    use abbe_spec::expr::{Function, Symbol};
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use abbe::Scalar;
-use abbe_codegen::expr::Function;
+use abbe_spec::expr::Function;
 
 use super::form::{Form, UNIT, above};
 

@@ -11,7 +11,7 @@
 //!
 //! ```
 //! use abbe_codegen::chain::Magnitude;
-//! use abbe_codegen::expr::Symbol;
+//! use abbe_spec::expr::Symbol;
 //! use abbe_codegen::graph::Graph;
 //! use abbe_interpreter::bound::{Effort, Moving, largest};
 //!
@@ -44,8 +44,8 @@ mod tape;
 mod vertex;
 
 use abbe_codegen::chain::Magnitude;
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
+use abbe_spec::expr::Symbol;
 
 pub use apart::{Limits, limits};
 use convex::Convex;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use abbe_codegen::expr::{Function, Symbol};
 use abbe_codegen::graph::{Graph, Node, Op};
+use abbe_spec::expr::{Function, Symbol};
 
 /// How a node depends on an angle.
 #[derive(Clone, Copy, PartialEq)]

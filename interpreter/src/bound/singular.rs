@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
+use abbe_spec::expr::Symbol;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 

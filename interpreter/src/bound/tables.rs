@@ -1,7 +1,7 @@
 //! Tables of affine forms: polynomials between points, each over the part of it that is reached.
 
 use abbe::LookupTable;
-use abbe_codegen::expr::{Interpolation, Outside, Table};
+use abbe_spec::expr::{Interpolation, Outside, Table};
 
 use super::form::{Form, UNIT, above};
 

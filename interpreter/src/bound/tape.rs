@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use abbe_codegen::expr::{Function, Lookup, Symbol, Table};
 use abbe_codegen::graph::{Graph, Node, Op};
+use abbe_spec::expr::{Function, Lookup, Symbol, Table};
 
 use super::form::Form;
 

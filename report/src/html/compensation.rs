@@ -1,6 +1,7 @@
 //! The page of corrected commands: where the tool is without and with them.
 
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe::VariableKind;
+use abbe_spec::Spec;
 use abbe_study::compensate::{Report, Row, Size};
 use abbe_study::data::Map;
 use abbe_study::number::{self, fixed};

@@ -1,6 +1,6 @@
 //! Conventions, values, files: what a reader needs to use the numbers.
 
-use abbe_codegen::spec::{Orientation, VariableKind};
+use abbe::{Orientation, VariableKind};
 
 use super::escaped;
 use abbe_study::analyze::Report;

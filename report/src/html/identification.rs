@@ -1,6 +1,6 @@
 //! The page of an identification: which errors the machine has, how well they are known, and what is left.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::Accepted;
 use abbe_study::data::Map;
 use abbe_study::identify::{Alike, Kind, NotKnown, Parameter, Report, Sizes};
@@ -261,11 +261,11 @@ fn pictures(spec: &Spec, report: &Report) -> String {
 }
 
 fn ranges(spec: &Spec, report: &Report) -> String {
-    let row = |fitted: &abbe_codegen::spec::Fitted| {
+    let row = |fitted: &abbe_spec::Fitted| {
         let [lower, upper] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, spec));
         format!(
             "<tr><th>{}</th><td>{} … {}</td></tr>\n",
-            escaped(fitted.name(spec)),
+            escaped(spec.name_of(fitted.symbol)),
             escaped(&lower),
             escaped(&upper)
         )

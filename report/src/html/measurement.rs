@@ -1,6 +1,6 @@
 //! The page of a measurement: errors in space and how often which error occurs, as in the paper's Figures 13 and 14.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::Map;
 use abbe_study::measure::{Report, RowError};
 use abbe_study::number::{digits, fixed, trimmed};

@@ -1,6 +1,6 @@
 //! The page of a machine that is watched: its charts over time, and what has changed.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::data::{Calendar, Map};
 use abbe_study::monitor::{Chart, Finding, Report};
 use abbe_study::number::{fixed, percent};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::data::{Base, Layout, Map, Source};
 use abbe_study::number::{self, short};
 

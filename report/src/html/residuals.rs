@@ -1,6 +1,6 @@
 //! What is left, as pictures: vectors in space, over the order of the rows, over each joint, and how often.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::study_file::Over;
 use plotly::common::{ExponentFormat, HoverInfo, Line, Marker, Mode};
 use plotly::layout::{AspectMode, BarMode};

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use abbe::analysis::{Asked, Budget, Row, Subset, Survey, Unevaluated, Workspace};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::parts::Shard;
 use super::prepared::{Gathered, Prepared};

@@ -6,7 +6,7 @@ use abbe::analysis::{
     Admissible, BudgetPart, Measurand, Row, Statement, Survey, Sweepable, Unevaluated, Watch, Workspace,
     errors_at, monte_carlo,
 };
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
 use super::Analyze;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use abbe::analysis::{Admissible, Budget, Configuration, Measurand, MonteCarlo, SourceErrors, Workspace};
-use abbe_codegen::spec::{Source, Spec};
+use abbe_spec::{Source, Spec};
 
 use super::figures::Figures;
 use super::first_order::FirstOrder;

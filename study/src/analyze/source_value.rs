@@ -2,7 +2,7 @@
 
 use abbe::analysis::Contribution;
 use abbe::{Component, VariableKind};
-use abbe_codegen::spec::{ChainNumber, DhNumber, Spec};
+use abbe_spec::{ChainNumber, DhNumber, Spec};
 
 use super::report::Report;
 

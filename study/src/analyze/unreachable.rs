@@ -1,7 +1,7 @@
 //! What of the workspace could not be reached, and why.
 
 use abbe::analysis::{Configuration, ReachError, Unreachable, UnreachableSummary};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use serde::Serialize;
 
 use crate::number;

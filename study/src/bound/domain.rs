@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use abbe_codegen::chain::{self, Apart, Magnitude};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::bound::{self, Effort, Limits, MOST_MOVING, Moving, Progress};
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::Symbol;
 use indexmap::IndexMap;
 
 use crate::machine::Machine;

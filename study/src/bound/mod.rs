@@ -10,11 +10,11 @@ mod report;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use abbe::Orientation;
 use abbe_codegen::chain::{Magnitude, Magnitudes};
-use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::graph::Graph;
-use abbe_codegen::spec::Orientation;
 use abbe_interpreter::bound::{Bound as Proved, Effort, Progress};
+use abbe_spec::diagnostic::Diagnostics;
 
 use crate::changes::Changes;
 use crate::machine::Machine;

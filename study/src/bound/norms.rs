@@ -1,7 +1,7 @@
 //! The norms of the position's errors alone, beside what an analysis samples.
 
+use abbe::Class;
 use abbe_codegen::chain::Magnitudes;
-use abbe_codegen::spec::Class;
 use abbe_interpreter::bound::{Effort, Progress};
 use serde::Serialize;
 

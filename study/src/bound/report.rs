@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use abbe_codegen::spec::{Class, Fitted, Orientation, Spec};
+use abbe::{Class, Orientation};
 use abbe_interpreter::bound::{self, Effort};
+use abbe_spec::{Fitted, Spec};
 use indexmap::IndexMap;
 use serde::Serialize;
 
@@ -303,7 +304,7 @@ impl Report {
         let span = self.moved.iter().find(|span| span.symbol == fitted.symbol)?;
         let [first, last] = fitted.range.map(|end| number::of_symbol(end, fitted.symbol, &self.spec));
         let is_within = span.range.into_iter().all(|end| fitted.contains(end));
-        (!is_within).then(|| format!("{} beyond {first} … {last}", fitted.name(&self.spec)))
+        (!is_within).then(|| format!("{} beyond {first} … {last}", self.spec.name_of(fitted.symbol)))
     }
 
     pub(super) fn warn(&self, notes: &mut dyn Notes) {

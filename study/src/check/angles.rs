@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use abbe_codegen::diagnostic::Span;
-use abbe_codegen::expr::{Expression, Motion, Symbol, motion};
+use abbe::VariableKind;
 use abbe_codegen::graph::Graph;
-use abbe_codegen::spec::{Cause, ChainNumber, DhNumber, Factor, Spec, VariableKind};
+use abbe_spec::diagnostic::Span;
+use abbe_spec::expr::{Expression, Motion, Symbol, motion};
+use abbe_spec::{Cause, ChainNumber, DhNumber, Factor, Spec};
 use serde::Serialize;
 
 use super::chain::value_at_home;

@@ -5,10 +5,11 @@
 
 use std::collections::BTreeMap;
 
+use abbe::{Component, VariableKind};
 use abbe_codegen::chain::{EffectNode, effects, joint_twist, transform};
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
-use abbe_codegen::spec::{Cause, Component, Source, Spec, VariableKind};
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Cause, Source, Spec};
 
 use crate::number::digits;
 

@@ -2,9 +2,9 @@
 
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose};
-use abbe_codegen::expr::{Elementary, Symbol};
 use abbe_codegen::graph::Graph;
-use abbe_codegen::spec::{DhConvention, DhNumber, Factor, Spec};
+use abbe_spec::expr::{Elementary, Symbol};
+use abbe_spec::{DhConvention, DhNumber, Factor, Spec};
 use serde::Serialize;
 
 /// `A_1 … A_n`, the tool and the tool point at home, with nominal parameters.

@@ -1,9 +1,10 @@
 //! What a spec says, in the order of the file.
 
+use abbe::{Class, Distribution, Orientation, VariableKind};
 use abbe_codegen::chain::effects;
 use abbe_codegen::program::{Operations, Routines};
-use abbe_codegen::spec::{Class, Distribution, Orientation, Spec, VariableKind};
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use serde::Serialize;
 
 /// What a spec says, and how many operations its functions take.
@@ -133,8 +134,7 @@ impl Facts {
             unit: input.unit.clone(),
             range: Some(input.range.map(finite)),
         });
-        let all =
-            spec.sources.iter().map(|source| abbe_codegen::spec::Source { enabled: true, ..source.clone() });
+        let all = spec.sources.iter().map(|source| abbe_spec::Source { enabled: true, ..source.clone() });
         let (_, effects) = effects(&Spec { sources: all.collect(), ..Spec::clone(spec) });
         let mut counts = vec![0; spec.sources.len()];
         effects.iter().for_each(|effect| counts[effect.source] += 1);

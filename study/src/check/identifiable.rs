@@ -2,8 +2,8 @@
 
 use abbe::Manipulator;
 use abbe::analysis::{Measurement, Parts, Workspace, identifiable_in_parts, random_joint_samples};
-use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::notes::Notes;

@@ -2,8 +2,8 @@
 
 use abbe::lanes::Batches;
 use abbe::laws::{self, Discrepancy, Failure};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::notes::Notes;

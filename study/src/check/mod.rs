@@ -13,9 +13,9 @@ mod laws;
 
 use std::sync::Arc;
 
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::finite;

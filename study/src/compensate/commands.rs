@@ -1,7 +1,7 @@
 //! Corrected commands one by one, for whoever has no file of them.
 
 use abbe::Manipulator;
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::rows::Task;
 

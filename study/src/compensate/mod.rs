@@ -6,7 +6,7 @@ mod rows;
 
 use abbe::Pose;
 use abbe::identify::{Measurement, Observation};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Base, Data, Heading, Map, Summary, Table, Unusable};

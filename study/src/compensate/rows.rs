@@ -9,7 +9,7 @@ use abbe::analysis::{
 use abbe::compensator::{Compensated, norms};
 use abbe::identify::{Measurement, Observation};
 use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use super::InF0;

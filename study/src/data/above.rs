@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use abbe_codegen::bounded::Unfit;
+use abbe_spec::bounded::Unfit;
 use csv::StringRecord;
 
 use super::dialect::{Dialect, SEPARATORS};

@@ -1,6 +1,6 @@
 //! Columns, and values that may come from them.
 
-use abbe_codegen::diagnostic::Span;
+use abbe_spec::diagnostic::Span;
 
 use super::from_rows::FromRows;
 

@@ -1,8 +1,9 @@
 //! Which rows are visits of one configuration: joints and inputs are the same, as far as values can be told apart.
 
+use abbe::VariableKind;
 use abbe::identify::Observation;
-use abbe_codegen::expr::Unit;
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe_spec::Spec;
+use abbe_spec::expr::Unit;
 
 use crate::workspace::has_range;
 

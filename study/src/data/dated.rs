@@ -1,6 +1,6 @@
 //! Rows, and what their times count.
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::date::{Calendar, parse_date};
 use super::map::Map;

@@ -4,9 +4,9 @@ use std::io::{self, Cursor, Read};
 use std::path::Path;
 use std::sync::Arc;
 
-use abbe_codegen::bounded::{Bounded, Unfit, not_text};
-use abbe_codegen::cell::meant;
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::bounded::{Bounded, Unfit, not_text};
+use abbe_spec::cell::meant;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::above::{above_heading, stated_separator};
 use super::dialect::Dialect;

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use abbe::identify::Observation;
 use abbe::{Manipulator, Pose};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use super::column::Channel;
 use super::map::Map;

@@ -1,6 +1,6 @@
 //! Every key of a map.
 
-abbe_codegen::tables! {
+abbe_spec::tables! {
     FILE: ["the file"], ["data", "joints", "inputs"];
     FORMS: ["the file"], ["point", "difference", "target", "pose", "instrument"];
     STANDS: ["the file"], ["station", "placement", "place", "accept"];

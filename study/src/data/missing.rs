@@ -1,6 +1,6 @@
 //! Columns that a map names and a file has not.
 
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
 
 use super::column::Column;
 use super::map::Map;

@@ -1,6 +1,6 @@
 //! Rows of numbers of which nobody has said what they are.
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::source::{Opened, Source};
 use crate::mistake;

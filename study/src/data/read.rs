@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use abbe::identify::{Uncertainty, register};
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::Dimension;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
 
 use super::column::Column;
 use super::configurations::resolution;

@@ -1,9 +1,11 @@
 //! Reads where the values of joints and inputs come from.
 
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Dimension, find_name};
-use abbe_codegen::spec::{Input, Spec, VariableKind};
+use abbe::VariableKind;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::find_name;
+use abbe_spec::{Input, Spec};
 
 use super::column::{Channel, Scale};
 use super::from_rows::FromRows;

@@ -1,10 +1,11 @@
 //! Reads the instruments of a map: `[[instrument]]`, and `[[target]]` for where targets are on the tool.
 
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Dimension, find_name};
-use abbe_codegen::keys::Keys;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
+use abbe_spec::keys::Keys;
+use abbe_spec::value::find_name;
 
 use super::column::Column;
 use super::instrument::{Instrument, Instruments, Kind, Look, norm};

@@ -2,10 +2,11 @@
 
 use abbe::Pose;
 use abbe::identify::Place;
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Dimension, find_name};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::find_name;
 
 use super::instrument::norm;
 use super::keys;

@@ -1,9 +1,10 @@
 //! Reads what stands in a map: constants, columns and units.
 
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Allowed, Dimension, Entry, LARGEST, Scope, parse_value};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::{Allowed, Dimension, Entry, LARGEST, Scope};
+use abbe_spec::value::parse_value;
 
 use super::column::Column;
 

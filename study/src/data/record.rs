@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use abbe_codegen::cell::meant;
-use abbe_codegen::expr::LARGEST;
+use abbe_spec::cell::meant;
+use abbe_spec::expr::LARGEST;
 use csv::StringRecord;
 
 use super::date::parse_date;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use abbe::identify::{Approach, Configurations, Measurement, Observation};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use hashbrown::HashTable;
 use serde::Serialize;
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-use abbe_codegen::cell::harmless;
+use abbe_spec::cell::harmless;
 use csv::{QuoteStyle, WriterBuilder};
 use serde::Serialize;
 

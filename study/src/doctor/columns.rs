@@ -1,7 +1,7 @@
 //! The numbers of a file or a table: joints, and what was seen.
 
-use abbe_codegen::diagnostic::{Diagnostics, listed};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostics, listed};
 
 use crate::data::{Numbers, Source, numbers};
 use crate::{Notes, mistake};

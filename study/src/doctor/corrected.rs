@@ -7,8 +7,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use abbe::VariableKind;
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 

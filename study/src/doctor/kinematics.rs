@@ -2,8 +2,8 @@
 
 use abbe::analysis::sampling;
 use abbe::{Error, Manipulator, Pose, VariableKind};
-use abbe_codegen::spec::{DhConvention, Frame, Spec};
 use abbe_interpreter::Interpreter;
+use abbe_spec::{DhConvention, Frame, Spec};
 
 /// A spec that is evaluated as it is written, and with its Denavit-Hartenberg numbers read in the other convention.
 pub(super) struct Kinematics {

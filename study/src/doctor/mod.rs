@@ -20,7 +20,7 @@ mod words;
 mod written;
 mod zeros;
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 pub use self::change::Change;

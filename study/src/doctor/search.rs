@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use abbe::{Pose, VariableKind};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::change::Change;
 use super::columns::Columns;

@@ -1,7 +1,7 @@
 //! Readings in words.
 
 use abbe::VariableKind;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use super::Finding;
 use super::change::Change;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use abbe::{Pose, VariableKind};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use super::change::Change;
 use super::columns::Columns;

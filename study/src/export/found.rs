@@ -7,11 +7,11 @@ use std::sync::Arc;
 
 use abbe::analysis::{Configuration, Workspace, random_joint_samples, sampling};
 use abbe::{Class, Error, Manipulator, Pose, drawn_pose, real_pose, repeatable_magnitudes};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::Symbol;
 use abbe_codegen::graph::{Graph, Node};
-use abbe_codegen::spec::{ChainNumber, DhConvention, Spec};
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::Symbol;
+use abbe_spec::{ChainNumber, DhConvention, Spec};
 
 use super::difference::Difference;
 use super::slides::Slide;

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use abbe::{Pose, real_pose};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::found::Found;
 use super::slides::{Axes, Reference, Slide, axes, interpolated};

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use abbe::{Error, Manipulator, Pose};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::found::{Found, Link};
 use super::slides::{Axes, axes, interpolated};

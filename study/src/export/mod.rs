@@ -17,7 +17,7 @@ mod urdf;
 
 use std::path::PathBuf;
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 pub use self::difference::{Difference, Figure};

@@ -2,7 +2,7 @@
 //! which are at 0 where a table of slides is made.
 
 use abbe::{Error, Manipulator, Orientation, Pose, VariableKind, deviation};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::found::{Errors, Found};
 use crate::mistake;

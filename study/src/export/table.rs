@@ -2,8 +2,8 @@
 
 use abbe::analysis::{compensated, sampling};
 use abbe::{Error, Manipulator, VariableKind};
-use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::difference::Difference;
 use super::found::Found;

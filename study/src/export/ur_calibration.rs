@@ -6,8 +6,8 @@
 use std::fmt::Write;
 
 use abbe::{Manipulator, Pose};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::dh::Table;
 use super::found::{Found, about_x, about_z};

@@ -1,7 +1,7 @@
 //! Configurations at which the instruments of a map can be read.
 
 use abbe::identify::{Failure, Fixture, Gauge, Measurement, Model, Observation, Place, Reading, touched};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::setup::Setup;
 use crate::data::{Instruments, Kind, Map};

@@ -3,7 +3,7 @@
 use abbe::{Component, VariableKind};
 use abbe_codegen::chain::frame_twists;
 use abbe_codegen::graph::Graph;
-use abbe_codegen::spec::{ChainNumber, Factor, Spec};
+use abbe_spec::{ChainNumber, Factor, Spec};
 
 use super::derived::{Derived, DerivedKind};
 use super::terms::{Angle, Basis, Place, Term, Wave};
@@ -169,9 +169,8 @@ fn load(spec: &Spec, inputs: usize) -> Vec<Vec<Term>> {
 /// The turns of the base, if its errors can be said at the first frame, and of every frame.
 fn turns(spec: &Spec) -> Vec<[Place; 3]> {
     let turns = [Component::Spin, Component::Roll, Component::Pitch];
-    let inverse = |frame: &abbe_codegen::spec::Frame| {
-        !frame.factors.iter().any(|factor| matches!(factor, Factor::Matrix(_)))
-    };
+    let inverse =
+        |frame: &abbe_spec::Frame| !frame.factors.iter().any(|factor| matches!(factor, Factor::Matrix(_)));
     let base = spec.frames.first().is_some_and(inverse).then(|| turns.map(Place::Base));
     let frames = (0..spec.frames.len()).map(|frame| turns.map(|turn| Place::Frame(frame, turn)));
     base.into_iter().chain(frames).collect()

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use abbe::identify::{Distances, Factored, Folds, Observation, Offer, Selection, Unknown, select};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::doubt::doubt;
 use super::extended::extended;

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use abbe::identify::Observation;
 use abbe::{Component, Manipulator, VariableKind};
-use abbe_codegen::expr::Dimension;
-use abbe_codegen::spec::{Input, Spec};
+use abbe_spec::expr::Dimension;
+use abbe_spec::{Input, Spec};
 
 use super::candidates::Family;
 use super::terms::{Basis, Place, Term};

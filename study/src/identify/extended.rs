@@ -1,10 +1,8 @@
 //! A spec with terms as sources: what is fitted, and what `analyze` then computes, are one and the same.
 
-use abbe_codegen::expr::{Dimension, Elementary, Expression, Function, Motion, Symbol, Unit};
-use abbe_codegen::spec::{
-    Axes, Cause, ChainNumber, Class, Compliance, Component, Deviation, Effect, Factor, Load, Point, Source,
-    Spec, VariableKind,
-};
+use abbe::{Class, Component, VariableKind};
+use abbe_spec::expr::{Dimension, Elementary, Expression, Function, Motion, Symbol, Unit};
+use abbe_spec::{Axes, Cause, ChainNumber, Compliance, Deviation, Effect, Factor, Load, Point, Source, Spec};
 
 use super::magnitude::own_magnitudes;
 use super::terms::{Angle, Basis, Place, Term, Wave};
@@ -183,8 +181,8 @@ impl Angle {
 #[cfg(test)]
 mod tests {
     use abbe::{Component, Manipulator};
-    use abbe_codegen::spec::Spec;
     use abbe_interpreter::Interpreter;
+    use abbe_spec::Spec;
 
     use super::super::terms::{Basis, Place, Term};
     use super::extended;

@@ -2,8 +2,8 @@
 
 use abbe::Component;
 use abbe::identify::{Configurations, Unknown};
-use abbe_codegen::expr::Symbol;
-use abbe_codegen::spec::{Fitted, Spec};
+use abbe_spec::expr::Symbol;
+use abbe_spec::{Fitted, Spec};
 
 use super::derived::Derived;
 use super::meaning::InNumbers;

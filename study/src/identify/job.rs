@@ -3,14 +3,14 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
+use abbe::LengthUnit;
 use abbe::identify::{
     Comparison, Configurations, Distances, Failure, Figures, Fit, Independent, Model, Place, Selection,
     Unknown, deviation_beyond, drift, student_factor,
 };
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::LengthUnit;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::alike::alikes;
 use super::candidates::{Family, Harmonics, candidates};

@@ -4,7 +4,8 @@
 //! the unknown x that this is multiplied with is what the magnitude is more than `m₀`. The spec's standard deviation is the
 //! prior of x about 0.
 
-use abbe_codegen::spec::{Class, Magnitude, Source, Spec};
+use abbe::Class;
+use abbe_spec::{Magnitude, Source, Spec};
 
 /// A source of the spec whose magnitude is to be found.
 #[derive(Clone, Copy, Debug)]

@@ -5,12 +5,12 @@
 //! `vee(∂A_i/∂x A_i⁻¹) δ`. Where one of these is the same in all configurations, the number is a combination of constant
 //! errors, and takes the place of one of them: a change of basis that leaves the machine what it is.
 
-use abbe::Component;
 use abbe::identify::{Failure, Fit, Model, Observation, Unknown};
+use abbe::{Component, VariableKind};
 use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
-use abbe_codegen::expr::{Dimension, Motion, Symbol};
 use abbe_codegen::graph::{Frame, Graph, Node};
-use abbe_codegen::spec::{ChainNumber, DhNumber, Spec, VariableKind};
+use abbe_spec::expr::{Dimension, Motion, Symbol};
+use abbe_spec::{ChainNumber, DhNumber, Spec};
 
 use super::report::Meaning;
 use super::setup::Setup;

@@ -1,7 +1,7 @@
 //! What the data do not tell, and is therefore held at what was expected.
 
+use abbe::LengthUnit;
 use abbe::identify::{Identifiable, Model, Unknown};
-use abbe_codegen::expr::LengthUnit;
 use serde::Serialize;
 
 /// An error of which these data tell too little beside what is known before, no better than to half of it: it is held at

@@ -1,7 +1,7 @@
 //! Test rows outside the ranges that were fitted, and how well the machine is known there.
 
 use abbe::identify::{Failure, Observation};
-use abbe_codegen::spec::Fitted;
+use abbe_spec::Fitted;
 use serde::Serialize;
 
 use super::solve::Solved;

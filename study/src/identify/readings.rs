@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use abbe::identify::{Measurement, Model, Observation, Options, Station, Uncertainty, fit};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::reading::{Change, orders, orientations, units};
 use super::setup::{Setup, registered, seen};

@@ -6,7 +6,7 @@ use abbe::identify::{
     register, register_pairs,
 };
 use abbe::{Class, Component, Description, Manipulator, Pose, VariableKind, real_pose};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::{Base, Data, Map};
 use crate::mistake;

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use abbe::VariableKind;
 use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::Motion;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::Motion;
 
 use super::gross;
 use super::magnitude::OwnMagnitude;

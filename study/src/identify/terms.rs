@@ -1,7 +1,7 @@
 //! Terms of richer models: errors of one unit each, whose magnitudes are unknown.
 
 use abbe::Component;
-use abbe_codegen::spec::{ChainNumber, DhNumber, Spec};
+use abbe_spec::{ChainNumber, DhNumber, Spec};
 
 /// An error in proportion to a basis; its magnitude is to be found.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use abbe::Component;
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::{Document, Section};
-use abbe_codegen::expr::{Motion, Symbol};
-use abbe_codegen::spec::{Fitted, Spec, VariableKind};
+use abbe::{Component, VariableKind};
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::{Document, Section};
+use abbe_spec::expr::{Motion, Symbol};
+use abbe_spec::{Fitted, Spec};
 
 use super::derived::{Derived, with_inputs};
 use super::found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
@@ -104,7 +104,7 @@ impl FoundModel {
             };
             let [lower, upper] =
                 fitted.range.map(|end| format!("{} {unit}", number(end)).trim_end().to_owned());
-            format!("{} = [{lower:?}, {upper:?}]\n", fitted.name(spec))
+            format!("{} = [{lower:?}, {upper:?}]\n", spec.name_of(fitted.symbol))
         };
         let lines = self.fitted.iter().map(line).collect::<String>();
         format!("{}[fitted]\n{lines}", ABOVE[0])

@@ -1,7 +1,7 @@
 //! Full compliances of the identified machine: one matrix for a frame, or for what the machine stands on.
 
 use abbe::Component;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use super::found::{FoundModel, FoundTerm};
 use super::terms::{Basis, Place};

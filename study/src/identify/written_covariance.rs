@@ -1,6 +1,6 @@
 //! `[covariance]` of the identified machine's spec: how well its errors are known, all together.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use super::found::FoundModel;
 use super::written::{ABOVE, constant_name};

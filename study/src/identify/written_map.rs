@@ -1,9 +1,9 @@
 //! The map of the identified machine: that of its data, with where it stands, what is mounted on its tool, and the inputs that
 //! follow from the rows.
 
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::{Document, Section};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::{Document, Section};
 
 use super::derived::{Derived, with_inputs};
 use super::found::FoundModel;

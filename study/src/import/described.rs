@@ -1,7 +1,7 @@
 //! A robot as its URDF file describes it: for what is written back into the file.
 
 use abbe::Pose;
-use abbe_codegen::document::Document;
+use abbe_spec::document::Document;
 use nalgebra::Isometry3;
 
 use super::almost::Almost;

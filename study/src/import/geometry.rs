@@ -1,6 +1,6 @@
 //! What stands before and behind the motion of a joint.
 
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::placement::Placement;

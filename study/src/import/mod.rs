@@ -18,10 +18,10 @@ use std::sync::Arc;
 
 use abbe::Manipulator;
 use abbe::analysis::sampling;
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::{DhConvention, Spec};
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
+use abbe_spec::{DhConvention, Spec};
 use serde::Serialize;
 
 use self::almost::Almost;

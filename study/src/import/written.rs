@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write;
 
-use abbe_codegen::spec::{DhConvention, as_identifier};
+use abbe_spec::{DhConvention, as_identifier};
 
 use super::chain::{Chain, Frame, Mass, Motion, Variable};
 use super::geometry::{Geometry, Numbers};

@@ -2,7 +2,7 @@
 
 use abbe::identify::{Failure, Measurement, Model, Observation, Room, register};
 use abbe::{Orientation, Pose, deviation};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::Data;
 use crate::identify::Setup;

@@ -11,10 +11,10 @@ mod sentences;
 
 use std::borrow::Cow;
 
+use abbe::LengthUnit;
 use abbe::identify::{self, Figures, Observation, drift};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::LengthUnit;
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Data, Instruments, Map, Summary, Table};

@@ -5,8 +5,8 @@ use std::mem::take;
 
 use abbe::Manipulator;
 use abbe::identify::Observation;
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::{Calendar, Data, Dated, Map, Source, in_name, parse_date};
 use crate::mistake;

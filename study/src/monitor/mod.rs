@@ -13,8 +13,8 @@ mod places;
 mod sentences;
 mod single_errors;
 
-use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Calendar, Map, Summary};

@@ -2,7 +2,7 @@
 
 use abbe::identify::{Measurement, Model, Observation, Station, Unknown};
 use abbe::{Manipulator, Pose};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::checks::{Check, Checks};
 use super::places::{MOST, Places, TooMany};

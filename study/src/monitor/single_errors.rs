@@ -2,7 +2,7 @@
 
 use abbe::identify::{Model, Place, Unknown};
 use abbe::{Component, Description};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use super::numbers::Numbers;
 use crate::identify::chain_errors;

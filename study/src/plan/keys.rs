@@ -1,6 +1,6 @@
 //! Every key of a plan, but for those of its workspaces.
 
-abbe_codegen::tables! {
+abbe_spec::tables! {
     FILE: ["the file"], ["plan", "set", "inputs"];
     PLAN: ["[plan]"], ["title", "description", "repeat"];
     SET: ["[[set]]"], ["name", "workspace", "axes"];

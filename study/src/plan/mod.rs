@@ -10,8 +10,8 @@ use abbe::identify::{
     optimal, whole,
 };
 use abbe::{Description, Manipulator};
-use abbe_codegen::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::{Instruments, Map};
 use crate::identify::{Counts, NotKnown, Setup, aimed, alikes, scale_note, unaimed};

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use abbe::analysis::{Axis, Configuration};
 use abbe::{Description, Manipulator};
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
-use abbe_codegen::document::{Document, Section};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::document::{Document, Section};
 use serde::Serialize;
 
 use super::keys;

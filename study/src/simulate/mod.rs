@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use abbe::Manipulator;
 use abbe::analysis::{JointSamples, Workspace, random_joint_samples};
 use abbe::identify::{Chance, Failure, Observation, Simulated, Uncertainty};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Input;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Input;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Channel, Data, Heading, Instruments, Map, Table};

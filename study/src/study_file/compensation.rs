@@ -2,10 +2,11 @@
 
 use abbe::analysis::Residual;
 use abbe::{Class, Description};
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item};
-use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope, find_name};
-use abbe_codegen::spec::{self, Spec};
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item};
+use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
+use abbe_spec::value::find_name;
+use abbe_spec::{self, Spec};
 
 use super::keys;
 

@@ -19,11 +19,11 @@
 //! ```
 
 use abbe::analysis::Measurand;
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::find_name;
-use abbe_codegen::keys::Keys;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::keys::Keys;
+use abbe_spec::value::find_name;
 use serde::{Serialize, Serializer};
 
 use super::keys;

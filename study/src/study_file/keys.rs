@@ -1,6 +1,6 @@
 //! Every key of a study, but for those of its workspaces.
 
-abbe_codegen::tables! {
+abbe_spec::tables! {
     FILE: ["the file"], ["study", "workspace", "published", "compensated", "compensation", "figure"];
     STUDY: ["[study]"],
         ["title", "description", "reference", "publisher", "tolerance", "set", "enable", "disable", "not_reproducible"];

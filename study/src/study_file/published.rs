@@ -1,9 +1,10 @@
 //! The figures that somebody printed, to stand beside ours.
 
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::{Dimension, find_name};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::find_name;
 
 use super::keys;
 use crate::workspace::{constant, positive_length};

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use abbe_codegen::diagnostic::{Diagnostic, Diagnostics};
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::Symbol;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::{Diagnostic, Diagnostics};
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Symbol;
 use sha2::{Digest, Sha256};
 
 use super::compensation;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 
 use super::compensation::Compensated;
 use super::figure::Figure;

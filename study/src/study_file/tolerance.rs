@@ -1,9 +1,9 @@
 //! `tolerance`: how large the error of the tool may be, and how sure that must be.
 
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item};
-use abbe_codegen::expr::Dimension;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item};
+use abbe_spec::expr::Dimension;
 
 use super::keys;
 use crate::workspace::{constant, positive_length};

@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
-use abbe::LengthUnit;
 use abbe::analysis::{Axis, sampling};
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item};
-use abbe_codegen::expr::{Dimension, find_name};
-use abbe_codegen::spec::{Spec, VariableKind};
+use abbe::{LengthUnit, VariableKind};
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item};
+use abbe_spec::expr::Dimension;
+use abbe_spec::value::find_name;
 
 use crate::number;
 

@@ -1,9 +1,9 @@
 //! Constants in a file: with units, converted into the coherent system of the spec.
 
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item};
-use abbe_codegen::expr::{Allowed, Dimension, Entry, Scope};
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item};
+use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 
 /// A constant in the coherent system of the spec.
 pub fn constant(

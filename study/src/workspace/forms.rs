@@ -1,10 +1,10 @@
 //! The forms that the workspace of a study can have.
 
 use abbe::analysis::{Axis, BaseBox, Presentation, ToolOrientation};
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Item, Section};
-use abbe_codegen::expr::Dimension;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Item, Section};
+use abbe_spec::expr::Dimension;
 
 use super::axis::{Candidates, values};
 use super::constant::{constant, count, whole};

@@ -1,6 +1,6 @@
 //! Every key of a workspace.
 
-abbe_codegen::tables! {
+abbe_spec::tables! {
     WORKSPACE: ["[workspace]"], ["presented", "grid", "joints", "random", "box", "path"];
     BESIDE: ["[workspace]"], ["inputs"];
     PRESENTED: ["[workspace.presented]"], ["point", "tool_points", "approaches", "solve"];

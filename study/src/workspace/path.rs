@@ -10,14 +10,15 @@
 
 use std::path;
 
-use abbe::Manipulator;
 use abbe::analysis::Configuration;
-use abbe_codegen::bounded::{Bounded, Unfit, not_text};
-use abbe_codegen::cell::meant;
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::{Document, Section};
-use abbe_codegen::expr::{Dimension, LARGEST, Symbol, find_name, parse_value};
-use abbe_codegen::spec::{Input, Spec, VariableKind};
+use abbe::{Manipulator, VariableKind};
+use abbe_spec::bounded::{Bounded, Unfit, not_text};
+use abbe_spec::cell::meant;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::{Document, Section};
+use abbe_spec::expr::{Dimension, LARGEST, Symbol};
+use abbe_spec::value::{find_name, parse_value};
+use abbe_spec::{Input, Spec};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::keys;

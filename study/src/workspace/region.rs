@@ -5,7 +5,7 @@ use abbe::analysis::{
     joint_samples, listed, presented_volume, random_joint_samples, with_inputs,
 };
 use abbe::{Error, Manipulator};
-use abbe_codegen::spec::{Input, Spec};
+use abbe_spec::{Input, Spec};
 
 use super::path::Path;
 use crate::number;

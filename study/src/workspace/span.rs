@@ -1,9 +1,9 @@
 //! From where to where a workspace goes: the box that contains it.
 
 use abbe::analysis::{Axis, BaseBox, Presentation};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::expr::Symbol;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::expr::Symbol;
 
 use super::region::{Form, Region};
 use crate::mistake;

@@ -3,9 +3,9 @@
 use abbe::Pose;
 use abbe::analysis::Sweepable;
 use abbe::analysis::sampling::{joint_sample, nominal_inputs, nominal_parameters};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::Shipped;
+use abbe_spec::Spec;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 

@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use abbe_codegen::print;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_tests::chains::general_chain;
 
 /// Compiles the modules of chains of these lengths, and runs them beside a loop on nalgebra's matrices.

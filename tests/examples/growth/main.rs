@@ -10,9 +10,10 @@ use std::time::Instant;
 
 use abbe::Function;
 use abbe_codegen::chain::Model;
+use abbe_codegen::print;
 use abbe_codegen::program::{Routines, straight_line};
-use abbe_codegen::{print, spec::Spec};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_tests::chains::general_chain;
 
 /// How many frames the chains have.

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use abbe_codegen::print::rust;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_tests::abuse::{Choices, spec};
 use abbe_tests::chains::revolute_chain;
 

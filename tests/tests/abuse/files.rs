@@ -1,6 +1,6 @@
 //! Small files of every kind, that are right: what damage is done to.
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::Machine;
 
 /// An arm with everything a spec can have, and quick to compute.

@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 use abbe::analysis::sampling::{halton, nominal_inputs, nominal_parameters};
 use abbe::identify::{Criterion, Loss};
 use abbe::{Manipulator, real_pose};
-use abbe_codegen::diagnostic::Diagnostics;
 use abbe_codegen::print::{Language, Real};
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
 use abbe_study::compensate::Compensate;
@@ -43,7 +43,7 @@ pub(crate) fn of_spec(machine: Machine, with_laws: bool) -> Result<(), Diagnosti
     }
     Jacobian { machine: machine.clone(), q: None }.run(&mut notes())?;
     let few = "[study]\ntitle = \"Few\"\n[workspace.joints]\nsamples = 20\n";
-    let study = Study::read(abbe_codegen::document::Document::new("few.toml", few), &machine.spec)?;
+    let study = Study::read(abbe_spec::document::Document::new("few.toml", few), &machine.spec)?;
     analyze(&machine, study)?;
     if with_laws && machine.spec.frames.len() <= 6 {
         Check { machine }.run(&mut notes())?;

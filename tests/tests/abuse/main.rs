@@ -11,9 +11,9 @@ mod watch;
 
 use std::path::Path;
 
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::document::Document;
 use abbe_study::data::{Data, Map};
 use abbe_study::plan::Sets;
 use abbe_study::{Machine, Study};

@@ -6,7 +6,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 /// How long anything may take: in tests that are not optimized, on computers that are busy.
 const LONGEST: Duration = Duration::from_secs(30);

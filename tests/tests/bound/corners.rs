@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use abbe_codegen::chain::Magnitudes;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_interpreter::bound::Effort;
+use abbe_spec::Spec;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 

@@ -2,10 +2,10 @@
 
 use abbe::{Manipulator, Orientation, VariableKind, deviation};
 use abbe_codegen::chain::Dexterity;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_interpreter::bound::{Effort, Extreme, Moving, Singular, singular_value};
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;

@@ -8,12 +8,12 @@ mod residual;
 mod robot;
 mod stiffness;
 
-use abbe::{Class, Manipulator};
+use abbe::{Class, Manipulator, Orientation};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
-use abbe_codegen::expr::Symbol;
-use abbe_codegen::spec::{Orientation, Spec};
 use abbe_interpreter::Interpreter;
 use abbe_interpreter::bound::{Bound, Effort, Moving, largest, limits};
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 

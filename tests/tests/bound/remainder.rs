@@ -2,9 +2,9 @@
 
 use abbe::{Class, Manipulator, deviation, drawn_pose};
 use abbe_codegen::chain::Remainder;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_interpreter::bound::{Bound, Effort, Moving, largest};
+use abbe_spec::Spec;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 

@@ -2,9 +2,9 @@
 
 use abbe::Manipulator;
 use abbe_codegen::chain::ToolCompliance;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_interpreter::bound::{Effort, Extreme, Moving, Singular, singular_value};
+use abbe_spec::Spec;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;

@@ -6,8 +6,8 @@ use std::process::Command;
 
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::{Language, Real};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 
 /// How it is compiled. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
 pub(crate) const STRICT: [&str; 9] = [

@@ -9,9 +9,9 @@ use abbe::compensator::norms;
 use abbe::{
     Error, Manipulator, Orientation, Quantity, VariableKind, deviation, drawn_pose, repeatable_magnitudes,
 };
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::{SHIPPED, iiwa, pps};
+use abbe_spec::Spec;
 
 use bounded::hard_rows;
 

@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use abbe::analysis::sampling;
 use abbe::{Manipulator, VariableKind};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_study::doctor::{Change, Layout, Reading};
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};

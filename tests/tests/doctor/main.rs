@@ -7,7 +7,7 @@ mod case;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_study::data::{Data, Map};
 use abbe_study::doctor::{Change, Doctor, Reading, Report};

@@ -5,8 +5,8 @@ mod sheet;
 use std::path::PathBuf;
 
 use abbe::Manipulator;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use expect_test::expect_file;
 use sheet::{Frame, GREY, INK, LINK, Point, RED, Sheet, arc};
 

@@ -1,8 +1,8 @@
 //! Tables of Denavit-Hartenberg numbers.
 
 use abbe::Manipulator;
-use abbe_codegen::spec::{DhConvention, Spec};
 use abbe_interpreter::Interpreter;
+use abbe_spec::{DhConvention, Spec};
 use abbe_study::export::{Export, Format};
 use abbe_study::import;
 use nalgebra::{Isometry3, Matrix4, Vector3};

@@ -10,9 +10,9 @@ mod urdf;
 
 use abbe::analysis::{Workspace, random_joint_samples, sampling};
 use abbe::{Manipulator, Pose, drawn_pose, repeatable_magnitudes};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_study::export::{Export, Format, Report, SAMPLES};
 use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};

@@ -1,8 +1,8 @@
 //! Tables of a machine with axes that turn the workpiece.
 
 use abbe::{Manipulator, drawn_pose, repeatable_magnitudes};
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_study::export::{Export, Format};
 use nalgebra::Vector3;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use abbe::Manipulator;
-use abbe_codegen::spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_study::export::{Export, Format};
 use abbe_study::{Machine, import};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};

@@ -10,11 +10,11 @@ mod page;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{FUNCTION_NAMES, UNIT_NAMES};
-use abbe_codegen::keys::Keys;
-use abbe_codegen::spec::{self, Spec};
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
+use abbe_spec::expr::{FUNCTION_NAMES, UNIT_NAMES};
+use abbe_spec::keys::Keys;
+use abbe_spec::{self, Spec};
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
 use abbe_study::data::Map;

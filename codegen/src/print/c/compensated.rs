@@ -1,11 +1,11 @@
 //! Corrected commands in C: the fixed number of steps of `abbe::compensator`, term by term.
 
 use abbe_core::VariableKind;
+use abbe_spec::Spec;
 
 use super::real::Real;
 use super::shortest::Solver;
 use crate::print::layout::Writer;
-use crate::spec::Spec;
 
 pub(super) fn declaration(writer: &mut Writer, spec: &Spec, real: Real) {
     if spec.variables.is_empty() {

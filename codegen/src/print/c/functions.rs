@@ -1,5 +1,7 @@
 //! Routines as functions.
 
+use abbe_spec::Spec;
+
 use super::operators::C;
 use super::real::Real;
 use crate::print::expression::Value;
@@ -10,7 +12,6 @@ use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
 use crate::program::{Place, Role, Routine, Routines, Row};
-use crate::spec::Spec;
 
 /// The head of a function without its end: `int pps_pose(const double *restrict q, …)`.
 pub(super) fn head(prefix: &str, routine: &Routine, real: Real, restrict: &str) -> String {

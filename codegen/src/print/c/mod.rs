@@ -11,6 +11,9 @@ mod self_test;
 mod shortest;
 mod support;
 
+use abbe_spec::Spec;
+use abbe_spec::expr::Table;
+
 use self::functions::{comment, documentation, function, head};
 pub use self::real::Real;
 use self::support::{IS_FINITE, Support};
@@ -19,9 +22,7 @@ use super::header::header;
 use super::layout::Writer;
 use super::text::escaped;
 use crate::chain::Model;
-use crate::expr::Table;
 use crate::program::{Operand, Routines, Sums};
-use crate::spec::Spec;
 
 /// The header and the source of a manipulator.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, real: Real) -> Vec<SourceFile> {

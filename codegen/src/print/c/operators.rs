@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 
 use abbe_core::Function;
+use abbe_spec::Spec;
+use abbe_spec::expr::{Function as Operator, Lookup};
 
 use super::real::Real;
-use crate::expr::{Function as Operator, Lookup};
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
-use crate::spec::Spec;
 
 /// With the spec, whose name and tables stand in the file.
 pub(super) struct C<'s> {

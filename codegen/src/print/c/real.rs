@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::expr::Table;
+use abbe_spec::expr::Table;
 
 /// A type of numbers: what it is called, how its numbers are written, and which functions of `math.h` take it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

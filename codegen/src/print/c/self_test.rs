@@ -2,13 +2,13 @@
 
 use abbe_core::Function;
 use abbe_core::function::Array;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
 
 use super::real::Real;
 use crate::chain::Model;
-use crate::expr::Symbol;
 use crate::print::layout::Writer;
 use crate::program::{Rounded, results, straight_line};
-use crate::spec::Spec;
 
 pub(super) fn declaration(writer: &mut Writer, spec: &Spec) {
     writer.blank();

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use abbe_spec::expr::Function;
+
 use super::real::Real;
-use crate::expr::Function;
 use crate::program::{Action, Routines};
 
 /// A static function, in the order in which they are written.

@@ -1,10 +1,11 @@
 //! `modelDescription.xml`, and what FMI 3.0 wants to know of sources beside it.
 
+use abbe_spec::Spec;
+
 use super::Fmi;
 use super::units::definitions;
 use super::variables::{CORRECTION, Causality, Variable, Variables};
 use super::xml::Element;
-use crate::spec::Spec;
 
 /// `modelDescription.xml`.
 pub(super) fn model(spec: &Spec, fmi: Fmi, variables: &Variables, token: &str, sources: &[String]) -> String {

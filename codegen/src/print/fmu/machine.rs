@@ -1,9 +1,10 @@
 //! `fmi-machine.h`: where numbers stand, where they begin, and which functions fill the outputs.
 
+use abbe_spec::Spec;
+
 use super::variables::{CORRECTED, OUTPUTS, Variables};
 use crate::print::c::Real;
 use crate::print::layout::Writer;
-use crate::spec::Spec;
 
 /// The header.
 pub(super) fn header(spec: &Spec, variables: &Variables, token: &str) -> String {

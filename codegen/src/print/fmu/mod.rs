@@ -10,13 +10,13 @@ mod units;
 mod variables;
 mod xml;
 
+use abbe_spec::Spec;
 use sha2::{Digest, Sha256};
 
 use self::variables::Variables;
 use super::{Real, SourceFile, c};
 use crate::chain::Model;
 use crate::program::Routines;
-use crate::spec::Spec;
 
 /// A version of the Functional Mock-up Interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,10 @@
 //! `documentation/index.html`: what is in it, for people.
 
+use abbe_spec::Spec;
+
 use super::Fmi;
 use super::variables::{CORRECTION, Variables};
 use super::xml::escaped;
-use crate::spec::Spec;
 
 /// The page.
 pub(super) fn page(spec: &Spec, fmi: Fmi, variables: &Variables) -> String {

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use abbe_core::LengthUnit;
+use abbe_spec::expr::Dimension;
 
 use super::xml::Element;
-use crate::expr::Dimension;
 
 /// A unit.
 #[derive(Clone, Debug)]

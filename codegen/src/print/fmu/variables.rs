@@ -2,10 +2,10 @@
 
 use abbe_core::function::Signature;
 use abbe_core::{Function, Orientation, Quantity, VariableKind};
+use abbe_spec::expr::Dimension;
+use abbe_spec::{MAGNITUDE, Spec};
 
 use super::units::Unit;
-use crate::expr::Dimension;
-use crate::spec::{MAGNITUDE, Spec};
 
 /// What a variable is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,7 @@
 //! Routines as functions.
 
+use abbe_spec::Spec;
+
 use super::operators::{JavaScript, number};
 use crate::print::flat::{Flat, filled};
 use crate::print::header::operations;
@@ -7,7 +9,6 @@ use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::program::{Array, Place, Role, Routine, Routines, Row, Stage};
-use crate::spec::Spec;
 
 /// One function.
 pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {

@@ -6,15 +6,16 @@
 mod functions;
 mod operators;
 
+use abbe_spec::Spec;
+use abbe_spec::expr::Table;
+
 use self::functions::function;
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
 use super::records::records;
 use super::text::escaped;
-use crate::expr::Table;
 use crate::program::{Routines, Sums};
-use crate::spec::Spec;
 
 /// The source of a manipulator's module.
 pub(super) fn module(spec: &Spec, routines: &Routines) -> String {

@@ -1,6 +1,7 @@
 //! Routines as functions.
 
 use abbe_core::function;
+use abbe_spec::Spec;
 
 use super::operators::{Matlab, number};
 use crate::print::flat::Flat;
@@ -10,7 +11,6 @@ use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
 use crate::program::{Array, Place, Role, Routine, Routines, Row};
-use crate::spec::Spec;
 
 /// One function.
 pub(super) fn function(

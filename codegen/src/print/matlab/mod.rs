@@ -6,15 +6,16 @@
 mod functions;
 mod operators;
 
+use abbe_spec::Spec;
+use abbe_spec::expr::Table;
+
 use self::functions::function;
 use self::operators::{WORDS, number, spelled};
 use super::SourceFile;
 use super::header::header;
 use super::layout::Writer;
 use super::text::{escaped, harmless, wrapped};
-use crate::expr::Table;
 use crate::program::{Routines, Sums};
-use crate::spec::Spec;
 
 /// The file of a manipulator's class, which must be called as the class is.
 pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {

@@ -2,10 +2,11 @@
 
 use std::borrow::Cow;
 
-use crate::expr::{Function, Lookup};
+use abbe_spec::Spec;
+use abbe_spec::expr::{Function, Lookup};
+
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
-use crate::spec::Spec;
 
 /// With the class's name, before what stands in it, and the spec, whose tables do.
 pub(super) struct Matlab<'s> {

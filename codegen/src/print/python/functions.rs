@@ -1,7 +1,7 @@
 //! Routines as functions.
 
-use abbe_core::Quantity;
-use abbe_core::function;
+use abbe_core::{Quantity, function};
+use abbe_spec::Spec;
 
 use super::operators::{Python, number};
 use crate::print::flat::Flat;
@@ -11,7 +11,6 @@ use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
 use crate::program::{Array, Place, Role, Routine, Routines, Row};
-use crate::spec::Spec;
 
 /// What is called from outside: it looks at shapes, and gives results the shapes that users expect.
 pub(super) fn face(writer: &mut Writer, routines: &Routines, routine: &Routine) {

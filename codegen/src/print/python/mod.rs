@@ -7,15 +7,16 @@
 mod functions;
 mod operators;
 
+use abbe_spec::Spec;
+use abbe_spec::expr::Table;
+
 use self::functions::{face, kernel};
 use self::operators::number;
 use super::header::header;
 use super::layout::Writer;
 use super::records::{quoted, records};
 use super::text::{escaped, harmless};
-use crate::expr::Table;
 use crate::program::{Routines, Sums};
-use crate::spec::Spec;
 
 /// The source of a manipulator's module.
 pub(super) fn module(spec: &Spec, routines: &Routines) -> String {

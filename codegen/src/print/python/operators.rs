@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::expr::{Function, Lookup, Table};
+use abbe_spec::expr::{Function, Lookup, Table};
+
 use crate::print::expression::{Binding, Called, Expression, Syntax, arithmetic};
 use crate::program::Action;
 

@@ -1,11 +1,12 @@
 //! What users of a generated module see: constants, parameters, inputs, the checked functions, the trait.
 
+use abbe_core::{Class, LengthUnit, Orientation, VariableKind};
+use abbe_spec::Spec;
+
 use super::literal::number;
-use crate::chain::EffectNode;
-use crate::expr::LengthUnit;
+use crate::chain::{EffectNode, lower_pairs};
 use crate::print::layout::{Writer, array};
 use crate::print::text::escaped;
-use crate::spec::{Class, Orientation, Spec, VariableKind};
 
 /// Types that a generated module has or uses already, and what every module knows.
 const TAKEN: [&str; 36] = [
@@ -99,7 +100,7 @@ pub(super) fn description(writer: &mut Writer, spec: &Spec, effects: &[EffectNod
     let mut list = |name: &str, entries: Vec<(&str, Vec<String>)>| {
         writer.array_of_calls(&format!("{name}: List::Constant(&"), &entries, "),");
     };
-    let frames = spec.frames.iter().zip(spec.lower_pairs()).map(|(frame, lower_pair)| {
+    let frames = spec.frames.iter().zip(lower_pairs(spec)).map(|(frame, lower_pair)| {
         let constructor = if lower_pair { "Frame::lower_pair" } else { "Frame::new" };
         (constructor, vec![quoted(&frame.name), format!("{:?}", frame.variable)])
     });

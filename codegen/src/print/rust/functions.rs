@@ -2,6 +2,7 @@
 
 use abbe_core::Function;
 use abbe_core::function::Count;
+use abbe_spec::Spec;
 
 use super::operators::Rust;
 use crate::print::expression::{Expression, Value};
@@ -9,7 +10,6 @@ use crate::print::layout::{Writer, array, call, fits, pattern, width};
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::program::{Array, Block, Place, Role, Routine, Routines, Row, Stage};
-use crate::spec::Spec;
 
 /// One function.
 pub(super) fn raw_function(writer: &mut Writer, spec: &Spec, routines: &Routines, routine: &Routine) {

@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use abbe_core::Function;
+use abbe_core::{Class, Function, Orientation};
+use abbe_spec::Spec;
+use abbe_spec::expr::Table;
 
 use super::face;
 use super::functions::{error_columns, raw_function, shares_columns};
 use super::literal::looks_like_named;
 use super::tables::{lookup_table, tables};
-use crate::chain::Model;
-use crate::expr::Table;
+use crate::chain::{Model, is_long};
 use crate::print::header::header;
 use crate::print::layout::Writer;
 use crate::program::{Operand, Program, Routines, Stage};
-use crate::spec::{Class, Orientation, Spec};
 
 /// The counts that arrays have as sizes.
 const SIZES: [&str; 8] =
@@ -101,7 +101,7 @@ fn allowed_lints(spec: &Spec, routines: &Routines) -> Vec<&'static str> {
     if constants.chain(values).chain(limits).chain(ranges).chain(outputs).chain(sums).any(looks_like_named) {
         allowed.push("clippy::approx_constant");
     }
-    if spec.is_long() {
+    if is_long(spec) {
         // Loops go over rows of several arrays at once.
         allowed.push("clippy::needless_range_loop");
     }

@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use abbe_spec::expr::{Function, Lookup, Table};
+
 use super::literal::number;
-use crate::expr::{Function, Lookup, Table};
 use crate::print::expression::{Binding, Expression, Syntax, infix};
 use crate::program::{Action, Operand};
 

@@ -1,7 +1,8 @@
 //! What the loops of long chains go over, and functions given by points.
 
+use abbe_spec::expr::Table;
+
 use super::literal::number;
-use crate::expr::Table;
 use crate::print::layout::{Writer, array};
 use crate::print::text::escaped;
 use crate::program::{Routines, Sums};

@@ -1,6 +1,7 @@
 //! The body of a loop while it is built: rows that are read become symbols of a graph of its own.
 
-use crate::expr::Symbol;
+use abbe_spec::expr::Symbol;
+
 use crate::graph::{Frame, Graph, Node, Vector};
 use crate::program::{Block, Place, Program, Repeated, Row, Stage};
 

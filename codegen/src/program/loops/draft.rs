@@ -1,5 +1,6 @@
 //! A routine while it is written: its arrays, and its stages so far.
 
+use abbe_core::Orientation;
 use abbe_core::function::Count;
 
 use super::Loops;
@@ -7,7 +8,6 @@ use super::body::Body;
 use crate::chain::Rows;
 use crate::graph::Vector;
 use crate::program::routine::{Array, Place, Repeated, Role, Row, Stage};
-use crate::spec::Orientation;
 
 /// The dimensions of a pose.
 pub(super) const POSE: [Count; 2] = [Count::Exactly(4), Count::Exactly(3)];

@@ -1,5 +1,6 @@
 //! Jacobians and what is accumulated over the frames.
 
+use abbe_core::Orientation;
 use abbe_core::function::Count;
 
 use super::body::Body;
@@ -8,7 +9,6 @@ use super::sums::Twists;
 use crate::chain::{Accumulated, Columns, Local, swing};
 use crate::graph::Node;
 use crate::program::routine::{Row, Stage};
-use crate::spec::Orientation;
 
 impl Draft<'_, '_> {
     /// `J_e`, all of its columns or what of them is neither zero nor repeated.

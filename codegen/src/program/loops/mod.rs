@@ -11,14 +11,14 @@ mod functions;
 mod sums;
 mod walk;
 
-use abbe_core::Function;
+use abbe_core::{Function, Orientation};
+use abbe_spec::Spec;
 
 use self::draft::Draft;
 use self::sums::{Sum, Twists};
 use super::routine::{Array, Routine, Stage, Sums, Table};
 use crate::chain::{Covariance, Displacement, Model};
 use crate::graph::Node;
-use crate::spec::{Orientation, Spec};
 
 /// What loops go over, and what helps them.
 pub(super) struct Loops<'m> {

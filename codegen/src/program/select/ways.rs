@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use crate::expr::Function;
+use abbe_spec::expr::Function;
+
 use crate::graph::{Graph, Node, Op, Signed};
 
 /// A way to compute a class.

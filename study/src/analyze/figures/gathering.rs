@@ -2,8 +2,8 @@
 
 use abbe::Description;
 use abbe::analysis::{Configuration, Row, Sweepable, sweep};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::Spec;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::figure::{Figure, Figures, Gathered};
 use super::gather::{Data, Gather};

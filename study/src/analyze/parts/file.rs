@@ -1,7 +1,7 @@
 //! How parts are written: `docs/scale.md` has the format.
 
-use abbe_codegen::bounded::{Bounded, Unfit};
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::bounded::{Bounded, Unfit};
+use abbe_spec::diagnostic::Diagnostics;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Puts parts together.
 
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::part::{Maker, Part};
 use super::shard::Shard;

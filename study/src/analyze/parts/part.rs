@@ -1,7 +1,7 @@
 //! What was gathered over a share of a workspace.
 
 use abbe::lanes::InstructionSet;
-use abbe_codegen::diagnostic::Diagnostics;
+use abbe_spec::diagnostic::Diagnostics;
 use serde::{Deserialize, Serialize};
 
 use super::question::Question;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::Spec;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
 use serde::{Deserialize, Serialize};
 
 use crate::analyze::Analyze;

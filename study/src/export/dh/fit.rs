@@ -10,8 +10,8 @@
 //! do. Those stay as they are. The column of a motion with prefix `(R, p)` is `(R e; 0)`, or `(R a × (p_T − p); R a)`.
 
 use abbe::{Orientation, Pose, deviation};
-use abbe_codegen::expr::Motion;
-use abbe_codegen::spec::DhNumber;
+use abbe_spec::DhNumber;
+use abbe_spec::expr::Motion;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::rows::{Table, motion};

@@ -9,8 +9,8 @@ mod rows;
 mod text;
 
 use abbe::{Pose, VariableKind};
-use abbe_codegen::diagnostic::{Diagnostics, listed};
-use abbe_codegen::spec::{DhConvention, DhNumber};
+use abbe_spec::diagnostic::{Diagnostics, listed};
+use abbe_spec::{DhConvention, DhNumber};
 
 pub(super) use self::rows::Table;
 use super::found::Found;

@@ -1,9 +1,8 @@
 //! The chain as rows of four numbers.
 
-use abbe::Manipulator;
-use abbe::Pose;
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::spec::{DhConvention, DhNumber};
+use abbe::{Manipulator, Pose};
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::{DhConvention, DhNumber};
 
 use super::slides;
 use crate::export::found::{Found, about_x, about_z};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
 
 use super::rows::{Row, Table};
 use crate::export::found::Found;

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use abbe::analysis::sampling;
 use abbe::{Manipulator, Pose, VariableKind};
-use abbe_codegen::diagnostic::Diagnostics;
-use abbe_codegen::document::Document;
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_spec::document::Document;
 
 use self::edit::{Edited, Moved};
 use super::difference::Difference;

@@ -1,9 +1,10 @@
 //! What a cell of a table holds: a number with a unit, or a variable that moves the joint.
 
 use abbe::LengthUnit;
-use abbe_codegen::diagnostic::{Diagnostic, Span};
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::{Dimension, LARGEST, UNIT_NAMES, parse_value};
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
+use abbe_spec::expr::{Dimension, LARGEST, UNIT_NAMES};
+use abbe_spec::value::parse_value;
 
 use super::Units;
 use super::columns::{Column, Columns, Meaning, Unit};
@@ -184,7 +185,7 @@ fn identifier(name: &str) -> String {
         }
         c => c.to_string(),
     };
-    abbe_codegen::spec::as_identifier(&name.chars().map(plain).collect::<String>())
+    abbe_spec::as_identifier(&name.chars().map(plain).collect::<String>())
 }
 
 fn not_understood(cell: Span) -> Diagnostic {

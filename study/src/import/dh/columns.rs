@@ -1,9 +1,9 @@
 //! What the columns of a table are.
 
 use abbe::LengthUnit;
-use abbe_codegen::diagnostic::{Diagnostic, Span};
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
 
 use super::text::Text;
 
@@ -177,7 +177,7 @@ impl Columns {
             .map(|(_, name)| *name)
             .collect();
         if !missing.is_empty() {
-            let message = format!("there is no column {}", abbe_codegen::diagnostic::listed(&missing));
+            let message = format!("there is no column {}", abbe_spec::diagnostic::listed(&missing));
             let help =
                 "a row has theta, d, a and alpha; where a number is 0 in all rows, write a column of zeros";
             document.mistake(Diagnostic::new(columns.span.clone(), message).help(help));

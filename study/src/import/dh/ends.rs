@@ -1,9 +1,9 @@
 //! Rows that say where the base of a robot stands and where its tool is: `x`, `y`, `z`, then `roll`, `pitch` and `yaw`, as in URDF; or
 //! four numbers that are constant.
 
-use abbe_codegen::diagnostic::{Diagnostic, Span};
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
 
 use super::cell::Cells;
 use super::columns::Meaning;

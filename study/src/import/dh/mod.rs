@@ -12,9 +12,9 @@ mod text;
 use std::str::FromStr;
 
 use abbe::LengthUnit;
-use abbe_codegen::diagnostic::{Diagnostic, listed};
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
+use abbe_spec::diagnostic::{Diagnostic, listed};
+use abbe_spec::document::Document;
 
 use self::cell::Cells;
 use self::columns::Columns;

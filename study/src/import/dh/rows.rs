@@ -1,8 +1,8 @@
 //! The rows of a table as joints.
 
-use abbe_codegen::diagnostic::{Diagnostic, Span};
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::{DhConvention, as_identifier};
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
+use abbe_spec::{DhConvention, as_identifier};
 
 use super::cell::{Amount, Cells};
 use super::columns::Meaning;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use abbe_codegen::diagnostic::{Diagnostic, Span};
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::DhConvention;
+use abbe_spec::DhConvention;
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
 
 use super::columns::Meaning;
 use crate::number::counted;

@@ -1,9 +1,9 @@
 //! What lies between two links of a robot.
 
 use abbe::LengthUnit;
-use abbe_codegen::diagnostic::{Diagnostic, listed};
-use abbe_codegen::document::Document;
-use abbe_codegen::spec::as_identifier;
+use abbe_spec::as_identifier;
+use abbe_spec::diagnostic::{Diagnostic, listed};
+use abbe_spec::document::Document;
 
 use super::robot::{Joint, JointKind, Link, Robot};
 use super::tree::Tree;
@@ -102,7 +102,7 @@ fn named(option: &str, name: &str, names: &[&str], document: &mut Document) -> O
     if found.is_none() {
         // The mistake is in the option: it has no place in the file.
         let mut asked = Document::new(option, name);
-        abbe_codegen::expr::find_name(&mut asked, 0..name.len(), name, names, "link");
+        abbe_spec::value::find_name(&mut asked, 0..name.len(), name, names, "link");
         let help = asked.found.into_iter().find_map(|mistake| mistake.help).unwrap_or_default();
         let message = format!("`{option}`: there is no link `{}`", name.escape_debug());
         document.mistake(Diagnostic::whole_file(message).help(help));
@@ -198,7 +198,7 @@ impl<'r> Builder<'r> {
             };
             let names: Vec<&str> = self.robot.joints.iter().map(|joint| joint.name.as_str()).collect();
             let followed = &mimic.joint;
-            let next = abbe_codegen::expr::find_name(
+            let next = abbe_spec::value::find_name(
                 document,
                 followed.span.clone(),
                 &followed.name,

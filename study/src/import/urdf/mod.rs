@@ -8,7 +8,7 @@ mod read;
 mod robot;
 mod tree;
 
-use abbe_codegen::document::Document;
+use abbe_spec::document::Document;
 
 pub(super) use chained::Ends;
 

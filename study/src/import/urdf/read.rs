@@ -1,7 +1,7 @@
 //! The XML of a URDF file as links and joints.
 
-use abbe_codegen::diagnostic::{Diagnostic, Span};
-use abbe_codegen::document::Document;
+use abbe_spec::diagnostic::{Diagnostic, Span};
+use abbe_spec::document::Document;
 use roxmltree::{Attribute, Node};
 
 use super::robot::{Joint, JointKind, Link, Mimic, Named, Robot};

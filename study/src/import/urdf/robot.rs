@@ -1,6 +1,6 @@
 //! What a URDF file says of links and joints, with the place of everything that can be wrong.
 
-use abbe_codegen::diagnostic::Span;
+use abbe_spec::diagnostic::Span;
 
 use crate::import::placement::Placement;
 

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use abbe_codegen::diagnostic::Diagnostic;
-use abbe_codegen::document::Document;
-use abbe_codegen::expr::find_name;
+use abbe_spec::diagnostic::Diagnostic;
+use abbe_spec::document::Document;
+use abbe_spec::value::find_name;
 
 use super::robot::{Joint, Link, Named, Robot};
 
@@ -147,11 +147,11 @@ impl<'r> Tree<'r> {
 
 /// Numbers by name; a name that stands twice is a mistake.
 fn unique<'a>(
-    named: impl Iterator<Item = (&'a String, &'a abbe_codegen::diagnostic::Span)>,
+    named: impl Iterator<Item = (&'a String, &'a abbe_spec::diagnostic::Span)>,
     what: &str,
     document: &mut Document,
 ) -> HashMap<&'a str, usize> {
-    let mut first: HashMap<&str, (usize, &abbe_codegen::diagnostic::Span)> = HashMap::new();
+    let mut first: HashMap<&str, (usize, &abbe_spec::diagnostic::Span)> = HashMap::new();
     for (number, (name, span)) in named.enumerate() {
         if let Some((_, other)) = first.get(name.as_str()) {
             document.mistake(

@@ -1,0 +1,61 @@
+//! The description of a manipulator: what generated code has as a constant.
+
+use abbe_core::{Description, Effect, Frame, Input, Parameter, Source, Variable};
+use abbe_spec::Spec;
+
+use crate::chain::lower_pairs;
+
+/// What a manipulator of this spec says about itself, with these effects of its enabled sources.
+pub(super) fn description(spec: &Spec, effects: impl IntoIterator<Item = Effect>) -> Description {
+    let frames = spec.frames.iter().zip(lower_pairs(spec));
+    let variables = spec.variables.iter();
+    let parameters = spec.parameters.iter();
+    let inputs = spec.inputs.iter();
+    Description {
+        name: spec.name.as_str().into(),
+        title: spec.title.as_str().into(),
+        length: spec.length,
+        orientation: spec.orientation,
+        frames: frames
+            .map(|(frame, lower_pair)| Frame {
+                name: frame.name.as_str().into(),
+                variable: frame.variable,
+                lower_pair,
+            })
+            .collect(),
+        variables: variables
+            .map(|variable| Variable {
+                name: variable.name.as_str().into(),
+                kind: variable.kind,
+                limits: variable.limits,
+                home: variable.home,
+            })
+            .collect(),
+        parameters: parameters
+            .map(|parameter| Parameter {
+                name: parameter.name.as_str().into(),
+                nominal: parameter.value,
+                unit: parameter.unit.as_str().into(),
+            })
+            .collect(),
+        inputs: inputs
+            .map(|input| Input {
+                name: input.name.as_str().into(),
+                nominal: input.value,
+                range: input.range,
+                unit: input.unit.as_str().into(),
+            })
+            .collect(),
+        sources: spec
+            .enabled_sources()
+            .map(|source| Source {
+                name: source.name.as_str().into(),
+                class: source.class,
+                degrees_of_freedom: source.degrees_of_freedom,
+                at: spec.place(source).as_str().into(),
+                reference: source.reference.as_str().into(),
+            })
+            .collect(),
+        effects: effects.into_iter().collect(),
+    }
+}

@@ -1,0 +1,95 @@
+//! Expressions that stand in no file: made of others, not of text.
+//!
+//! ```
+//! # use abbe_spec::expr::{Dimension, Expression, Function, Symbol};
+//! let angle = Expression::from_symbol(Symbol::Variable(0), Dimension::NONE);
+//! let length = Expression::from_number(2.0, Dimension::LENGTH);
+//! let shift = length * angle.call(Function::Sin);
+//! assert_eq!(shift.whole().dimension, Some(Dimension::LENGTH));
+//! ```
+
+use std::ops::{Add, Div, Mul};
+
+use super::{Binary, Dimension, Expression, Function, Kind, Symbol, Term};
+
+impl Expression {
+    /// A number in the coherent system.
+    pub fn from_number(value: f64, dimension: Dimension) -> Self {
+        Self::number(value, dimension, 0..0)
+    }
+
+    /// A variable, parameter or input, and its dimension.
+    pub fn from_symbol(symbol: Symbol, dimension: Dimension) -> Self {
+        Self::symbol(symbol, Some(dimension), 0..0)
+    }
+
+    /// A function of it, which is a pure number.
+    pub fn call(self, function: Function) -> Self {
+        let value = self.constant().map(|value| function.of(value));
+        let operand = self.terms().len() - 1;
+        self.with(Kind::Call(function, operand), Some(Dimension::NONE), value)
+    }
+
+    /// A power of it.
+    pub fn power(self, exponent: f64) -> Self {
+        let dimension = self.whole().dimension.and_then(|dimension| dimension.power(exponent));
+        let value = self.constant().map(|value| value.powf(exponent));
+        self.combined(Binary::Pow, Self::from_number(exponent, Dimension::NONE), dimension, value)
+    }
+
+    fn combined(
+        self,
+        operator: Binary,
+        right: Self,
+        dimension: Option<Dimension>,
+        value: Option<f64>,
+    ) -> Self {
+        let left = self.terms().len();
+        let place = left + right.terms().len();
+        let mut terms = self.into_terms();
+        terms.extend(
+            right
+                .into_terms()
+                .into_iter()
+                .map(|term| Term { kind: term.kind.map(|operand| operand + left), ..term }),
+        );
+        Self::new(terms).with(Kind::Binary(operator, left - 1, place - 1), dimension, value)
+    }
+
+    fn with(self, kind: Kind, dimension: Option<Dimension>, value: Option<f64>) -> Self {
+        let mut terms = self.into_terms();
+        terms.push(Term { kind, dimension, value, span: 0..0, bare: false });
+        Self::new(terms)
+    }
+}
+
+impl Add for Expression {
+    type Output = Self;
+
+    /// Of two of the same dimension.
+    fn add(self, right: Self) -> Self {
+        let dimension = self.whole().dimension;
+        let value = self.constant().zip(right.constant()).map(|(l, r)| l + r);
+        self.combined(Binary::Add, right, dimension, value)
+    }
+}
+
+impl Mul for Expression {
+    type Output = Self;
+
+    fn mul(self, right: Self) -> Self {
+        let dimension = self.whole().dimension.zip(right.whole().dimension).and_then(|(l, r)| l.times(r));
+        let value = self.constant().zip(right.constant()).map(|(l, r)| l * r);
+        self.combined(Binary::Mul, right, dimension, value)
+    }
+}
+
+impl Div for Expression {
+    type Output = Self;
+
+    fn div(self, right: Self) -> Self {
+        let dimension = self.whole().dimension.zip(right.whole().dimension).and_then(|(l, r)| l.over(r));
+        let value = self.constant().zip(right.constant()).map(|(l, r)| l / r);
+        self.combined(Binary::Div, right, dimension, value)
+    }
+}

@@ -1,0 +1,32 @@
+//! Expressions: text to checked terms. Every mistake has its place; every term its dimension.
+//!
+//! `+ - * / ^`, functions, `pi`, numbers with an optional unit, names. `tokens` cuts the text, `parse`
+//! finds its structure, `build` checks names and dimensions and folds constants as the terms are made; `construct` makes
+//! expressions without text.
+
+mod build;
+mod construct;
+mod cubic;
+mod dimension;
+mod expression;
+mod function;
+mod parse;
+mod reach;
+mod scope;
+mod table;
+mod tokens;
+mod transform;
+mod unit;
+
+pub use abbe_core::LengthUnit;
+pub use dimension::Dimension;
+pub use expression::{Binary, Expression, Kind, Lookup, Term};
+pub use function::{FUNCTION_NAMES, Function};
+pub use scope::{Allowed, Entry, Name, Scope, Symbol};
+pub use table::{Interpolation, Outside, Table};
+pub use transform::{Elementary, Motion, motion};
+pub use unit::{LARGEST, UNIT_NAMES, Unit};
+
+pub(crate) use parse::{parse_expression, parse_unit};
+pub(crate) use tokens::{Place, Token, tokens};
+pub(crate) use transform::parse_transform;

@@ -1,0 +1,160 @@
+//! Unit names and their conversion into the coherent system of a spec.
+
+use abbe_core::LengthUnit;
+
+use super::Dimension;
+
+/// The largest number that is computed with: its square is a number, too.
+pub const LARGEST: f64 = 1e150;
+
+/// A product of unit names.
+///
+/// Against SI it is a quotient of whole numbers, times powers of ten and of π/180: so conversions are exact where they can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// What it measures.
+    pub dimension: Dimension,
+    /// Whole numbers, above and below.
+    ratio: [f64; 2],
+    /// Powers of ten.
+    decades: i32,
+    /// Powers of π/180.
+    degrees: i32,
+}
+
+/// Every unit name, which no other name may be.
+pub const UNIT_NAMES: [&str; 29] = [
+    "m", "cm", "mm", "um", "nm", "inch", "rad", "mrad", "urad", "deg", "arcmin", "arcsec", "%", "ppm", "kg",
+    "g", "t", "lb", "N", "kN", "mN", "Pa", "kPa", "MPa", "GPa", "K", "s", "min", "h",
+];
+
+impl Unit {
+    /// No unit.
+    pub const NONE: Self = Self { dimension: Dimension::NONE, ratio: [1.0; 2], decades: 0, degrees: 0 };
+
+    /// The unit of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        let degrees = |parts: f64| Some(Self { degrees: 1, ratio: [1.0, parts], ..Self::NONE });
+        let times = |number: f64, dimension, decades| {
+            Some(Self { dimension, ratio: [number, 1.0], decades, degrees: 0 })
+        };
+        let (dimension, decades) = match name {
+            "m" => (Dimension::LENGTH, 0),
+            "cm" => (Dimension::LENGTH, -2),
+            "mm" => (Dimension::LENGTH, -3),
+            "um" => (Dimension::LENGTH, -6),
+            "nm" => (Dimension::LENGTH, -9),
+            "inch" => return times(254.0, Dimension::LENGTH, -4),
+            "kg" => (Dimension::MASS, 0),
+            "g" => (Dimension::MASS, -3),
+            "t" => (Dimension::MASS, 3),
+            "lb" => return times(45_359_237.0, Dimension::MASS, -8),
+            "s" => (Dimension::TIME, 0),
+            "min" => return times(60.0, Dimension::TIME, 0),
+            "h" => return times(3600.0, Dimension::TIME, 0),
+            "K" => (Dimension::TEMPERATURE, 0),
+            "N" => (Dimension::FORCE, 0),
+            "kN" => (Dimension::FORCE, 3),
+            "mN" => (Dimension::FORCE, -3),
+            "Pa" => (Dimension::PRESSURE, 0),
+            "kPa" => (Dimension::PRESSURE, 3),
+            "MPa" => (Dimension::PRESSURE, 6),
+            "GPa" => (Dimension::PRESSURE, 9),
+            "rad" => (Dimension::NONE, 0),
+            "mrad" => (Dimension::NONE, -3),
+            "urad" | "ppm" => (Dimension::NONE, -6),
+            "%" => (Dimension::NONE, -2),
+            "deg" => return degrees(1.0),
+            "arcmin" => return degrees(60.0),
+            "arcsec" => return degrees(3600.0),
+            _ => return None,
+        };
+        Some(Self { dimension, decades, ..Self::NONE })
+    }
+
+    /// The product of this unit and a power of another; none if an exponent is absurd.
+    pub fn times(self, other: Self, power: i32) -> Option<Self> {
+        let [above, below] = other.ratio.map(|number| number.powi(power.abs()));
+        let [above, below] = if power < 0 { [below, above] } else { [above, below] };
+        let ratio = [self.ratio[0] * above, self.ratio[1] * below];
+        ratio.iter().all(|number| number.is_finite()).then_some(())?;
+        Some(Self {
+            ratio,
+            dimension: self.dimension.times(other.dimension.power(f64::from(power))?)?,
+            decades: self.decades.checked_add(other.decades.checked_mul(power)?)?,
+            degrees: self.degrees.checked_add(other.degrees.checked_mul(power)?)?,
+        })
+    }
+
+    /// A number in this unit, in the coherent system of a spec: rounded once, and exact where nothing changes.
+    pub fn convert(self, number: f64, length: LengthUnit) -> f64 {
+        let decades = self.decades + decades_per_metre(length) * self.dimension.length_exponent();
+        // Dividing first keeps 90 deg exactly π/2.
+        let mut number = number * self.ratio[0] / self.ratio[1];
+        for _ in 0..self.degrees.abs() {
+            number = if self.degrees > 0 {
+                number / 180.0 * std::f64::consts::PI
+            } else {
+                number / std::f64::consts::PI * 180.0
+            };
+        }
+        if decades >= 0 { number * 10_f64.powi(decades) } else { number / 10_f64.powi(-decades) }
+    }
+}
+
+/// How many powers of ten a number grows by when a metre is written in this unit.
+fn decades_per_metre(length: LengthUnit) -> i32 {
+    match length {
+        LengthUnit::Metre => 0,
+        LengthUnit::Millimetre => 3,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conversions_are_exact_where_they_can_be() {
+        let convert = |number, name, length| Unit::named(name).unwrap().convert(number, length);
+        assert_eq!(convert(718.0, "mm", LengthUnit::Millimetre), 718.0);
+        assert_eq!(convert(718.0, "mm", LengthUnit::Metre), 0.718);
+        assert_eq!(convert(90.0, "deg", LengthUnit::Metre), std::f64::consts::FRAC_PI_2);
+        assert_eq!(convert(1.0, "N", LengthUnit::Millimetre), 1000.0);
+        assert_eq!(convert(210.0, "GPa", LengthUnit::Millimetre), 210e6);
+        assert_eq!(convert(1.0, "inch", LengthUnit::Millimetre), 25.4);
+        assert_eq!(convert(1.0, "inch", LengthUnit::Metre), 0.0254);
+        assert_eq!(convert(1.0, "lb", LengthUnit::Metre), 0.453_592_37);
+        assert_eq!(convert(2.0, "t", LengthUnit::Metre), 2000.0);
+        assert_eq!(convert(3.0, "cm", LengthUnit::Millimetre), 30.0);
+        assert_eq!(convert(7.0, "nm", LengthUnit::Metre), 7e-9);
+        assert_eq!(convert(3.0, "mN", LengthUnit::Metre), 3e-3);
+        assert_eq!(convert(5.0, "kPa", LengthUnit::Metre), 5e3);
+        assert_eq!(convert(1.5, "h", LengthUnit::Metre), 5400.0);
+        assert_eq!(convert(1.5, "min", LengthUnit::Metre), 90.0);
+        assert_eq!(convert(7.0, "%", LengthUnit::Metre), 0.07);
+        assert_eq!(
+            [convert(7.0, "ppm", LengthUnit::Metre), convert(7.0, "urad", LengthUnit::Metre)],
+            [7e-6; 2]
+        );
+        let right = std::f64::consts::FRAC_PI_2;
+        assert_eq!(convert(5400.0, "arcmin", LengthUnit::Metre), right);
+        assert_eq!(convert(324_000.0, "arcsec", LengthUnit::Metre), right);
+    }
+
+    #[test]
+    fn factors_of_products_are_exact_too() {
+        let inch = Unit::named("inch").unwrap();
+        let area = Unit::NONE.times(inch, 2).unwrap();
+        assert_eq!(area.convert(1.0, LengthUnit::Millimetre), 645.16);
+        let speed = inch.times(Unit::named("min").unwrap(), -1).unwrap();
+        assert_eq!(speed.convert(60.0, LengthUnit::Millimetre), 25.4);
+    }
+
+    #[test]
+    fn every_name_has_a_unit() {
+        for name in UNIT_NAMES {
+            assert!(Unit::named(name).is_some(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! A manipulator as its spec file describes it, read and checked.
+//!
+//! [`Spec`] is what a file says once nothing is wrong with it; `read` makes it of the file's text.
+
+mod chain_number;
+mod covariance;
+mod declared;
+mod fitted;
+mod frame;
+mod load;
+mod names;
+mod read;
+mod source;
+mod spec;
+mod tunable;
+
+pub use chain_number::{ChainNumber, DhConvention, DhNumber};
+pub use covariance::{Covariance, Identified};
+pub use declared::{Input, Parameter, Variable};
+pub use fitted::Fitted;
+pub use frame::{Factor, Frame, Matrix};
+pub use load::{Axes, Load, Point};
+pub use names::as_identifier;
+pub use read::keys::TABLES;
+pub use source::{Beam, Cause, Compliance, Deviation, Effect, Magnitude, Source};
+pub use spec::Spec;
+pub use tunable::MAGNITUDE;

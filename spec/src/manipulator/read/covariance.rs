@@ -1,0 +1,78 @@
+//! `[covariance]`: how well the errors of an identified machine are known, and how they depend on each other.
+
+use abbe_core::Component;
+
+use super::keys::{COVARIANCE, COVARIANCE_OF};
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, Scope};
+use crate::manipulator::{Cause, Covariance, Identified, Source};
+use crate::value::find_name;
+
+/// Reads the table, if there is one.
+pub(super) fn read_covariance(
+    root: &Section<'_>,
+    sources: &[Source],
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Covariance> {
+    let Some(item) = root.get("covariance") else { return Some(Covariance::default()) };
+    let mut section = document.section(&item)?;
+    section.name = "[covariance]".to_owned();
+    section.check_keys(&[&COVARIANCE], document);
+    let (of, rows) = (section.required("of", document), section.required("rows", document));
+    let (of, rows_item) = (of?, rows?);
+    let mut all = Vec::new();
+    for item in document.array(&of, "tables, each `{ source = \"…\" }`")? {
+        all.push(identified(&item, sources, document)?);
+    }
+    let mut rows = Vec::new();
+    for row in document.array(&rows_item, "rows of numbers")? {
+        let mut numbers = Vec::new();
+        for number in document.array(&row, "numbers")? {
+            let entry =
+                Entry { dimension: Some(Dimension::NONE), what: "a covariance", names: Allowed::Nothing };
+            numbers.push(document.constant(&number, scope, entry)?.0);
+        }
+        rows.push(numbers);
+    }
+    let count = all.len();
+    let square = rows.len() == count && rows.iter().all(|row| row.len() == count);
+    let message = if !square {
+        format!("this covariance must have {count} rows of {count} numbers")
+    } else if (0..count).any(|i| rows[i][i] < 0.0) {
+        "a variance is not negative".to_owned()
+    } else if (0..count).any(|i| (0..i).any(|j| rows[i][j] != rows[j][i])) {
+        "a covariance is the same above and below its diagonal".to_owned()
+    } else {
+        return Some(Covariance { of: all, rows });
+    };
+    let help = "`abbe identify --out` writes it; leave the table out if it is not known";
+    document.mistake(Diagnostic::new(rows_item.span(), message).help(help));
+    None
+}
+
+fn identified(item: &Item<'_>, sources: &[Source], document: &mut Document) -> Option<Identified> {
+    let mut section = document.section(item)?;
+    section.name = "this entry of [covariance]".to_owned();
+    section.span = item.span();
+    section.check_keys(&[&COVARIANCE_OF], document);
+    let names: Vec<&str> = sources.iter().map(|source| source.name.as_str()).collect();
+    let name = section.required("source", document)?;
+    let text = document.string(&name)?;
+    let source = find_name(document, name.span(), &text, &names, "source")?;
+    let Some(error) = section.get("error") else { return Some(Identified::Magnitude(source)) };
+    let component =
+        document.choice(&error, &Component::ALL.map(|component| (component.name(), component)))?;
+    let has = |cause: &Cause| match cause {
+        Cause::Errors(errors) => errors.iter().any(|(own, _)| *own == component),
+        _ => false,
+    };
+    let effect = sources[source].effects.iter().find(|effect| effect.at.is_empty() && has(&effect.cause));
+    if effect.is_none() {
+        let message = format!("`{text}` has no {} of a frame", component.name());
+        let help = "name an error that the source has, or leave `error` out for all of it";
+        document.mistake(Diagnostic::new(error.span(), message).help(help));
+    }
+    effect.map(|effect| Identified::Error(effect.frame, component))
+}

@@ -1,0 +1,218 @@
+//! Parameters, inputs and variables: everything an expression can name.
+
+use abbe_core::VariableKind;
+
+use super::keys;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, LengthUnit, Name, Scope, Symbol};
+use crate::keys::Keys;
+use crate::manipulator::names::check_identifier;
+use crate::manipulator::{Input, Parameter, Variable};
+
+/// The most parameters of a manipulator, and the most inputs.
+const MOST: usize = 10_000;
+
+/// The names of a spec, and what was declared with them.
+pub(super) struct Declarations {
+    pub(super) scope: Scope,
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) inputs: Vec<Input>,
+    pub(super) variables: Vec<Variable>,
+}
+
+impl Declarations {
+    pub(super) fn new(length: LengthUnit) -> Self {
+        let scope = Scope::new(length);
+        Self { scope, parameters: Vec::new(), inputs: Vec::new(), variables: Vec::new() }
+    }
+
+    /// `[parameters]`.
+    pub(super) fn read_parameters(&mut self, root: &Section<'_>, document: &mut Document) {
+        let Some(item) = root.get("parameters") else { return };
+        let Some(section) = document.section(&item) else { return };
+        let help = "numbers that are never set at run time can stand where they are used";
+        if document.at_most(&item, section.items().count(), MOST, "parameters", help).is_none() {
+            return;
+        }
+        for item in section.items() {
+            let (value, table) = self.valued(&item, &keys::PARAMETER, "parameter", document);
+            let symbol = Symbol::Parameter(self.parameters.len());
+            self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
+            let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
+            self.set_range(&item.key, [value; 2]);
+            let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
+            let unit = dimension.unit(self.scope.length.symbol());
+            self.parameters.push(Parameter { name: item.key, value, dimension, unit, description });
+        }
+    }
+
+    /// `[inputs]`.
+    pub(super) fn read_inputs(&mut self, root: &Section<'_>, document: &mut Document) {
+        let Some(item) = root.get("inputs") else { return };
+        let Some(section) = document.section(&item) else { return };
+        let help = "numbers that are the same at every use are parameters, or stand where they are used";
+        if document.at_most(&item, section.items().count(), MOST, "inputs", help).is_none() {
+            return;
+        }
+        for item in section.items() {
+            let (value, table) = self.valued(&item, &keys::INPUT, "input", document);
+            let symbol = Symbol::Input(self.inputs.len());
+            self.declare(&item.key, item.key_span.clone(), symbol, value.map(|v| v.1), document);
+            let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+            if let (Some((value, dimension)), Some(table)) = (value, &table)
+                && let Some(entry) = table.get("range")
+                && let Some(read) = self.interval(&entry, dimension, document)
+            {
+                range = read;
+                if !(range[0]..=range[1]).contains(&value) {
+                    let message = format!("the value of `{}` is outside its range", item.key);
+                    document.mistake(
+                        Diagnostic::new(entry.span(), message)
+                            .label(format!("the value is {value}"))
+                            .help("widen the range or change the value"),
+                    );
+                }
+            }
+            let (value, dimension) = value.unwrap_or((0.0, Dimension::NONE));
+            self.set_range(&item.key, range);
+            let description = table.map_or_else(String::new, |t| t.optional_text("description", document));
+            let unit = dimension.unit(self.scope.length.symbol());
+            self.inputs.push(Input { name: item.key, value, dimension, unit, range, description });
+        }
+    }
+
+    /// The `variable` of a frame; its index.
+    pub(super) fn read_variable(
+        &mut self,
+        frame: usize,
+        item: &Item<'_>,
+        document: &mut Document,
+    ) -> Option<usize> {
+        let mut table = document.section(item)?;
+        table.name = "`variable`".to_owned();
+        table.check_keys(&[&keys::VARIABLE], document);
+        let name_item = table.required("name", document);
+        let kind = table.required("kind", document).and_then(|kind| {
+            let kinds = [("revolute", VariableKind::Revolute), ("prismatic", VariableKind::Prismatic)];
+            document.choice(&kind, &kinds)
+        });
+        let dimension = kind.map(|kind| match kind {
+            VariableKind::Revolute => Dimension::NONE,
+            VariableKind::Prismatic => Dimension::LENGTH,
+        });
+        let name_item = name_item?;
+        let name = document.string(&name_item)?;
+        let index = self.variables.len();
+        self.declare(&name, name_item.span(), Symbol::Variable(index), dimension, document);
+        let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
+        let mut home = 0.0;
+        if let Some(dimension) = dimension {
+            let entry = table.get("limits");
+            if let Some(read) = entry.as_ref().and_then(|entry| self.interval(entry, dimension, document)) {
+                limits = read;
+            }
+            let home_item = table.get("home");
+            if let Some(item) = &home_item {
+                let expected =
+                    Entry { dimension: Some(dimension), what: "the home value", names: Allowed::Nothing };
+                home = document.constant(item, &self.scope, expected).map_or(home, |read| read.0);
+            }
+            if !(limits[0]..=limits[1]).contains(&home) {
+                let span = home_item.map(|item| item.span()).or(entry.map(|entry| entry.span()));
+                document.mistake(
+                    Diagnostic::new(
+                        span.unwrap_or(item.key_span.clone()),
+                        format!("home of `{name}` is outside its limits"),
+                    )
+                    .label(format!("home is {home}, the limits are {} … {}", limits[0], limits[1]))
+                    .help("give a `home` within the limits; it is 0 if not given"),
+                );
+            }
+        }
+        self.set_range(&name, limits);
+        let kind = kind.unwrap_or(VariableKind::Revolute);
+        let description = table.optional_text("description", document);
+        self.variables.push(Variable { name, kind, limits, home, description, frame });
+        Some(index)
+    }
+
+    /// The value of a parameter or input: `x = 5`, `x = "5 mm"` or `x = { value = "5 mm", … }`.
+    fn valued<'d>(
+        &self,
+        item: &Item<'d>,
+        known: &Keys,
+        what: &str,
+        document: &mut Document,
+    ) -> (Option<(f64, Dimension)>, Option<Section<'d>>) {
+        let entry =
+            Entry { dimension: None, what: &format!("the value of a {what}"), names: Allowed::Nothing };
+        if !item.is_table() {
+            return (document.constant(item, &self.scope, entry), None);
+        }
+        let Some(mut table) = document.section(item) else {
+            return (None, None);
+        };
+        table.name = format!("the {what} `{}`", item.key);
+        table.check_keys(&[known], document);
+        let value = table.required("value", document);
+        (value.and_then(|value| document.constant(&value, &self.scope, entry)), Some(table))
+    }
+
+    /// Two ends of an interval, the lower one first.
+    pub(super) fn interval(
+        &self,
+        item: &Item<'_>,
+        dimension: Dimension,
+        document: &mut Document,
+    ) -> Option<[f64; 2]> {
+        let what = format!("an end of `{}`", item.key);
+        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Nothing };
+        let ends: [Item<'_>; 2] = document.entries(item, "two numbers, lower and upper")?;
+        let [lower, upper] = ends.map(|end| document.constant(&end, &self.scope, entry));
+        let (lower, upper) = (lower?.0, upper?.0);
+        if lower > upper {
+            document.mistake(
+                Diagnostic::new(item.span(), format!("`{}` is the wrong way round", item.key))
+                    .label(format!("{lower} is more than {upper}"))
+                    .help("write the lower end first"),
+            );
+            return None;
+        }
+        Some([lower, upper])
+    }
+
+    fn set_range(&mut self, name: &str, range: [f64; 2]) {
+        if let Some(name) = self.scope.names.get_mut(name) {
+            name.range = range;
+        }
+    }
+
+    fn declare(
+        &mut self,
+        name: &str,
+        span: Span,
+        symbol: Symbol,
+        dimension: Option<Dimension>,
+        document: &mut Document,
+    ) {
+        // A name that cannot be one is declared all the same: that it is used is not another mistake.
+        check_identifier(name, span.clone(), document);
+        if self.scope.tables.iter().any(|table| table.name == name) {
+            let message = format!("`{name}` is the name of a table already");
+            document.mistake(Diagnostic::new(span, message).help("rename one of them"));
+            return;
+        }
+        if let Some(first) = self.scope.names.get(name) {
+            document.mistake(
+                Diagnostic::new(span, format!("the name `{name}` is used twice"))
+                    .label("second use")
+                    .context(first.span.clone(), "first use")
+                    .help("parameters, inputs and variables share their names; rename one"),
+            );
+            return;
+        }
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        self.scope.names.insert(name.to_owned(), Name { symbol, dimension, span, range });
+    }
+}

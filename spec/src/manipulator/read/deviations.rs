@@ -1,0 +1,200 @@
+//! Sources at a number of the nominal chain itself: a joint, a structural parameter, a Denavit-Hartenberg number.
+
+use super::effects::find_frame;
+use super::frames::motion_dimension;
+use super::keys;
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, Scope, Symbol};
+use crate::manipulator::{ChainNumber, Deviation, DhNumber, Factor, Frame};
+use crate::value::find_name;
+
+/// The nominal chain as far as it could be read: none of the tool if it is mistaken.
+#[derive(Clone, Copy)]
+pub(super) struct Chain<'a> {
+    pub(super) frames: &'a [Frame],
+    pub(super) tool: Option<&'a [Factor]>,
+    pub(super) scope: &'a Scope,
+}
+
+impl Chain<'_> {
+    /// Whether a symbol stands in an `A_i` or the tool; yes if a mistake there leaves it open.
+    fn uses(&self, symbol: Symbol) -> bool {
+        let mistaken = self.tool.is_none() || self.frames.iter().any(|frame| frame.factors.is_empty());
+        let factors =
+            self.frames.iter().flat_map(|frame| &frame.factors).chain(self.tool.unwrap_or_default());
+        mistaken || factors.flat_map(Factor::expressions).any(|e| e.symbols().any(|used| used == symbol))
+    }
+}
+
+/// Reads what a source, or one of its `[[source.effect]]` tables, says of numbers of the chain.
+pub(super) fn read_deviations(
+    section: &Section<'_>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<Vec<Deviation>> {
+    let places: Vec<Item<'_>> =
+        ["joint", "parameter", "dh"].iter().filter_map(|key| section.get(key)).collect();
+    let Some(place) = places.first() else {
+        let item = section.get("error")?;
+        document.mistake(
+            Diagnostic::new(item.key_span, "`error` needs to know of what")
+                .label("of which joint or parameter?")
+                .help("add `joint = …` or `parameter = …`; errors of a frame are called e_x, e_y, e_z, e_s, e_r, e_p"),
+        );
+        return None;
+    };
+    let is_dh = place.key == "dh";
+    let allowed: &[&str] = if is_dh { &["dh", "frame"] } else { &[place.key.as_str(), "error"] };
+    let says_where = |item: &Item<'_>| {
+        [&keys::PLACE, &keys::CAUSE, &keys::DEVIATION].iter().any(|keys| keys.contain(&item.key))
+    };
+    if let Some(other) =
+        section.items().find(|item| says_where(item) && !allowed.contains(&item.key.as_str()))
+    {
+        let help = match (other.key.as_str(), is_dh) {
+            ("frame", _) => {
+                format!("leave `frame` out: the error acts wherever the {} stands in the chain", place.key)
+            }
+            ("at", _) => "leave `at` out: it says where on a link the errors e_… of a frame are".to_owned(),
+            ("error", _) => "the errors of `dh` stand in it: dh = { theta = …, a = … }".to_owned(),
+            _ => "list them as [[source.effect]] tables of the source".to_owned(),
+        };
+        document.mistake(
+            Diagnostic::new(other.key_span, format!("`{}` stands beside `{}`", other.key, place.key))
+                .label("one too many")
+                .context(place.key_span.clone(), "the other one")
+                .help(help),
+        );
+        return None;
+    }
+    match place.key.as_str() {
+        "dh" => read_numbers(section, place, chain, document),
+        _ => read_symbol(section, place, chain, document).map(|deviation| vec![deviation]),
+    }
+}
+
+/// `joint` or `parameter`, with its `error`.
+fn read_symbol(
+    section: &Section<'_>,
+    place: &Item<'_>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<Deviation> {
+    let error = section.required("error", document);
+    let (number, dimension) = find_symbol(place, chain, document)?;
+    let name = document.string(place)?;
+    let what = format!("the error of `{name}`");
+    let entry = Entry { dimension, what: &what, names: Allowed::Everything };
+    let error = document.expression(&error?, chain.scope, entry)?;
+    Some(Deviation { number, error, span: place.key_span.clone() })
+}
+
+fn find_symbol(
+    place: &Item<'_>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<(ChainNumber, Option<Dimension>)> {
+    let name = document.string(place)?;
+    let of_joint = place.key == "joint";
+    let fits = |symbol: Symbol| match symbol {
+        Symbol::Variable(_) => of_joint,
+        Symbol::Parameter(_) => !of_joint,
+        _ => false,
+    };
+    let declared = chain.scope.names.get(&name);
+    if let Some(other) = declared.filter(|declared| !fits(declared.symbol)) {
+        let (kind, help) = match other.symbol {
+            Symbol::Variable(_) => ("a joint", format!("write joint = \"{name}\"")),
+            Symbol::Parameter(_) => ("a parameter", format!("write parameter = \"{name}\"")),
+            _ => ("an input", "inputs may stand in `error`, but are not part of the chain".to_owned()),
+        };
+        document.mistake(
+            Diagnostic::new(place.span(), format!("`{name}` is {kind}, not a {}", place.key))
+                .context(other.span.clone(), "declared here")
+                .help(help),
+        );
+        return None;
+    }
+    let known = chain.scope.names.iter().filter(|(_, declared)| fits(declared.symbol));
+    let known: Vec<&str> = known.map(|(name, _)| name.as_str()).collect();
+    if let Some(frame) = chain.frames.iter().find(|frame| frame.name == name && declared.is_none())
+        && of_joint
+        && let Some(joint) = frame.variable.and_then(|variable| known.get(variable))
+    {
+        document.mistake(
+            Diagnostic::new(place.span(), format!("`{name}` is a frame, not a joint"))
+                .help(format!("its joint is called `{joint}`: write joint = \"{joint}\"")),
+        );
+        return None;
+    }
+    find_name(document, place.span(), &name, &known, &place.key)?;
+    let declared = declared?;
+    if !chain.uses(declared.symbol) {
+        document.mistake(
+            Diagnostic::new(place.span(), format!("`{name}` stands in no transform"))
+                .label("its error would move nothing")
+                .help("use the parameter in a frame or in the tool, or give the errors of a `frame` instead"),
+        );
+        return None;
+    }
+    let number = match declared.symbol {
+        Symbol::Variable(variable) => ChainNumber::Joint(variable),
+        Symbol::Parameter(parameter) => ChainNumber::Parameter(parameter),
+        _ => return None,
+    };
+    Some((number, declared.dimension))
+}
+
+/// `dh = { theta, d, a, alpha }`: errors of the numbers of a frame that is given by them.
+fn read_numbers(
+    section: &Section<'_>,
+    place: &Item<'_>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<Vec<Deviation>> {
+    let mut table = document.section(place)?;
+    table.name = "`dh`".to_owned();
+    table.check_keys(&[&keys::NUMBERS], document);
+    let named = section.required("frame", document)?;
+    let frame = find_frame(&named, chain.frames, document)?;
+    if chain.frames[frame].convention.is_none() && !chain.frames[frame].factors.is_empty() {
+        document.mistake(
+            Diagnostic::new(
+                named.span(),
+                format!("the frame \"{}\" has no Denavit-Hartenberg numbers", chain.frames[frame].name),
+            )
+            .label("not given by `dh` or `mdh`")
+            .help("give its errors e_x, e_y, e_z, e_s, e_r, e_p, or those of a `joint` or `parameter`"),
+        );
+        return None;
+    }
+    let mut deviations = Vec::new();
+    let mut complete = true;
+    for number in DhNumber::ALL {
+        let Some(item) = table.get(number.name()) else { continue };
+        let what = format!("the error of `{}`", number.name());
+        let entry = Entry {
+            dimension: Some(motion_dimension(number.motion().0)),
+            what: &what,
+            names: Allowed::Everything,
+        };
+        match document.expression(&item, chain.scope, entry) {
+            Some(error) => deviations.push(Deviation {
+                number: ChainNumber::DenavitHartenberg { frame, number },
+                error,
+                span: item.key_span,
+            }),
+            None => complete = false,
+        }
+    }
+    if table.items().next().is_none() {
+        document.mistake(
+            Diagnostic::new(place.span(), "`dh` has no number")
+                .label("which of the four is off?")
+                .help("give at least one of theta, d, a, alpha"),
+        );
+        return None;
+    }
+    complete.then_some(deviations)
+}

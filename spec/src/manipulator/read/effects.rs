@@ -1,0 +1,104 @@
+//! What a source does to a frame: errors as they are, the sag of a beam, a compliance; there or at another place
+//! on the link.
+
+use abbe_core::Component;
+
+use super::elastic::{read_beam, read_compliance};
+use super::keys;
+use crate::diagnostic::{Diagnostic, suggestion};
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
+use crate::manipulator::{Cause, Effect, Frame};
+
+/// Reads the effect that a source, or one of its `[[source.effect]]` tables, describes.
+pub(super) fn read_effect(
+    section: &Section<'_>,
+    frames: &[Frame],
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Effect> {
+    let causes: Vec<Item<'_>> = section.items().filter(|item| keys::CAUSE.contain(&item.key)).collect();
+    let Some(first) = causes.first() else {
+        document.mistake(
+            Diagnostic::new(section.span.clone(), format!("{} causes no error", section.name))
+                .label("no `e_…` here")
+                .help("give its `frame` and at least one of e_x, e_y, e_z, e_s, e_r, e_p, or a `beam` or `compliance`; or the `error` of a `joint` or `parameter`"),
+        );
+        return None;
+    };
+    let elastic = |item: &&Item<'_>| !item.key.starts_with("e_");
+    if let Some(one) = causes.iter().find(elastic)
+        && causes.len() > 1
+    {
+        let other = if one.key == first.key { &causes[1] } else { first };
+        document.mistake(
+            Diagnostic::new(other.key_span.clone(), format!("`{}` stands beside `{}`", other.key, one.key))
+                .label("one too many")
+                .context(one.key_span.clone(), "the other one")
+                .help("list them as [[source.effect]] tables of the source"),
+        );
+        return None;
+    }
+    let frame = section.required("frame", document).and_then(|item| find_frame(&item, frames, document));
+    let at = match section.get("at") {
+        Some(item) => read_place(&item, scope, document),
+        None => Some(Vec::new()),
+    };
+    let cause = match first.key.as_str() {
+        "beam" => read_beam(first, scope, document).map(Cause::Beam),
+        "compliance" => read_compliance(first, scope, document).map(|read| Cause::Compliance(Box::new(read))),
+        _ => read_errors(section, scope, document).map(Cause::Errors),
+    };
+    Some(Effect { frame: frame?, at: at?, cause: cause?, span: first.key_span.clone() })
+}
+
+/// The index of the frame that an item names.
+pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame], document: &mut Document) -> Option<usize> {
+    let name = document.string(item)?;
+    let found = frames.iter().position(|frame| frame.name == name);
+    if found.is_none() {
+        let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
+        let help = suggestion(document.found.len(), &name, &names, "frames");
+        document.mistake(
+            Diagnostic::new(item.span(), format!("there is no frame `{}`", name.escape_debug()))
+                .label("not a frame of this spec")
+                .help(help),
+        );
+    }
+    found
+}
+
+fn read_place(
+    item: &Item<'_>,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<crate::manipulator::Factor>> {
+    let (text, place) = document.text(item)?;
+    let factors = parse_transform(text, &place, scope, &mut document.found)?;
+    Some(factors.into_iter().map(crate::manipulator::Factor::Elementary).collect())
+}
+
+fn read_errors(
+    section: &Section<'_>,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<(Component, Expression)>> {
+    let mut errors = Vec::new();
+    let mut complete = true;
+    for component in Component::ALL {
+        if let Some(item) = section.get(component.name()) {
+            let (motion, axis) = motion(component);
+            let (dimension, verb) = match motion {
+                Motion::Translation => (Dimension::LENGTH, "translation along"),
+                Motion::Rotation => (Dimension::NONE, "rotation about"),
+            };
+            let what = format!("`{}`, a {verb} {},", component.name(), ["x", "y", "z"][axis]);
+            let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
+            match document.expression(&item, scope, entry) {
+                Some(value) => errors.push((component, value)),
+                None => complete = false,
+            }
+        }
+    }
+    complete.then_some(errors)
+}

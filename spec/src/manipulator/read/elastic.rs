@@ -1,0 +1,114 @@
+//! What gives way under loads: a `beam`, a `compliance`.
+
+use abbe_core::Component;
+
+use super::keys;
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item};
+use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
+use crate::manipulator::{Beam, Compliance};
+
+/// Reads a `beam`; `positive` sees to the signs of its quantities.
+pub(super) fn read_beam(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Beam> {
+    let mut table = document.section(item)?;
+    table.name = "`beam`".to_owned();
+    table.check_keys(&[&keys::BEAM], document);
+    let mut quantity = |key: &str, dimension: Dimension, required: bool| -> Option<Option<Expression>> {
+        let item = if required { Some(table.required(key, document)?) } else { table.get(key) };
+        let what = format!("`{key}`");
+        let entry = Entry { dimension: Some(dimension), what: &what, names: Allowed::Everything };
+        match item {
+            Some(item) => document.expression(&item, scope, entry).map(Some),
+            None => Some(None),
+        }
+    };
+    let stiffness = Dimension::FORCE_TIMES_AREA;
+    let length = quantity("length", Dimension::LENGTH, true);
+    let (y, z) = (quantity("EI_y", stiffness, true), quantity("EI_z", stiffness, true));
+    let (torsion, extension) = (quantity("GJ", stiffness, false), quantity("EA", Dimension::FORCE, false));
+    let mass_per_length = quantity("mass_per_length", Dimension::MASS_PER_LENGTH, false);
+    let axis = match table.get("axis") {
+        Some(item) => document.choice(&item, &[("x", 0), ("y", 1), ("z", 2)]),
+        None => Some(0),
+    };
+    Some(Beam {
+        axis: axis?,
+        length: length??,
+        bending: [y??, z??],
+        torsion: torsion?,
+        extension: extension?,
+        mass_per_length: mass_per_length?,
+    })
+}
+
+/// Reads a `compliance`: six numbers on the diagonal, or all 36.
+pub(super) fn read_compliance(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Compliance> {
+    let mut table = document.section(item)?;
+    table.name = "`compliance`".to_owned();
+    table.check_keys(&[&keys::COMPLIANCE], document);
+    let entry = |row: usize, column: usize, item: &Item<'_>, document: &mut Document| {
+        let what = format!("{} per unit of {}", Component::ALL[row].name(), WRENCH[column]);
+        let entry =
+            Entry { dimension: Some(dimension(row, column)), what: &what, names: Allowed::Everything };
+        document.expression(item, scope, entry)
+    };
+    let mut compliance = Compliance::default();
+    match (table.get("diagonal"), table.get("matrix")) {
+        (Some(diagonal), None) => {
+            let entries: [Item<'_>; 6] = document.entries(&diagonal, "six numbers")?;
+            for (i, item) in entries.iter().enumerate() {
+                compliance[i][i] = Some(entry(i, i, item, document)?);
+            }
+        }
+        (None, Some(matrix)) => {
+            let rows: [Item<'_>; 6] = document.entries(&matrix, "six rows of six numbers")?;
+            for (i, row) in rows.iter().enumerate() {
+                let entries: [Item<'_>; 6] = document.entries(row, "six rows of six numbers")?;
+                for (j, item) in entries.iter().enumerate() {
+                    compliance[i][j] = Some(entry(i, j, item, document)?);
+                }
+            }
+            check_symmetric(&compliance, document)?;
+        }
+        _ => {
+            document.mistake(
+                Diagnostic::new(item.key_span.clone(), "a compliance needs its numbers")
+                    .label("`diagonal` or `matrix`?")
+                    .help("write { diagonal = [six] } or { matrix = [[six], …] }, in the order of e_x e_y e_z e_s e_r e_p"),
+            );
+            return None;
+        }
+    }
+    Some(compliance)
+}
+
+/// Forces and moments in the order of ε.
+const WRENCH: [&str; 6] =
+    ["force along x", "force along y", "force along z", "moment about y", "moment about z", "moment about x"];
+
+fn dimension(row: usize, column: usize) -> Dimension {
+    let error = if row < 3 { Dimension::LENGTH } else { Dimension::NONE };
+    let wrench = if column < 3 { Dimension::FORCE } else { Dimension::MOMENT };
+    // Both are small powers, whose quotient is one.
+    error.over(wrench).unwrap_or(Dimension::NONE)
+}
+
+/// By reciprocity the work of two loads does not depend on their order.
+fn check_symmetric(compliance: &Compliance, document: &mut Document) -> Option<()> {
+    for (i, row) in compliance.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate().take(i) {
+            let (Some(below), Some(above)) = (entry, &compliance[j][i]) else { continue };
+            let (Some(a), Some(b)) = (below.constant(), above.constant()) else { continue };
+            if (a - b).abs() > 1e-9 * a.abs().max(b.abs()) {
+                document.mistake(
+                    Diagnostic::new(below.span(), "a compliance matrix must be symmetric")
+                        .label(format!("this is {a}"))
+                        .context(above.span(), format!("this is {b}"))
+                        .help("displacement k per unit of load l equals displacement l per unit of load k"),
+                );
+                return None;
+            }
+        }
+    }
+    Some(())
+}

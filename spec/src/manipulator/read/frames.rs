@@ -1,0 +1,243 @@
+//! The ways to write an `A_i`, all of which become a product of [`Factor`]s.
+
+use abbe_core::VariableKind;
+
+use super::keys;
+use super::rigid;
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item, Section};
+use crate::expr::{
+    Allowed, Dimension, Elementary, Entry, Expression, Motion, Scope, Symbol, parse_transform,
+};
+use crate::manipulator::{DhConvention, Factor, Matrix};
+
+/// What a variable brings to an `origin`/`axis` frame.
+pub(super) type OwnVariable = Option<(usize, VariableKind)>;
+
+/// Reads the transform of a frame or tool.
+pub(super) fn read_factors(
+    section: &Section<'_>,
+    own: OwnVariable,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
+    // One of them; `axis` goes with `origin`.
+    let forms = keys::TRANSFORM.keys.iter().filter(|key| **key != "axis");
+    let forms: Vec<Item<'_>> = forms.filter_map(|form| section.get(form)).collect();
+    let axis = section.get("axis");
+    if let [first, second, ..] = &forms[..] {
+        let message = format!("{} has both `{}` and `{}`", section.name, first.key, second.key);
+        document.mistake(
+            Diagnostic::new(second.key_span.clone(), message)
+                .label("one too many")
+                .context(first.key_span.clone(), "the first one")
+                .help("keep one of them"),
+        );
+        return None;
+    }
+    if let (Some(axis), Some(form)) = (&axis, forms.first().filter(|form| form.key != "origin")) {
+        let message = format!("`axis` belongs to `origin`, not to `{}`", form.key);
+        document.mistake(Diagnostic::new(axis.key_span.clone(), message).help("leave `axis` out"));
+        return None;
+    }
+    let Some(form) = forms.first() else {
+        if axis.is_some() {
+            return about_axis(axis.as_ref(), section, own, scope, document);
+        }
+        document.mistake(
+            Diagnostic::new(section.span.clone(), format!("{} has no transform", section.name))
+                .label("how does one get here from the frame before?")
+                .help("give one of `transform`, `matrix`, `dh`, `mdh`, `origin`"),
+        );
+        return None;
+    };
+    match form.key.as_str() {
+        "transform" => {
+            let (text, place) = document.text(form)?;
+            let factors = parse_transform(text, &place, scope, &mut document.found)?;
+            if factors.is_empty() {
+                document.mistake(
+                    Diagnostic::new(form.span(), "this transform is empty")
+                        .label("expected a product of Tx, Ty, Tz, Rx, Ry, Rz")
+                        .help("write `Tx(0)` for a frame in the same place"),
+                );
+                return None;
+            }
+            Some(factors.into_iter().map(Factor::Elementary).collect())
+        }
+        "matrix" => read_matrix(form, scope, document).map(|matrix| vec![Factor::Matrix(Box::new(matrix))]),
+        "dh" => denavit_hartenberg(form, scope, document, DhConvention::Standard),
+        "mdh" => denavit_hartenberg(form, scope, document, DhConvention::Modified),
+        _ => {
+            let mut factors = origin(form, scope, document);
+            let motion = about_axis(axis.as_ref(), section, own, scope, document);
+            factors.as_mut()?.extend(motion?);
+            factors
+        }
+    }
+}
+
+/// Which Denavit-Hartenberg product a frame is, if it is one.
+pub(super) fn convention(section: &Section<'_>) -> Option<DhConvention> {
+    let forms = [("dh", DhConvention::Standard), ("mdh", DhConvention::Modified)];
+    forms.into_iter().find(|(key, _)| section.get(key).is_some()).map(|(_, convention)| convention)
+}
+
+const T: Motion = Motion::Translation;
+const R: Motion = Motion::Rotation;
+
+pub(super) fn motion_dimension(motion: Motion) -> Dimension {
+    match motion {
+        Motion::Translation => Dimension::LENGTH,
+        Motion::Rotation => Dimension::NONE,
+    }
+}
+
+fn read_matrix(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Matrix> {
+    let rows: [Item<'_>; 4] = document.entries(item, "four rows of four entries")?;
+    let mut read = Vec::new();
+    let mut complete = true;
+    for (i, row) in rows.iter().enumerate() {
+        let Some(entries) = document.entries::<4>(row, "four rows of four entries") else {
+            complete = false;
+            continue;
+        };
+        for (j, entry) in entries.iter().enumerate() {
+            let (dimension, what) = match (i, j) {
+                (3, _) => (Dimension::NONE, "an entry of the last row"),
+                (_, 3) => (Dimension::LENGTH, "an entry of the position column"),
+                _ => (Dimension::NONE, "an entry of the rotation"),
+            };
+            let expected = Entry { dimension: Some(dimension), what, names: Allowed::Geometry };
+            match document.expression(entry, scope, expected) {
+                Some(expression) => read.push(expression),
+                None => complete = false,
+            }
+        }
+    }
+    if !complete {
+        return None;
+    }
+    for (j, entry) in read.split_off(12).iter().enumerate() {
+        let expected = if j == 3 { 1.0 } else { 0.0 };
+        if entry.constant() != Some(expected) {
+            document.mistake(
+                Diagnostic::new(entry.span(), "the last row of a rigid motion is 0 0 0 1")
+                    .label(format!("expected {expected}"))
+                    .help("rotations stand in the upper left 3×3, the position in the last column"),
+            );
+            return None;
+        }
+    }
+    let mut rows = read.chunks_exact(4).map(|row| row.to_vec().try_into().ok());
+    let rows = [rows.next()??, rows.next()??, rows.next()??];
+    Some(Matrix { rows, span: item.span() })
+}
+
+fn denavit_hartenberg(
+    item: &Item<'_>,
+    scope: &Scope,
+    document: &mut Document,
+    convention: DhConvention,
+) -> Option<Vec<Factor>> {
+    let mut section = document.section(item)?;
+    section.name = format!("`{}`", item.key);
+    section.check_keys(&[&keys::DENAVIT_HARTENBERG], document);
+    let factors = convention.order().map(|number| {
+        let (key, (motion, axis)) = (number.name(), number.motion());
+        let what = format!("`{key}`");
+        let expected =
+            Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
+        let entry = section.required(key, document)?;
+        let amount = document.expression(&entry, scope, expected)?;
+        Some(Factor::Elementary(Elementary { motion, axis, amount }))
+    });
+    factors.into_iter().collect()
+}
+
+/// URDF: `T(xyz) Rz(y) Ry(p) Rx(r)`.
+fn origin(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
+    let mut section = document.section(item)?;
+    section.name = "`origin`".to_owned();
+    section.check_keys(&[&keys::ORIGIN], document);
+    let mut three = |key: &str, motion: Motion| -> Option<Vec<Factor>> {
+        let Some(item) = section.get(key) else {
+            return Some(Vec::new());
+        };
+        let entries: [Item<'_>; 3] = document.entries(&item, "three numbers")?;
+        let what = format!("an entry of `{key}`");
+        let expected =
+            Entry { dimension: Some(motion_dimension(motion)), what: &what, names: Allowed::Geometry };
+        let amounts = entries.map(|entry| document.expression(&entry, scope, expected));
+        let factor = |(axis, amount): (usize, Option<Expression>)| {
+            Some(Factor::Elementary(Elementary { motion, axis, amount: amount? }))
+        };
+        amounts.into_iter().enumerate().map(factor).collect()
+    };
+    let (translations, rotations) = (three("xyz", T), three("rpy", R));
+    let mut factors = translations?;
+    factors.extend(rotations?.into_iter().rev());
+    Some(factors)
+}
+
+/// The motion of the frame's own variable along or about its axis.
+fn about_axis(
+    item: Option<&Item<'_>>,
+    section: &Section<'_>,
+    own: OwnVariable,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
+    let Some((variable, kind)) = own else {
+        if let Some(item) = item {
+            document.mistake(
+                Diagnostic::new(
+                    item.key_span.clone(),
+                    format!("{} has an axis but no variable", section.name),
+                )
+                .label("nothing moves along or about it")
+                .help("add `variable = { … }`, or leave `axis` out"),
+            );
+            return None;
+        }
+        return Some(Vec::new());
+    };
+    let (motion, dimension) = match kind {
+        VariableKind::Revolute => (R, Dimension::NONE),
+        VariableKind::Prismatic => (T, Dimension::LENGTH),
+    };
+    let mut axis = [1.0, 0.0, 0.0];
+    if let Some(item) = item {
+        let entries: [Item<'_>; 3] = document.entries(item, "three numbers")?;
+        let what = "an entry of `axis`";
+        let expected = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
+        let read = entries.map(|entry| document.constant(&entry, scope, expected).map(|read| read.0));
+        let [Some(x), Some(y), Some(z)] = read else {
+            return None;
+        };
+        axis = [x, y, z];
+        let length = (x * x + y * y + z * z).sqrt();
+        if (length - 1.0).abs() > rigid::TOLERANCE {
+            let help = if length > 0.0 {
+                format!("of length 1 is [{}, {}, {}]", x / length, y / length, z / length)
+            } else {
+                "an axis is a unit vector such as [0, 0, 1]".to_owned()
+            };
+            document.mistake(
+                Diagnostic::new(item.span(), "`axis` must be of length 1")
+                    .label(format!("its length is {length}"))
+                    .help(help),
+            );
+            return None;
+        }
+    }
+    let span = item.map_or(section.span.clone(), Item::span);
+    let amount = Expression::symbol(Symbol::Variable(variable), Some(dimension), span);
+    let principal =
+        (0..3).find(|&i| axis[i].abs() == 1.0 && axis[(i + 1) % 3] == 0.0 && axis[(i + 2) % 3] == 0.0);
+    Some(vec![match principal {
+        Some(i) if axis[i] > 0.0 => Factor::Elementary(Elementary { motion, axis: i, amount }),
+        Some(i) => Factor::Elementary(Elementary { motion, axis: i, amount: amount.negated() }),
+        None => Factor::About { motion, axis, amount },
+    }])
+}

@@ -1,0 +1,183 @@
+//! `[[load]]` and `gravity`: what acts on beams and compliances.
+
+use super::effects::find_frame;
+use super::keys;
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, Expression, Scope};
+use crate::manipulator::{Axes, Cause, Effect, Frame, Load, Point, Source};
+
+/// Reads every load of a spec.
+pub(super) fn read_loads(
+    root: &Section<'_>,
+    frames: &[Frame],
+    scope: &Scope,
+    document: &mut Document,
+) -> Vec<Load> {
+    let items = root.get("load").and_then(|item| document.array(&item, "tables, each a [[load]]"));
+    let mut loads = Vec::new();
+    for item in items.unwrap_or_default() {
+        if let Some(mut section) = document.section(&item) {
+            section.span = item.span();
+            section.name = "this [[load]]".to_owned();
+            section.check_keys(&[&keys::LOAD], document);
+            for text in ["name", "description", "reference"] {
+                section.optional_text(text, document);
+            }
+            loads.extend(read_load(&section, frames, scope, document));
+        }
+    }
+    loads
+}
+
+fn read_load(
+    section: &Section<'_>,
+    frames: &[Frame],
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<Load> {
+    let acts = ["mass", "force", "moment"].map(|key| section.get(key));
+    if acts.iter().all(Option::is_none) {
+        document.mistake(
+            Diagnostic::new(section.span.clone(), "this [[load]] does not act")
+                .label("no `mass`, `force` or `moment` here")
+                .help("give it a `mass`, which weighs under gravity, or a `force` or `moment` of three components"),
+        );
+    }
+    let [mass, force, moment] = acts;
+    if let (None, None, Some(axes)) = (&force, &moment, section.get("axes")) {
+        document.mistake(
+            Diagnostic::new(axes.key_span, "a mass has no axes")
+                .label("whose axes `force` and `moment` are in")
+                .help("leave `axes` out: a mass weighs along `gravity`"),
+        );
+    }
+    let mass = optional(mass, |item| {
+        let entry = Entry {
+            dimension: Some(Dimension::MASS),
+            what: "the mass of a load",
+            names: Allowed::Everything,
+        };
+        document.expression(item, scope, entry)
+    });
+    let force = optional(force, |item| {
+        vector(item, Dimension::FORCE, "a component of a load's force", scope, document)
+    });
+    let moment = optional(moment, |item| {
+        vector(item, Dimension::MOMENT, "a component of a load's moment", scope, document)
+    });
+    let axes = match section.get("axes") {
+        Some(item) => document.choice(&item, &[("frame", Axes::Frame), ("base", Axes::Base)]),
+        None => Some(Axes::Frame),
+    };
+    let frame = section.required("frame", document).and_then(|item| find_frame(&item, frames, document));
+    let point = match section.get("point") {
+        Some(item) if item.is_text() => read_tool_point(&item, frame, frames, document),
+        Some(item) => {
+            vector(&item, Dimension::LENGTH, "a coordinate of a load", scope, document).map(Point::Here)
+        }
+        None => {
+            let zero = || Expression::number(0.0, Dimension::LENGTH, section.span.clone());
+            Some(Point::Here([zero(), zero(), zero()]))
+        }
+    };
+    Some(Load { mass: mass?, force: force?, moment: moment?, axes: axes?, frame: frame?, point: point? })
+}
+
+/// Reads an item if there is one.
+fn optional<'d, T>(item: Option<Item<'d>>, read: impl FnOnce(&Item<'d>) -> Option<T>) -> Option<Option<T>> {
+    match item {
+        Some(item) => read(&item).map(Some),
+        None => Some(None),
+    }
+}
+
+/// `point = "tool"`: the tool moves with the last frame.
+fn read_tool_point(
+    item: &Item<'_>,
+    frame: Option<usize>,
+    frames: &[Frame],
+    document: &mut Document,
+) -> Option<Point> {
+    document.choice(item, &[("tool", ())])?;
+    if let Some(last) = frames.last()
+        && frame.is_some_and(|frame| frame + 1 < frames.len())
+    {
+        document.mistake(
+            Diagnostic::new(item.span(), "the tool point does not move with this frame")
+                .label(format!("it moves with \"{}\"", last.name))
+                .help(format!("write frame = \"{}\", or the three coordinates of the point", last.name)),
+        );
+        return None;
+    }
+    Some(Point::Tool)
+}
+
+/// Reads `gravity`, which stands in [manipulator] or at the top of the file.
+pub(super) fn read_gravity(
+    item: &Item<'_>,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<[Expression; 3]> {
+    vector(item, Dimension::ACCELERATION, "a component of gravity", scope, document)
+}
+
+fn vector(
+    item: &Item<'_>,
+    dimension: Dimension,
+    what: &str,
+    scope: &Scope,
+    document: &mut Document,
+) -> Option<[Expression; 3]> {
+    let entries: [Item<'_>; 3] = document.entries(item, "three numbers")?;
+    let entry = Entry { dimension: Some(dimension), what, names: Allowed::Everything };
+    let read = entries.map(|item| document.expression(&item, scope, entry));
+    let [x, y, z] = read;
+    Some([x?, y?, z?])
+}
+
+/// Beams and compliances move only under loads, and masses weigh only under gravity.
+pub(super) fn check_loaded(
+    root: &Section<'_>,
+    sources: &[Source],
+    loads: &[Load],
+    gravity: bool,
+    document: &mut Document,
+) {
+    let effects = || sources.iter().flat_map(|source| &source.effects);
+    let weight = |effect: &Effect| match &effect.cause {
+        Cause::Beam(beam) => beam.mass_per_length.clone(),
+        _ => None,
+    };
+    for source in sources {
+        for effect in source.effects.iter().filter(|effect| !matches!(effect.cause, Cause::Errors(_))) {
+            let load = loads.iter().any(|load| load.frame >= effect.frame);
+            if !load && !effects().any(|other| other.frame >= effect.frame && weight(other).is_some()) {
+                document.mistake(
+                    Diagnostic::new(
+                        effect.span.clone(),
+                        format!("nothing weighs on the source \"{}\"", source.name),
+                    )
+                    .label("it would cause no error")
+                    .help("add a [[load]] at its frame or at one behind it, or `mass_per_length` to a beam"),
+                );
+            }
+        }
+    }
+    if gravity {
+        return;
+    }
+    if let Some(item) = root.get("load").filter(|_| loads.iter().any(|load| load.mass.is_some())) {
+        document.mistake(
+            Diagnostic::new(item.key_span, "there are loads but no gravity")
+                .label("they weigh nothing")
+                .help("add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0"),
+        );
+    } else if let Some(mass) = effects().find_map(weight) {
+        document.mistake(
+            Diagnostic::new(mass.span(), "there is a mass but no gravity")
+                .label("it weighs nothing")
+                .help("add `gravity = [0, 0, \"-9.80665 m/s^2\"]` to [manipulator], in the axes of F_0"),
+        );
+    }
+}

@@ -1,0 +1,22 @@
+//! Reads a manipulator's spec file and checks it.
+//!
+//! `spec` goes from top to bottom: `declarations` reads the names, `tables` (with `points`) the functions given by points, `frames` the
+//! transforms, `sources`, `effects`, `elastic`, `deviations` and `loads` the physical errors, `fitted` and `covariance` what was
+//! identified. `positive` checks the signs of masses and stiffnesses, and `rigid` that every matrix is a rigid motion, at `samples`.
+
+mod covariance;
+mod declarations;
+mod deviations;
+mod effects;
+mod elastic;
+mod fitted;
+mod frames;
+pub(super) mod keys;
+mod loads;
+mod points;
+mod positive;
+mod rigid;
+mod samples;
+mod sources;
+mod spec;
+mod tables;

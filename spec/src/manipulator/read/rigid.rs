@@ -1,0 +1,117 @@
+//! Checks that a matrix is a rigid motion, `R Rᵀ = I` and `det R = 1`, at fixed sample configurations.
+
+use super::samples::{SAMPLES, configuration};
+use crate::diagnostic::Diagnostic;
+use crate::expr::{Expression, Scope, Symbol};
+use crate::manipulator::{Matrix, Variable};
+
+/// How far a product of rows may be from what it must be: what is left of numbers with ten digits.
+pub(super) const TOLERANCE: f64 = 1e-9;
+
+/// One equation that the rows must fulfil.
+struct Law {
+    expected: f64,
+    broken: fn(f64) -> String,
+    rows: &'static [usize],
+}
+
+/// Rows of length 1, perpendicular to each other, and no mirror image.
+const LAWS: [Law; 7] = {
+    const fn length(rows: &'static [usize]) -> Law {
+        let broken = |value| format!("is not of length 1: the sum of its squares is {value}");
+        Law { expected: 1.0, broken, rows }
+    }
+    const fn angle(rows: &'static [usize]) -> Law {
+        let broken = |value| format!("are not perpendicular: the sum of their products is {value}");
+        Law { expected: 0.0, broken, rows }
+    }
+    const fn mirror(rows: &'static [usize]) -> Law {
+        let broken = |value| format!("make a mirror image, not a rotation: their determinant is {value}");
+        Law { expected: 1.0, broken, rows }
+    }
+    [
+        length(&[0]),
+        length(&[1]),
+        length(&[2]),
+        angle(&[0, 1]),
+        angle(&[0, 2]),
+        angle(&[1, 2]),
+        mirror(&[0, 1, 2]),
+    ]
+};
+
+/// Returns the first law that a matrix breaks, as a mistake. Parameters are at their nominal values.
+pub(super) fn check_rigid(
+    matrix: &Matrix,
+    scope: &Scope,
+    variables: &[Variable],
+    parameters: &[f64],
+) -> Option<Diagnostic> {
+    for sample in 1..=SAMPLES {
+        let q = configuration(variables, sample);
+        let value = |entry: &Expression| {
+            entry.value(&scope.tables, |symbol| match symbol {
+                Symbol::Variable(i) => q[i],
+                Symbol::Parameter(i) => parameters[i],
+                _ => f64::NAN,
+            })
+        };
+        let rows: [[f64; 3]; 3] = [0, 1, 2].map(|i| [0, 1, 2].map(|j| value(&matrix.rows[i][j])));
+        for law in &LAWS {
+            let value = law.value(&rows);
+            let fulfilled = (value - law.expected).abs() <= TOLERANCE;
+            if !fulfilled {
+                return Some(mistake(matrix, law, value, &at(matrix, scope, &q)));
+            }
+        }
+    }
+    None
+}
+
+impl Law {
+    fn value(&self, rows: &[[f64; 3]; 3]) -> f64 {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        match *self.rows {
+            [i] => dot(rows[i], rows[i]),
+            [i, j] => dot(rows[i], rows[j]),
+            _ => {
+                let ([a, b, c], [d, e, f]) = (rows[0], rows[1]);
+                dot([b * f - c * e, c * d - a * f, a * e - b * d], rows[2])
+            }
+        }
+    }
+}
+
+fn mistake(matrix: &Matrix, law: &Law, value: f64, at: &str) -> Diagnostic {
+    let names: Vec<String> = law.rows.iter().map(|row| (row + 1).to_string()).collect();
+    let rows = match &names[..] {
+        [row] => format!("row {row}"),
+        [first, second] => format!("rows {first} and {second}"),
+        _ => "the rows".to_owned(),
+    };
+    // The last row at fault is marked, the others shown.
+    let row = |i: usize| matrix.rows[i][0].span().start..matrix.rows[i][2].span().end;
+    let (last, others) = law.rows.split_last().expect("a law is about at least one row");
+    let message = format!("this matrix is not a rigid motion: {rows} {}{at}", (law.broken)(value));
+    let mut mistake = Diagnostic::new(row(*last), message)
+        .label(format!("row {}", last + 1))
+        .help("check the signs, and that every sine has its cosine; write constants in full, as cos(45 deg)");
+    for other in others {
+        mistake = mistake.context(row(*other), format!("row {}", other + 1));
+    }
+    mistake
+}
+
+fn at(matrix: &Matrix, scope: &Scope, q: &[f64]) -> String {
+    let used: Vec<Symbol> = matrix.rows.iter().flatten().flat_map(|entry| entry.symbols()).collect();
+    let shown: Vec<String> = scope
+        .names
+        .iter()
+        .filter(|(_, name)| used.contains(&name.symbol))
+        .filter_map(|(name, declared)| match declared.symbol {
+            Symbol::Variable(i) => Some(format!("{name} = {:.4}", q[i])),
+            _ => None,
+        })
+        .collect();
+    if shown.is_empty() { String::new() } else { format!(" at {}", shown.join(", ")) }
+}

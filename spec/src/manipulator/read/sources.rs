@@ -1,0 +1,281 @@
+//! `[[source]]`: physical errors and the generalized errors they cause.
+
+use abbe_core::{Class, Distribution};
+
+use super::deviations::{Chain, read_deviations};
+use super::effects::read_effect;
+use super::keys;
+use crate::diagnostic::Diagnostic;
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, Expression};
+use crate::keys::Keys;
+use crate::manipulator::names::title_of;
+use crate::manipulator::{Cause, Deviation, Effect, Magnitude, Source};
+
+/// What a source may say: of itself, and of what it does.
+const KNOWN: [&Keys; 4] = [&keys::SOURCE, &keys::PLACE, &keys::CAUSE, &keys::DEVIATION];
+
+/// The most sources of a manipulator.
+const MOST_SOURCES: usize = 10_000;
+
+/// Reads every source of a spec.
+pub(super) fn read_sources(root: &Section<'_>, chain: Chain<'_>, document: &mut Document) -> Vec<Source> {
+    let mut sources: Vec<Source> = Vec::new();
+    let Some(item) = root.get("source") else { return sources };
+    let Some(items) = document.array(&item, "tables, each a [[source]]") else { return sources };
+    let help = "what is known of many alike is one source with the root of the sum of their squares";
+    if document.at_most(&item, items.len(), MOST_SOURCES, "sources", help).is_none() {
+        return sources;
+    }
+    let mut spans: Vec<(String, crate::diagnostic::Span)> = Vec::new();
+    for item in items {
+        let Some(mut section) = document.section(&item) else {
+            continue;
+        };
+        section.span = item.span();
+        section.name = "this [[source]]".to_owned();
+        let name = section.required("name", document);
+        if let Some(name_item) = name
+            && let Some(name) = title_of(&name_item, document)
+        {
+            section.name = format!("the source \"{name}\"");
+            section.span = name_item.span();
+            if let Some((_, first)) = spans.iter().find(|(known, _)| *known == name) {
+                document.mistake(
+                    Diagnostic::new(name_item.span(), format!("two sources are called \"{name}\""))
+                        .label("second use")
+                        .context(first.clone(), "first use")
+                        .help(
+                            "rename one; a source that acts at several frames lists [[source.effect]] tables",
+                        ),
+                );
+            }
+            spans.push((name.clone(), name_item.span()));
+            sources.extend(read_source(&section, name, chain, document));
+        } else {
+            section.check_keys(&KNOWN, document);
+        }
+    }
+    sources
+}
+
+fn read_source(
+    section: &Section<'_>,
+    name: String,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<Source> {
+    section.check_keys(&KNOWN, document);
+    let class = section.required("class", document);
+    let class = class.and_then(|class| read_class(&class, section, document));
+    let degrees_of_freedom = read_degrees_of_freedom(section, class, chain, document)?;
+    let enabled = match section.get("enabled") {
+        Some(item) => document.boolean(&item),
+        None => Some(true),
+    };
+    let magnitude = match section.get("magnitude") {
+        Some(item) => Some(read_magnitude(&item, class, chain, document)?),
+        None => None,
+    };
+    let mut acts = Acts::default();
+    let tables =
+        section.get("effect").and_then(|item| document.array(&item, "tables, each a [[source.effect]]"));
+    if tables.is_none() || section.items().any(|item| KNOWN[1..].iter().any(|keys| keys.contain(&item.key))) {
+        acts.read(section, chain, document);
+    }
+    for item in tables.unwrap_or_default() {
+        if let Some(mut table) = document.section(&item) {
+            table.span = item.span();
+            table.name = format!("an effect of {}", section.name);
+            table.check_keys(&KNOWN[1..], document);
+            acts.read(&table, chain, document);
+        }
+    }
+    let description = section.optional_text("description", document);
+    let reference = section.optional_text("reference", document);
+    let Acts { effects, deviations } = acts;
+    let (class, enabled) = (class?, enabled?);
+    if let Class::Random(distribution) = class {
+        check_half_width(distribution, &effects, &deviations, document);
+    }
+    Some(Source {
+        name,
+        class,
+        degrees_of_freedom,
+        enabled,
+        description,
+        reference,
+        magnitude,
+        tuned_by: None,
+        effects,
+        deviations,
+    })
+}
+
+/// A half-width or standard deviation has no sign. The effects of a random source share one magnitude, so that their
+/// signs matter against each other: what cannot be is that all are negative.
+fn check_half_width(
+    distribution: Distribution,
+    effects: &[Effect],
+    deviations: &[Deviation],
+    document: &mut Document,
+) {
+    let mut errors: Vec<&Expression> = deviations.iter().map(|deviation| &deviation.error).collect();
+    for effect in effects {
+        let Cause::Errors(list) = &effect.cause else { return };
+        errors.extend(list.iter().map(|(_, error)| error));
+    }
+    let negative = |error: &&Expression| error.constant().is_some_and(|value| value < 0.0);
+    let Some(first) = errors.first().filter(|_| errors.iter().all(negative)) else { return };
+    let message = match distribution {
+        Distribution::Normal => "a standard deviation cannot be negative",
+        _ => "a half-width cannot be negative",
+    };
+    document.mistake(
+        Diagnostic::new(first.span(), message)
+            .label(format!("this is {}", first.constant().unwrap_or_default()))
+            .help("a random error goes either way: leave the minus out"),
+    );
+}
+
+/// What a source does, and to what.
+#[derive(Default)]
+struct Acts {
+    effects: Vec<Effect>,
+    deviations: Vec<Deviation>,
+}
+
+impl Acts {
+    /// Takes in a table that says one thing: errors of a frame, or of a number of the chain.
+    fn read(&mut self, section: &Section<'_>, chain: Chain<'_>, document: &mut Document) {
+        if section.items().any(|item| keys::DEVIATION.contain(&item.key)) {
+            self.deviations.extend(read_deviations(section, chain, document).unwrap_or_default());
+        } else {
+            self.effects.extend(read_effect(section, chain.frames, chain.scope, document));
+        }
+    }
+}
+
+/// `degrees_of_freedom` of a normal error; infinite if it is not there.
+fn read_degrees_of_freedom(
+    section: &Section<'_>,
+    class: Option<Class>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<f64> {
+    let Some(item) = section.get("degrees_of_freedom") else { return Some(f64::INFINITY) };
+    let (message, help) = match class {
+        None | Some(Class::Random(Distribution::Normal)) => return positive(&item, chain, document),
+        Some(Class::Repeatable) => (
+            "a repeatable error has no degrees of freedom",
+            "they say from how many measurements a standard deviation was estimated: leave them out, or write them into `magnitude`",
+        ),
+        Some(Class::Random(_)) => (
+            "limits have no degrees of freedom",
+            "they say from how many measurements a standard deviation was estimated: write distribution = \"normal\", or leave them out",
+        ),
+    };
+    document.mistake(Diagnostic::new(item.key_span, message).help(help));
+    None
+}
+
+/// A positive number of degrees of freedom.
+fn positive(item: &Item<'_>, chain: Chain<'_>, document: &mut Document) -> Option<f64> {
+    let what = "`degrees_of_freedom`";
+    let entry = Entry { dimension: Some(Dimension::NONE), what, names: Allowed::Nothing };
+    let (number, _) = document.constant(item, chain.scope, entry)?;
+    if number > 0.0 {
+        return Some(number);
+    }
+    document.mistake(
+        Diagnostic::new(item.span(), "`degrees_of_freedom` must be positive").help(
+            "n measurements and their mean leave n - 1; leave it out if the standard deviation is known",
+        ),
+    );
+    None
+}
+
+/// `magnitude = { value, standard_deviation, degrees_of_freedom }`: pure numbers.
+fn read_magnitude(
+    item: &Item<'_>,
+    class: Option<Class>,
+    chain: Chain<'_>,
+    document: &mut Document,
+) -> Option<Magnitude> {
+    if let Some(Class::Random(_)) = class {
+        document.mistake(
+            Diagnostic::new(item.key_span.clone(), "a random error has no magnitude to be found")
+                .help("leave `magnitude` out: its distribution says how large it is"),
+        );
+        return None;
+    }
+    let mut table = document.section(item)?;
+    table.name = "`magnitude`".to_owned();
+    table.check_keys(&[&keys::MAGNITUDE], document);
+    let number = |item: &Item<'_>, document: &mut Document| {
+        let what = format!("`{}` of a magnitude", item.key);
+        let entry = Entry { dimension: Some(Dimension::NONE), what: &what, names: Allowed::Nothing };
+        document.constant(item, chain.scope, entry).map(|read| read.0)
+    };
+    let value = match table.get("value") {
+        Some(item) => number(&item, document)?,
+        None => 1.0,
+    };
+    let standard_deviation = match table.get("standard_deviation") {
+        Some(item) => {
+            let read = number(&item, document)?;
+            if read <= 0.0 {
+                document.mistake(
+                    Diagnostic::new(item.span(), "`standard_deviation` must be positive")
+                        .help("leave it out if nothing is known of the magnitude"),
+                );
+                return None;
+            }
+            Some(read)
+        }
+        None => None,
+    };
+    let degrees_of_freedom = match table.get("degrees_of_freedom") {
+        Some(item) if standard_deviation.is_none() => {
+            document.mistake(
+                Diagnostic::new(item.key_span, "these are degrees of freedom of nothing")
+                    .help("they belong to a `standard_deviation`"),
+            );
+            return None;
+        }
+        Some(item) => positive(&item, chain, document)?,
+        None => f64::INFINITY,
+    };
+    Some(Magnitude { value, standard_deviation, degrees_of_freedom })
+}
+
+fn read_class(item: &Item<'_>, section: &Section<'_>, document: &mut Document) -> Option<Class> {
+    let random = document.choice(item, &[("repeatable", false), ("random", true)])?;
+    let distribution = section.get("distribution");
+    match (random, distribution) {
+        (false, None) => Some(Class::Repeatable),
+        (false, Some(distribution)) => {
+            document.mistake(
+                Diagnostic::new(distribution.key_span, "a repeatable error has no distribution")
+                    .context(item.span(), "repeatable")
+                    .help("leave `distribution` out, or write class = \"random\""),
+            );
+            None
+        }
+        (true, None) => {
+            document.mistake(
+                Diagnostic::new(item.span(), "a random error needs its distribution")
+                    .label("distributed how?")
+                    .help(
+                        "add distribution = \"uniform\" or \"triangular\" (values are half-widths), \"normal\" (values are σ) or \
+                         \"arcsine\" (values are amplitudes)",
+                    ),
+            );
+            None
+        }
+        (true, Some(distribution)) => {
+            let choices = Distribution::ALL.map(|distribution| (distribution.name(), distribution));
+            document.choice(&distribution, &choices).map(Class::Random)
+        }
+    }
+}

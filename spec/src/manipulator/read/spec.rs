@@ -1,0 +1,317 @@
+//! Reads a spec file from top to bottom.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use abbe_core::Orientation;
+use sha2::{Digest, Sha256};
+
+use super::covariance::read_covariance;
+use super::declarations::Declarations;
+use super::deviations::Chain;
+use super::fitted::read_fitted;
+use super::frames::{OwnVariable, convention, read_factors};
+use super::keys;
+use super::loads::{check_loaded, read_gravity, read_loads};
+use super::positive::check_signs;
+use super::rigid::check_rigid;
+use super::samples::depends;
+use super::sources::read_sources;
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::document::{Document, Item, Section};
+use crate::expr::{LengthUnit, Symbol};
+use crate::manipulator::names::{check_identifier, title_of};
+use crate::manipulator::{Factor, Frame, Spec};
+
+impl Spec {
+    /// Reads and checks a spec file. All mistakes of its syntax, or else all of its meaning, come at once.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostics> {
+        let document = Document::read(path.as_ref())?;
+        Self::from_document(document)
+    }
+
+    /// Reads and checks a spec's text as if it were in a folder, where the files of its tables are; `path` is what
+    /// mistakes are shown under.
+    pub fn parse_in(folder: &Path, path: &str, text: &str) -> Result<Self, Diagnostics> {
+        Self::from_document(Document { folder: Some(folder.to_owned()), ..Document::new(path, text) })
+    }
+
+    /// Reads and checks a spec's text; `path` is what mistakes are shown under. It is in no folder: tables have their points in
+    /// it.
+    ///
+    /// ```
+    /// # use abbe_spec::Spec;
+    /// let slide = r#"
+    ///     [manipulator]
+    ///     name = "slide"
+    ///     length = "mm"
+    ///     [[frame]]
+    ///     name = "carriage"
+    ///     variable = { name = "d1", kind = "prismatic" }
+    ///     transform = "Tx(d1)"
+    /// "#;
+    /// assert_eq!(Spec::parse("slide.toml", slide)?.frames.len(), 1);
+    /// # Ok::<(), abbe_spec::diagnostic::Diagnostics>(())
+    /// ```
+    pub fn parse(path: &str, text: &str) -> Result<Self, Diagnostics> {
+        Self::from_document(Document::new(path, text))
+    }
+
+    /// Reads and checks a document.
+    pub fn from_document(mut document: Document) -> Result<Self, Diagnostics> {
+        let text = Arc::clone(&document.text);
+        let tables = document.tables(&text);
+        let spec = tables.and_then(|tables| read(&Section::root(&tables), &mut document));
+        document.finish(spec)
+    }
+}
+
+fn read(root: &Section<'_>, document: &mut Document) -> Option<Spec> {
+    if !document.is_kind(root, "manipulator") {
+        return None;
+    }
+    root.check_keys(&[&keys::FILE], document);
+    let head = root.required("manipulator", document).and_then(|item| read_head(&item, document));
+    // Without a length unit the rest could only be read by guessing.
+    let head = head?;
+    let mut declarations = Declarations::new(head.length);
+    // What takes a function that is mistaken would be another mistake.
+    declarations.read_tables(root, document)?;
+    declarations.read_parameters(root, document);
+    declarations.read_inputs(root, document);
+    let raw_frames = read_frames(root, &mut declarations, document);
+
+    let nominal: Vec<f64> = declarations.parameters.iter().map(|parameter| parameter.value).collect();
+    let mut complete = true;
+    let mut frames = Vec::new();
+    for raw in raw_frames.iter().flatten() {
+        let factors = read_frame_factors(raw, &declarations, &nominal, document);
+        complete &= factors.is_some();
+        frames.push(Frame {
+            name: raw.name.clone(),
+            description: raw.section.optional_text("description", document),
+            variable: raw.own.map(|own| own.0),
+            factors: factors.unwrap_or_default(),
+            convention: convention(&raw.section),
+        });
+    }
+    let tool = match root.get("tool") {
+        Some(item) => read_tool(&item, &declarations, &nominal, document),
+        None => Some(Vec::new()),
+    };
+    let chain = Chain { frames: &frames, tool: tool.as_deref(), scope: &declarations.scope };
+    let sources = read_sources(root, chain, document);
+    let loads = read_loads(root, &frames, &declarations.scope, document);
+    let gravity_item = root.get("gravity").or_else(|| root.get("manipulator")?.key_of_table("gravity"));
+    let gravity = match &gravity_item {
+        Some(item) => Some(read_gravity(item, &declarations.scope, document)?),
+        None => None,
+    };
+    check_loaded(root, &sources, &loads, gravity.is_some(), document);
+    check_signs(&sources, &loads, &declarations, document);
+    let fitted = read_fitted(root, &declarations, document);
+    let covariance = read_covariance(root, &sources, &declarations.scope, document);
+    raw_frames?;
+    complete.then_some(())?;
+    let Declarations { scope, parameters, inputs, variables } = declarations;
+    let Head { name, title, description, reference, length, orientation } = head;
+    let file =
+        Path::new(&document.path).file_name().map_or_else(String::new, |f| f.to_string_lossy().into_owned());
+    let mut hasher = Sha256::new_with_prefix(document.text.as_bytes());
+    document.beside.iter().for_each(|(_, bytes)| hasher.update(bytes));
+    let hash = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let beside = document.beside.iter().map(|(path, _)| path.clone()).collect();
+    Some(Spec {
+        name,
+        title,
+        description,
+        reference,
+        length,
+        orientation,
+        parameters,
+        inputs,
+        variables,
+        frames,
+        tool: tool?,
+        sources,
+        loads,
+        gravity,
+        fitted,
+        covariance: covariance?,
+        tables: scope.tables,
+        file,
+        beside,
+        hash,
+    })
+}
+
+/// The most frames of a manipulator: its analysis takes seconds, and 200 MB.
+const MOST_FRAMES: usize = 3000;
+
+struct Head {
+    name: String,
+    title: String,
+    description: String,
+    reference: String,
+    length: LengthUnit,
+    orientation: Orientation,
+}
+
+fn read_head(item: &Item<'_>, document: &mut Document) -> Option<Head> {
+    let mut section = document.section(item)?;
+    section.name = "[manipulator]".to_owned();
+    section.check_keys(&[&keys::MANIPULATOR], document);
+    let name = section.required("name", document).and_then(|item| {
+        let name = document.string(&item)?;
+        let valid = check_identifier(&name, item.span(), document);
+        if valid && name.contains(|c: char| c.is_ascii_uppercase()) {
+            document.mistake(
+                Diagnostic::new(item.span(), "the name of a manipulator is in lower case")
+                    .label("this names a module; its type is named after it")
+                    .help(format!("write `{}`", name.to_ascii_lowercase())),
+            );
+        }
+        Some(name)
+    });
+    let length = section
+        .required("length", document)
+        .and_then(|item| document.choice(&item, &[("mm", LengthUnit::Millimetre), ("m", LengthUnit::Metre)]));
+    let orientation = match section.get("orientation") {
+        None => Some(Orientation::RotationVector),
+        Some(item) => document.choice(
+            &item,
+            &[("rotation-vector", Orientation::RotationVector), ("euler-yzx", Orientation::EulerYzx)],
+        ),
+    };
+    let title = section.optional_text("title", document);
+    let description = section.optional_text("description", document);
+    let reference = section.optional_text("reference", document);
+    let name = name.unwrap_or_default();
+    let title = if title.is_empty() { name.clone() } else { title };
+    Some(Head {
+        name,
+        title,
+        description,
+        reference,
+        length: length?,
+        orientation: orientation.unwrap_or(Orientation::RotationVector),
+    })
+}
+
+/// A frame whose transform is still to be read: it may use names that are declared after it.
+struct RawFrame<'d> {
+    section: Section<'d>,
+    name: String,
+    own: OwnVariable,
+    variable_span: Option<Span>,
+}
+
+fn read_frames<'d>(
+    root: &Section<'d>,
+    declarations: &mut Declarations,
+    document: &mut Document,
+) -> Option<Vec<RawFrame<'d>>> {
+    let item = root.required_list("frame", document)?;
+    let items = document.array(&item, "tables, each a [[frame]]")?;
+    if items.is_empty() {
+        document.mistake(
+            Diagnostic::new(item.span(), "a manipulator needs at least one frame").help("add a [[frame]]"),
+        );
+        return None;
+    }
+    document.at_most(
+        &item,
+        items.len(),
+        MOST_FRAMES,
+        "frames",
+        "leave out frames that have no errors: products of transforms are one",
+    )?;
+    let mut frames: Vec<RawFrame<'d>> = Vec::new();
+    for (index, item) in items.iter().enumerate() {
+        let Some(mut section) = document.section(item) else {
+            continue;
+        };
+        section.span = item.span();
+        section.name = format!("frame {}", index + 1);
+        let name_item = section.required("name", document);
+        let name = name_item.as_ref().and_then(|item| title_of(item, document)).unwrap_or_default();
+        if let Some(item) = &name_item {
+            section.name = format!("the frame \"{name}\"");
+            section.span = item.span();
+        }
+        if !name.is_empty()
+            && let Some(first) = frames.iter().find(|frame| frame.name == name)
+        {
+            document.mistake(
+                Diagnostic::new(section.span.clone(), format!("two frames are called \"{name}\""))
+                    .label("second use")
+                    .context(first.section.span.clone(), "first use")
+                    .help("sources name frames; give each its own name"),
+            );
+        }
+        section.check_keys(&[&keys::FRAME, &keys::DESCRIBED, &keys::TRANSFORM], document);
+        let variable = section.get("variable");
+        let own = variable.as_ref().and_then(|item| declarations.read_variable(index, item, document));
+        let own = own.map(|own| (own, declarations.variables[own].kind));
+        frames.push(RawFrame { section, name, own, variable_span: variable.map(|item| item.span()) });
+    }
+    Some(frames)
+}
+
+fn read_frame_factors(
+    frame: &RawFrame<'_>,
+    declarations: &Declarations,
+    nominal: &[f64],
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
+    let factors = read_factors(&frame.section, frame.own, &declarations.scope, document)?;
+    check_matrices(&factors, declarations, nominal, document)?;
+    if let (Some((own, _)), Some(span)) = (frame.own, &frame.variable_span)
+        && let name = &declarations.variables[own].name
+        && declarations.scope.names.get(name).is_some_and(|name| name.symbol == Symbol::Variable(own))
+        && !moves(&factors, own, declarations)
+    {
+        document.mistake(
+            Diagnostic::new(span.clone(), format!("`{name}` does not move its own frame"))
+                .label(format!("the transform of \"{}\" does not depend on it", frame.name))
+                .help("use the variable in the transform, or declare it in the frame that it moves"),
+        );
+    }
+    Some(factors)
+}
+
+fn read_tool(
+    item: &Item<'_>,
+    declarations: &Declarations,
+    nominal: &[f64],
+    document: &mut Document,
+) -> Option<Vec<Factor>> {
+    let mut section = document.section(item)?;
+    section.name = "[tool]".to_owned();
+    section.check_keys(&[&keys::DESCRIBED, &keys::TRANSFORM], document);
+    let factors = read_factors(&section, None, &declarations.scope, document)?;
+    check_matrices(&factors, declarations, nominal, document)?;
+    Some(factors)
+}
+
+fn check_matrices(
+    factors: &[Factor],
+    declarations: &Declarations,
+    nominal: &[f64],
+    document: &mut Document,
+) -> Option<()> {
+    for factor in factors {
+        if let Factor::Matrix(matrix) = factor
+            && let Some(mistake) = check_rigid(matrix, &declarations.scope, &declarations.variables, nominal)
+        {
+            document.mistake(mistake);
+            return None;
+        }
+    }
+    Some(())
+}
+
+/// Whether a product of factors depends on a variable.
+fn moves(factors: &[Factor], own: usize, declarations: &Declarations) -> bool {
+    factors.iter().flat_map(Factor::expressions).any(|expression| depends(expression, own, declarations))
+}

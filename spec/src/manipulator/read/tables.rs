@@ -1,0 +1,159 @@
+//! `[tables.NAME]`: functions that are given by points, in the spec or in a file beside it.
+
+use std::sync::Arc;
+
+use super::declarations::Declarations;
+use super::keys;
+use super::points::{Columns, Points};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::document::{Document, Item, Section};
+use crate::expr::{Allowed, Dimension, Entry, Interpolation, Outside, Scope, Table, Unit, parse_unit};
+use crate::manipulator::names::check_identifier;
+
+/// The most tables of a manipulator.
+const MOST: usize = 1000;
+
+impl Declarations {
+    /// `[tables]`.
+    pub(super) fn read_tables(&mut self, root: &Section<'_>, document: &mut Document) -> Option<()> {
+        let Some(item) = root.get("tables") else { return Some(()) };
+        let section = document.section(&item)?;
+        let before = document.found.len();
+        let help = "leave out those that no expression takes";
+        document.at_most(&item, section.items().count(), MOST, "tables", help)?;
+        for item in section.items() {
+            check_identifier(&item.key, item.key_span.clone(), document);
+            if self.scope.tables.iter().any(|table| table.name.eq_ignore_ascii_case(&item.key)) {
+                let message = format!("`{}` is the name of another table, up to capital letters", item.key);
+                document.mistake(Diagnostic::new(item.key_span.clone(), message).help("rename one of them"));
+            } else if let Some(table) = self.read_table(&item, document) {
+                self.scope.tables.push(Arc::new(table));
+            }
+        }
+        (document.found.len() == before).then_some(())
+    }
+
+    fn read_table(&mut self, item: &Item<'_>, document: &mut Document) -> Option<Table> {
+        let mut section = document.section(item)?;
+        section.name = format!("[tables.{}]", item.key);
+        section.check_keys(&[&keys::LOOKUP], document);
+        let description = section.optional_text("description", document);
+        section.optional_text("reference", document);
+        let interpolation = section.required("interpolation", document).and_then(|item| {
+            document.choice(&item, &[("linear", Interpolation::Linear), ("cubic", Interpolation::Cubic)])
+        });
+        let outside = match section.get("outside") {
+            None => Some(Outside::Nothing),
+            Some(item) => document.choice(&item, &[("hold", Outside::Hold)]),
+        };
+        let file = section.get("file");
+        let columns = match &file {
+            Some(item) => Some(Columns::read(item, document)?),
+            None => None,
+        };
+        let axes = ["x", "y"].map(|key| {
+            let item = section.required(key, document)?;
+            self.read_axis(&item, columns.as_ref(), document)
+        });
+        let [Some(x), Some(y)] = axes else { return None };
+        let dimensions = [x.dimension, y.dimension];
+        let points = Points { x: x.values, y: y.values, places: x.places, columns: columns.as_ref() };
+        let points = points.check(item, document)?;
+        let table = Table::new(item.key.clone(), description, dimensions, points, interpolation?, outside?);
+        if !table.is_finite() {
+            let message = format!("the numbers of `{}` are too large to interpolate", item.key);
+            let mistake = Diagnostic::new(item.key_span.clone(), message);
+            document.mistake(mistake.help("are their units right?"));
+            return None;
+        }
+        Some(table)
+    }
+
+    /// The numbers of an axis: a list, a list with a unit, or a column of the file with a unit.
+    fn read_axis(&self, item: &Item<'_>, columns: Option<&Columns>, document: &mut Document) -> Option<Axis> {
+        if !item.is_table() {
+            if let Some(columns) = columns {
+                let message = format!("`{}` must name its column of {}", item.key, columns.file);
+                let help = format!("write `{} = {{ column = \"…\", unit = \"mm\" }}`", item.key);
+                document.mistake(Diagnostic::new(item.span(), message).help(help));
+                return None;
+            }
+            return self.read_list(item, document);
+        }
+        let mut section = document.section(item)?;
+        section.name = format!("`{}`", item.key);
+        section.check_keys(&[&keys::AXIS], document);
+        let unit = match section.get("unit") {
+            Some(item) => unit(&item, &self.scope, document)?,
+            None => Unit::NONE,
+        };
+        let (numbers, places) = match columns {
+            Some(columns) => {
+                let column = section.required("column", document)?;
+                (columns.numbers(&column, document)?, Vec::new())
+            }
+            None => {
+                if let Some(column) = section.get("column") {
+                    let message = "`column` names a column of a file, and there is no `file`";
+                    let mistake = Diagnostic::new(column.span(), message);
+                    document.mistake(
+                        mistake.help("add `file = \"NAME.csv\"` to the table, or give `values = […]`"),
+                    );
+                    return None;
+                }
+                let values = section.required("values", document)?;
+                let list = self.read_list(&values, document)?;
+                if list.dimension != Dimension::NONE {
+                    let message = format!("the numbers of `{}` have their units already", item.key);
+                    let mistake = Diagnostic::new(values.span(), message);
+                    document.mistake(mistake.help("leave `unit` out, or the units of the numbers"));
+                    return None;
+                }
+                (list.values, list.places)
+            }
+        };
+        let values = numbers.into_iter().map(|number| unit.convert(number, self.scope.length)).collect();
+        Some(Axis { values, dimension: unit.dimension, places })
+    }
+
+    /// Numbers of one kind.
+    fn read_list(&self, item: &Item<'_>, document: &mut Document) -> Option<Axis> {
+        let what = format!("a number of `{}`", item.key);
+        let entry = Entry { dimension: None, what: &what, names: Allowed::Nothing };
+        let mut dimension: Option<Dimension> = None;
+        let mut axis = Axis { values: Vec::new(), dimension: Dimension::NONE, places: Vec::new() };
+        for item in document.array(item, "numbers in brackets")? {
+            let (value, found) = document.constant(&item, &self.scope, entry)?;
+            // Zero needs no unit.
+            let is_bare_zero = value == 0.0 && found == Dimension::NONE;
+            if !is_bare_zero && found != *dimension.get_or_insert(found) {
+                let expected = dimension.unwrap_or(Dimension::NONE);
+                let message = format!("the numbers of `{}` must be of one kind", item.key);
+                let mistake = Diagnostic::new(item.span(), message);
+                document.mistake(
+                    mistake
+                        .label(format!("this is {found}, not {expected}"))
+                        .help("give every number its unit, or write `{ values = […], unit = \"mm\" }`"),
+                );
+                return None;
+            }
+            axis.values.push(value);
+            axis.places.push(item.span());
+        }
+        axis.dimension = dimension.unwrap_or(Dimension::NONE);
+        Some(axis)
+    }
+}
+
+/// The numbers of an axis, in the coherent system.
+struct Axis {
+    values: Vec<f64>,
+    dimension: Dimension,
+    /// Where they stand; empty if in another file.
+    places: Vec<Span>,
+}
+
+fn unit(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Unit> {
+    let (text, place) = document.text(item)?;
+    parse_unit(text, &place, scope, &mut document.found)
+}

@@ -1,0 +1,101 @@
+//! Values and names that stand outside a spec: on a command line, in a study.
+
+use crate::diagnostic::{Diagnostic, Span, listed, nearest};
+use crate::document::Document;
+use crate::expr::{
+    Allowed, Dimension, Entry, FUNCTION_NAMES, LengthUnit, Place, Scope, Token, UNIT_NAMES, parse_expression,
+    tokens,
+};
+
+/// The value of the number, or of the expression of numbers, at `span` of the document's text.
+///
+/// It is in the coherent system with that length unit; a bare number is so already. `what` it is goes into
+/// mistakes, such as `the value of d1`.
+///
+/// ```
+/// # use abbe_spec::document::Document;
+/// # use abbe_spec::expr::{Dimension, LengthUnit};
+/// # use abbe_spec::value::parse_value;
+/// let mut document = Document::new("--q", "1.2m,1200");
+/// for span in [0..4, 5..9] {
+///     let value = parse_value(&mut document, span, LengthUnit::Millimetre, Dimension::LENGTH, "the value of d1");
+///     assert_eq!(value, Some(1200.0));
+/// }
+/// ```
+pub fn parse_value(
+    document: &mut Document,
+    span: Span,
+    length: LengthUnit,
+    dimension: Dimension,
+    what: &str,
+) -> Option<f64> {
+    let whole = document.text.clone();
+    let text = whole.get(span.clone()).unwrap_or_default();
+    if text.trim().is_empty() {
+        document.mistake(Diagnostic::new(span, format!("{what} is missing")).help("write 0 for nothing"));
+        return None;
+    }
+    let place = Place::Exact(span.start);
+    let mistakes = document.found.len();
+    match tokens(text, &place) {
+        Ok(tokens) => {
+            let words = tokens.into_iter().filter_map(|(token, range)| match token {
+                Token::Word(word) => Some((word, place.span(range))),
+                _ => None,
+            });
+            document.found.extend(words.filter_map(|(word, span)| unknown_word(word, span)));
+        }
+        Err(mistake) => document.mistake(mistake),
+    }
+    if document.found.len() > mistakes {
+        return None;
+    }
+    let scope = Scope::new(length);
+    let entry = Entry { dimension: Some(dimension), what, names: Allowed::Nothing };
+    let value = parse_expression(text, &place, &scope, entry, &mut document.found)?.constant()?;
+    if !value.is_finite() {
+        document.mistake(
+            Diagnostic::new(span, format!("{what} is too large"))
+                .help(format!("it is converted to {}", dimension.unit(length.symbol()))),
+        );
+    }
+    Some(value).filter(|value| value.is_finite())
+}
+
+/// The mistake that a word is neither a unit nor a function, if it is neither.
+fn unknown_word(word: &str, span: Span) -> Option<Diagnostic> {
+    let known = [&UNIT_NAMES[..], &FUNCTION_NAMES, &["pi"]].concat();
+    if known.contains(&word) {
+        return None;
+    }
+    let help = match nearest(word, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "a value is a number with or without a unit: `90deg`, `1.2m`, `pi/2`".to_owned(),
+    };
+    let message = format!("`{}` is neither a unit nor a function", word.escape_debug());
+    Some(Diagnostic::new(span, message).label("unknown here").help(help))
+}
+
+/// The index of a name among those that are known, or a mistake at `span` that offers them.
+///
+/// `what` they are, in the singular: `source`.
+pub fn find_name(
+    document: &mut Document,
+    span: Span,
+    name: &str,
+    known: &[&str],
+    what: &str,
+) -> Option<usize> {
+    let found = known.iter().position(|candidate| *candidate == name);
+    if found.is_none() {
+        let near = nearest(name, known.iter().copied());
+        let near = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
+        let help = match known {
+            [] => format!("this spec has no {what}"),
+            known => format!("{near}there are: {}", listed(known)),
+        };
+        let message = format!("there is no {what} `{}`", name.escape_debug());
+        document.mistake(Diagnostic::new(span, message).help(help));
+    }
+    found
+}
