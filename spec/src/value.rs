@@ -1,10 +1,11 @@
 //! Values and names that stand outside a spec: on a command line, in a study.
 
+use abbe_core::LengthUnit;
+
 use crate::diagnostic::{Diagnostic, Span, listed, nearest};
 use crate::document::Document;
 use crate::expr::{
-    Allowed, Dimension, Entry, FUNCTION_NAMES, LengthUnit, Place, Scope, Token, UNIT_NAMES, parse_expression,
-    tokens,
+    Allowed, Dimension, Entry, FUNCTION_NAMES, Place, Scope, Token, UNIT_NAMES, parse_expression, tokens,
 };
 
 /// The value of the number, or of the expression of numbers, at `span` of the document's text.
@@ -14,7 +15,8 @@ use crate::expr::{
 ///
 /// ```
 /// # use abbe_spec::document::Document;
-/// # use abbe_spec::expr::{Dimension, LengthUnit};
+/// # use abbe::LengthUnit;
+/// # use abbe_spec::expr::Dimension;
 /// # use abbe_spec::value::parse_value;
 /// let mut document = Document::new("--q", "1.2m,1200");
 /// for span in [0..4, 5..9] {

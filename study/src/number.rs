@@ -2,8 +2,8 @@
 
 use abbe::analysis::Configuration;
 use abbe::{Class, LengthUnit, VariableKind};
+use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
-use abbe_spec::{self, Spec};
 use serde::{Serialize, Serializer};
 
 /// A number with this many decimals, nothing plain 0; a large one in powers of ten.
@@ -101,7 +101,7 @@ pub fn configuration(configuration: &Configuration, home: &Configuration, spec: 
 }
 
 /// `d1 = 1128 mm`.
-fn variable_is(variable: &spec::Variable, value: f64, spec: &Spec) -> String {
+fn variable_is(variable: &abbe_spec::Variable, value: f64, spec: &Spec) -> String {
     format!("{} = {}", variable.name, of_variable(value, variable.kind, spec.length))
 }
 

@@ -18,7 +18,6 @@ mod tokens;
 mod transform;
 mod unit;
 
-pub use abbe_core::LengthUnit;
 pub use dimension::Dimension;
 pub use expression::{Binary, Expression, Kind, Lookup, Term};
 pub use function::{FUNCTION_NAMES, Function};

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use abbe_core::LengthUnit;
 use indexmap::IndexMap;
 
-use super::{Dimension, LengthUnit, Table};
+use super::{Dimension, Table};
 use crate::diagnostic::Span;
 
 /// What a name stands for, with its index among its kind.

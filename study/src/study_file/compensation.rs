@@ -2,11 +2,11 @@
 
 use abbe::analysis::Residual;
 use abbe::{Class, Description};
+use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item};
 use abbe_spec::expr::{Allowed, Dimension, Entry, Scope};
 use abbe_spec::value::find_name;
-use abbe_spec::{self, Spec};
 
 use super::keys;
 
@@ -42,7 +42,7 @@ pub(super) fn read(item: &Item<'_>, document: &mut Document, spec: &Spec) -> Opt
         }
         let found = find_name(document, item.key_span.clone(), &item.key, &names, "source");
         let Some(source) = found.map(|found| &spec.sources[found]) else { continue };
-        if source.class != spec::Class::Repeatable {
+        if source.class != abbe::Class::Repeatable {
             let message = format!("the source \"{}\" is random", source.name);
             let mistake = Diagnostic::new(item.key_span.clone(), message).label("nothing compensates this");
             document.mistake(mistake.help("leave it out: random errors remain as they are"));

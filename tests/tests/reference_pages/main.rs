@@ -14,7 +14,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::document::Document;
 use abbe_spec::expr::{FUNCTION_NAMES, UNIT_NAMES};
 use abbe_spec::keys::Keys;
-use abbe_spec::{self, Spec};
+use abbe_spec::{Spec, TABLES};
 use abbe_study::analyze::Analyze;
 use abbe_study::check::Check;
 use abbe_study::data::Map;
@@ -31,7 +31,7 @@ type Reader = fn(&Path, &str) -> Result<(), Diagnostics>;
 /// Every page, its keys, and the reader of its examples.
 fn pages() -> Vec<(Page, Vec<&'static Keys>, Reader)> {
     vec![
-        (Page::read("spec.md"), all(&[spec::TABLES]), |path, text| {
+        (Page::read("spec.md"), all(&[TABLES]), |path, text| {
             Spec::parse_in(path.parent().unwrap(), "example", text)?;
             Ok(())
         }),

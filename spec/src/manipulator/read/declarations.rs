@@ -1,11 +1,11 @@
 //! Parameters, inputs and variables: everything an expression can name.
 
-use abbe_core::VariableKind;
+use abbe_core::{LengthUnit, VariableKind};
 
 use super::keys;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::document::{Document, Item, Section};
-use crate::expr::{Allowed, Dimension, Entry, LengthUnit, Name, Scope, Symbol};
+use crate::expr::{Allowed, Dimension, Entry, Name, Scope, Symbol};
 use crate::keys::Keys;
 use crate::manipulator::names::check_identifier;
 use crate::manipulator::{Input, Parameter, Variable};

@@ -8,7 +8,7 @@ use super::keys;
 use crate::diagnostic::{Diagnostic, suggestion};
 use crate::document::{Document, Item, Section};
 use crate::expr::{Allowed, Dimension, Entry, Expression, Motion, Scope, motion, parse_transform};
-use crate::manipulator::{Cause, Effect, Frame};
+use crate::manipulator::{Cause, Effect, Factor, Frame};
 
 /// Reads the effect that a source, or one of its `[[source.effect]]` tables, describes.
 pub(super) fn read_effect(
@@ -68,14 +68,10 @@ pub(super) fn find_frame(item: &Item<'_>, frames: &[Frame], document: &mut Docum
     found
 }
 
-fn read_place(
-    item: &Item<'_>,
-    scope: &Scope,
-    document: &mut Document,
-) -> Option<Vec<crate::manipulator::Factor>> {
+fn read_place(item: &Item<'_>, scope: &Scope, document: &mut Document) -> Option<Vec<Factor>> {
     let (text, place) = document.text(item)?;
     let factors = parse_transform(text, &place, scope, &mut document.found)?;
-    Some(factors.into_iter().map(crate::manipulator::Factor::Elementary).collect())
+    Some(factors.into_iter().map(Factor::Elementary).collect())
 }
 
 fn read_errors(

@@ -8,37 +8,8 @@ use crate::manipulator::{Matrix, Variable};
 /// How far a product of rows may be from what it must be: what is left of numbers with ten digits.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// One equation that the rows must fulfil.
-struct Law {
-    expected: f64,
-    broken: fn(f64) -> String,
-    rows: &'static [usize],
-}
-
-/// Rows of length 1, perpendicular to each other, and no mirror image.
-const LAWS: [Law; 7] = {
-    const fn length(rows: &'static [usize]) -> Law {
-        let broken = |value| format!("is not of length 1: the sum of its squares is {value}");
-        Law { expected: 1.0, broken, rows }
-    }
-    const fn angle(rows: &'static [usize]) -> Law {
-        let broken = |value| format!("are not perpendicular: the sum of their products is {value}");
-        Law { expected: 0.0, broken, rows }
-    }
-    const fn mirror(rows: &'static [usize]) -> Law {
-        let broken = |value| format!("make a mirror image, not a rotation: their determinant is {value}");
-        Law { expected: 1.0, broken, rows }
-    }
-    [
-        length(&[0]),
-        length(&[1]),
-        length(&[2]),
-        angle(&[0, 1]),
-        angle(&[0, 2]),
-        angle(&[1, 2]),
-        mirror(&[0, 1, 2]),
-    ]
-};
+/// What rows are about: one has length 1, two are perpendicular, and all three make no mirror image.
+const LAWS: [&[usize]; 7] = [&[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]];
 
 /// Returns the first law that a matrix breaks, as a mistake. Parameters are at their nominal values.
 pub(super) fn check_rigid(
@@ -57,9 +28,9 @@ pub(super) fn check_rigid(
             })
         };
         let rows: [[f64; 3]; 3] = [0, 1, 2].map(|i| [0, 1, 2].map(|j| value(&matrix.rows[i][j])));
-        for law in &LAWS {
-            let value = law.value(&rows);
-            let fulfilled = (value - law.expected).abs() <= TOLERANCE;
+        for law in LAWS {
+            let (value, expected) = product(law, &rows);
+            let fulfilled = (value - expected).abs() <= TOLERANCE;
             if !fulfilled {
                 return Some(mistake(matrix, law, value, &at(matrix, scope, &q)));
             }
@@ -68,31 +39,35 @@ pub(super) fn check_rigid(
     None
 }
 
-impl Law {
-    fn value(&self, rows: &[[f64; 3]; 3]) -> f64 {
-        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        match *self.rows {
-            [i] => dot(rows[i], rows[i]),
-            [i, j] => dot(rows[i], rows[j]),
-            _ => {
-                let ([a, b, c], [d, e, f]) = (rows[0], rows[1]);
-                dot([b * f - c * e, c * d - a * f, a * e - b * d], rows[2])
-            }
+/// The product of some rows, and what it must be: the square of one, the inner product of two, the determinant of all.
+fn product(law: &[usize], rows: &[[f64; 3]; 3]) -> (f64, f64) {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    match *law {
+        [i] => (dot(rows[i], rows[i]), 1.0),
+        [i, j] => (dot(rows[i], rows[j]), 0.0),
+        _ => {
+            let ([a, b, c], [d, e, f]) = (rows[0], rows[1]);
+            (dot([b * f - c * e, c * d - a * f, a * e - b * d], rows[2]), 1.0)
         }
     }
 }
 
-fn mistake(matrix: &Matrix, law: &Law, value: f64, at: &str) -> Diagnostic {
-    let names: Vec<String> = law.rows.iter().map(|row| (row + 1).to_string()).collect();
-    let rows = match &names[..] {
-        [row] => format!("row {row}"),
-        [first, second] => format!("rows {first} and {second}"),
-        _ => "the rows".to_owned(),
+fn mistake(matrix: &Matrix, law: &[usize], value: f64, at: &str) -> Diagnostic {
+    let broken = match *law {
+        [i] => format!("row {} is not of length 1: the sum of its squares is {value}", i + 1),
+        [i, j] => {
+            format!(
+                "rows {} and {} are not perpendicular: the sum of their products is {value}",
+                i + 1,
+                j + 1
+            )
+        }
+        _ => format!("the rows make a mirror image, not a rotation: their determinant is {value}"),
     };
     // The last row at fault is marked, the others shown.
     let row = |i: usize| matrix.rows[i][0].span().start..matrix.rows[i][2].span().end;
-    let (last, others) = law.rows.split_last().expect("a law is about at least one row");
-    let message = format!("this matrix is not a rigid motion: {rows} {}{at}", (law.broken)(value));
+    let (last, others) = law.split_last().expect("a law is about at least one row");
+    let message = format!("this matrix is not a rigid motion: {broken}{at}");
     let mut mistake = Diagnostic::new(row(*last), message)
         .label(format!("row {}", last + 1))
         .help("check the signs, and that every sine has its cosine; write constants in full, as cos(45 deg)");

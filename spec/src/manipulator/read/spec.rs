@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use abbe_core::Orientation;
+use abbe_core::{LengthUnit, Orientation};
 use sha2::{Digest, Sha256};
 
 use super::covariance::read_covariance;
@@ -19,7 +19,7 @@ use super::samples::depends;
 use super::sources::read_sources;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::document::{Document, Item, Section};
-use crate::expr::{LengthUnit, Symbol};
+use crate::expr::Symbol;
 use crate::manipulator::names::{check_identifier, title_of};
 use crate::manipulator::{Factor, Frame, Spec};
 
