@@ -1,6 +1,6 @@
 //! `abbe bound`: how large the errors are at most.
 
-use abbe_interpreter::bound::Effort;
+use abbe_bound::Effort;
 use abbe_report::text;
 use abbe_study::bound::Bound;
 

@@ -19,10 +19,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program comes as `chains` of its steps, each an `operation` on slots; `pack` makes a `tape` of them, and `lanes` evaluates it. `bound` finds
-//! the largest value of a node over a box, with a proof.
-
-pub mod bound;
+//! A program comes as `chains` of its steps, each an `operation` on slots; `pack` makes a `tape` of them, and `lanes` evaluates it.
 
 mod chains;
 mod interpreter;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use abbe_spec::document::Document;
-use abbe_interpreter::bound::Effort;
+use abbe_bound::Effort;
 use abbe_report::text;
 use abbe_study::Study;
 use abbe_study::bound::Bound as Job;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use abbe::{Class, Orientation};
-use abbe_interpreter::bound::{self, Effort};
+use abbe_bound::Effort;
 use abbe_spec::{Fitted, Spec};
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -202,13 +202,13 @@ impl AfterStep {
     /// From the largest sizes of position and orientation, and what these are without the step.
     pub(super) fn new(
         domain: &Domain,
-        bounds: &[Option<bound::Bound>; 2],
+        bounds: &[Option<abbe_bound::Bound>; 2],
         before: [f64; 2],
         corrects_orientation: bool,
     ) -> Self {
         let [point, turn] = bounds;
         let certified =
-            |bound: &Option<bound::Bound>| bound.as_ref().and_then(|bound| known(bound.certified));
+            |bound: &Option<abbe_bound::Bound>| bound.as_ref().and_then(|bound| known(bound.certified));
         let all = bounds.iter().flatten().zip(before);
         let hard = all.clone().find(|(bound, before)| bound.found > *before);
         Self {
@@ -222,7 +222,7 @@ impl AfterStep {
 }
 
 impl Remainder {
-    pub(super) fn new(bound: &bound::Bound) -> Self {
+    pub(super) fn new(bound: &abbe_bound::Bound) -> Self {
         Self { certified: known(bound.certified), boxes: bound.boxes }
     }
 }
@@ -355,7 +355,7 @@ impl Errors {
 }
 
 impl Largest {
-    pub(super) fn new(bound: &bound::Bound, domain: &Domain) -> Self {
+    pub(super) fn new(bound: &abbe_bound::Bound, domain: &Domain) -> Self {
         let (at, place) = domain.place(&bound.at);
         Self {
             found: bound.found,

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use abbe_bound::Effort;
 use abbe_codegen::chain::Magnitudes;
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::Effort;
 use abbe_spec::Spec;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;

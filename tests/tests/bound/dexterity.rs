@@ -1,9 +1,9 @@
 //! Nowhere is the least singular value of `J_q` below what is certified of it.
 
 use abbe::{Manipulator, Orientation, VariableKind, deviation};
+use abbe_bound::{Effort, Extreme, Moving, Singular, singular_value};
 use abbe_codegen::chain::Dexterity;
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::{Effort, Extreme, Moving, Singular, singular_value};
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use nalgebra::DMatrix;

@@ -9,9 +9,9 @@ mod robot;
 mod stiffness;
 
 use abbe::{Class, Manipulator, Orientation};
+use abbe_bound::{Bound, Effort, Moving, largest, limits};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::{Bound, Effort, Moving, largest, limits};
 use abbe_spec::Spec;
 use abbe_spec::expr::Symbol;
 use rand::{Rng, RngExt, SeedableRng};

@@ -1,9 +1,9 @@
 //! First order and the exact chain never differ by more than what is certified of their difference.
 
 use abbe::{Class, Manipulator, deviation, drawn_pose};
+use abbe_bound::{Bound, Effort, Moving, largest};
 use abbe_codegen::chain::Remainder;
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::{Bound, Effort, Moving, largest};
 use abbe_spec::Spec;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;

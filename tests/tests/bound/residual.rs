@@ -3,9 +3,9 @@
 use abbe::analysis::{compensated, sampling};
 use abbe::compensator::norms;
 use abbe::{Class, Manipulator, Orientation, VariableKind, deviation, drawn_pose};
+use abbe_bound::{Bound, Effort, Moving, largest};
 use abbe_codegen::chain::{Magnitude, Residual};
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::{Bound, Effort, Moving, largest};
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use nalgebra::{DMatrix, DVector};

@@ -1,9 +1,9 @@
 //! Nowhere does a force at the tool point move it by more than is certified.
 
 use abbe::Manipulator;
+use abbe_bound::{Effort, Extreme, Moving, Singular, singular_value};
 use abbe_codegen::chain::ToolCompliance;
 use abbe_interpreter::Interpreter;
-use abbe_interpreter::bound::{Effort, Extreme, Moving, Singular, singular_value};
 use abbe_spec::Spec;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};

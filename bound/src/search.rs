@@ -5,42 +5,49 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 
-use super::cell::{Cell, Point, Workspace};
-use super::corners::Corners;
-use super::tape::Tape;
-use super::{Bound, Effort, Progress};
+use crate::affine::Affine;
+use crate::effort::{Effort, Progress};
+use crate::local_search::{ascend, highest};
+use crate::problem::{Point, Problem};
+use crate::search_box::{SearchBox, Workspace};
 
 /// How many boxes are halved in a round, whatever the number of threads.
 const ROUND: usize = 64;
 /// What is this much less than the first look allowed is nothing, and so is what is less than the second number.
 const NOTHING: [f64; 2] = [1e-9, 1e-150];
 
-/// What is sought, and where.
-pub(super) struct Search {
-    /// The value.
-    pub(super) value: Tape,
-    /// How it is convex in the names, if it is.
-    pub(super) corners: Option<Corners>,
-    /// The value, and its slope along each name.
-    pub(super) all: Tape,
-    /// Where each name can be.
-    pub(super) domain: Vec<[f64; 2]>,
-    /// Where it begins.
-    pub(super) start: Vec<f64>,
+/// What is proved of the largest value: it is no less than `found`, and no more than `certified`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    /// The value at `at`, rounded down.
+    pub found: f64,
+    /// What no value exceeds; infinite if nothing is known.
+    pub certified: f64,
+    /// The value of each name where `found` is.
+    pub at: Vec<f64>,
+    /// How many boxes were looked at.
+    pub boxes: usize,
+    /// Whether the gap was reached.
+    pub complete: bool,
+}
+
+/// What is sought, and for how long.
+pub(crate) struct Search {
+    pub(crate) problem: Problem,
     /// Whether the value is the square of what is asked for.
-    pub(super) squared: bool,
-    pub(super) effort: Effort,
+    pub(crate) squared: bool,
+    pub(crate) effort: Effort,
 }
 
 /// A box that waits, with its number: of equals the first comes first.
 struct Waiting {
-    cell: Cell,
+    search_box: SearchBox,
     number: usize,
 }
 
 impl Ord for Waiting {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.cell.most.total_cmp(&other.cell.most).then(other.number.cmp(&self.number))
+        self.search_box.most.total_cmp(&other.search_box.most).then(other.number.cmp(&self.number))
     }
 }
 
@@ -59,38 +66,38 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 impl Search {
-    pub(super) fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bound {
-        let mut best = self.first::<N>();
-        let whole = Cell {
-            low: self.domain.iter().map(|range| range[0]).collect(),
-            high: self.domain.iter().map(|range| range[1]).collect(),
+    pub(crate) fn run<const N: usize>(&self, watch: &mut dyn FnMut(&Progress) -> bool) -> Bound {
+        let mut best = highest::<N>(&self.problem);
+        let whole = SearchBox {
+            low: self.problem.domain.iter().map(|range| range[0]).collect(),
+            high: self.problem.domain.iter().map(|range| range[1]).collect(),
             most: f64::INFINITY,
             split: 0,
         };
-        let first = self.value.evaluate(
-            &mut Vec::<super::form::Form<N>>::new(),
-            &whole.centres().0,
-            &whole.centres().1,
-        );
+        let first =
+            self.problem.value.evaluate(&mut Vec::<Affine<N>>::new(), &whole.centres().0, &whole.centres().1);
         let allowed = self.size(first.0[0].range()[1]);
         let nothing = if allowed.is_finite() { (NOTHING[0] * allowed).max(NOTHING[1]) } else { NOTHING[1] };
         let (mut waiting, mut boxes, mut left) = (BinaryHeap::new(), 0, f64::NEG_INFINITY);
         let mut open = vec![whole];
         let complete = loop {
-            let looked: Vec<(Option<Cell>, Point)> = open
+            let looked: Vec<(Option<SearchBox>, Point)> = open
                 .into_par_iter()
-                .map_init(Workspace::<N>::default, |workspace, cell| self.look(cell, best.value, workspace))
+                .map_init(
+                    || Workspace::<N>::new(&self.problem),
+                    |workspace, search_box| workspace.look(search_box, best.value),
+                )
                 .collect();
-            for (cell, point) in looked {
+            for (search_box, point) in looked {
                 boxes += 1;
                 if point.value > best.value {
-                    best = self.climb::<N>(point);
+                    best = ascend::<N>(&self.problem, point);
                 }
-                if let Some(cell) = cell {
-                    waiting.push(Waiting { cell, number: boxes });
+                if let Some(search_box) = search_box {
+                    waiting.push(Waiting { search_box, number: boxes });
                 }
             }
-            let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting: &Waiting| waiting.cell.most);
+            let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting: &Waiting| waiting.search_box.most);
             let (found, certified) = (self.size(best.value), self.certified(most.max(left).max(best.value)));
             if certified <= found + (self.effort.gap * found).max(nothing) {
                 break true;
@@ -100,14 +107,14 @@ impl Search {
             }
             open = Vec::with_capacity(2 * ROUND);
             while open.len() < 2 * ROUND
-                && let Some(Waiting { cell, .. }) = waiting.pop()
+                && let Some(Waiting { search_box, .. }) = waiting.pop()
             {
-                let is_point = cell.low == cell.high;
+                let is_point = search_box.low == search_box.high;
                 // What cannot be halved stays as it is; what holds no more than was found is done with.
-                if is_point || self.domain.is_empty() {
-                    left = left.max(cell.most);
-                } else if cell.most > best.value {
-                    open.extend(cell.halves());
+                if is_point || self.problem.domain.is_empty() {
+                    left = left.max(search_box.most);
+                } else if search_box.most > best.value {
+                    open.extend(search_box.halves());
                 }
             }
             if open.is_empty() {
@@ -115,7 +122,7 @@ impl Search {
                 break certified <= found + (self.effort.gap * found).max(nothing);
             }
         };
-        let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting| waiting.cell.most);
+        let most = waiting.peek().map_or(f64::NEG_INFINITY, |waiting| waiting.search_box.most);
         Bound {
             found: self.rounded_down(best.value),
             certified: self.certified(most.max(left).max(best.value)),

@@ -7,11 +7,11 @@
 //! Two names have their vertices in lanes, side by side; of the others one after the other moves on, and what does not depend on those that
 //! moved is not computed again.
 
-use abbe::lanes::{InstructionSet, Kernel, Register};
+use abbe_core::lanes::{InstructionSet, Kernel, Register};
 
-use super::convex::{At, Convex, Names, Operation};
-use super::form::{Form, above};
-use super::vertex::{LANES, Lanes, Number, Size, result};
+use crate::affine::{Affine, above};
+use crate::convex::{At, Convex, Names, Operation};
+use crate::vertex::{LANES, Lanes, Number, Size, result};
 
 /// How many pieces an arc has between its tangents: of more, fewer boxes are looked at, for longer.
 const PIECES: usize = 2;
@@ -27,7 +27,7 @@ const MOST_NAMES: usize = 8;
 
 /// A convex norm, and the order in which its names move on.
 #[derive(Clone, Debug)]
-pub(super) struct Corners {
+pub(crate) struct Corners {
     norm: Convex,
     /// Those in lanes first.
     order: Vec<usize>,
@@ -38,26 +38,26 @@ pub(super) struct Corners {
 
 /// The corner with the largest norm.
 #[derive(Clone, Debug)]
-pub(super) struct Corner {
+pub(crate) struct Corner {
     /// No norm in the box is larger.
-    pub(super) most: f64,
+    pub(crate) most: f64,
     /// The vertex of each name: its lower end, its upper end, or where tangents meet.
     at: Vec<usize>,
 }
 
 /// Where numbers are kept.
 #[derive(Debug, Default)]
-pub(super) struct Numbers {
+pub(crate) struct Numbers {
     lanes: Vec<Lanes>,
     sizes: Vec<Size>,
 }
 
 /// Sine and cosine; or a name, and nothing.
-type Vertex = [Form<0>; 2];
+type Vertex = [Affine<0>; 2];
 
 impl Corners {
     /// None if there are no names, or too many.
-    pub(super) fn new(norm: Convex) -> Option<Self> {
+    pub(crate) fn new(norm: Convex) -> Option<Self> {
         let names = norm.angles.len();
         if names == 0 || names > MOST_NAMES {
             return None;
@@ -73,12 +73,12 @@ impl Corners {
     }
 
     /// Whether the arc of a name is too long for anything to be known.
-    pub(super) fn is_too_long(&self, name: usize, [low, high]: [f64; 2]) -> bool {
+    pub(crate) fn is_too_long(&self, name: usize, [low, high]: [f64; 2]) -> bool {
         self.norm.angles[name] && half_piece([low, high]).range()[1] > LONGEST
     }
 
     /// The largest norm in a box without arcs that are too long; none if its roundings have no end.
-    pub(super) fn largest(&self, numbers: &mut Numbers, low: &[f64], high: &[f64]) -> Option<Corner> {
+    pub(crate) fn largest(&self, numbers: &mut Numbers, low: &[f64], high: &[f64]) -> Option<Corner> {
         let ends = low.iter().zip(high).map(|(low, high)| [*low, *high]).zip(&self.norm.angles);
         let vertices = ends.map(|(ends, is_angle)| if *is_angle { of_arc(ends) } else { of_range(ends) });
         let vertices: Vec<Vec<Vertex>> = vertices.collect();
@@ -160,12 +160,12 @@ impl Kernel for Rounded<'_> {
 
 impl Corner {
     /// Whether a name is where tangents meet, which no angle of its arc is.
-    pub(super) fn is_outside(&self, name: usize) -> bool {
+    pub(crate) fn is_outside(&self, name: usize) -> bool {
         self.at[name] >= 2
     }
 
     /// The next place that the box has.
-    pub(super) fn nearest(&self, low: &[f64], high: &[f64]) -> Vec<f64> {
+    pub(crate) fn nearest(&self, low: &[f64], high: &[f64]) -> Vec<f64> {
         let ends = low.iter().zip(high).zip(&self.at);
         let near = ends.map(|((low, high), at)| match at {
             0 => *low,
@@ -183,27 +183,27 @@ fn all_lanes(vertex: &Vertex) -> [Lanes; 2] {
 
 fn of_range([low, high]: [f64; 2]) -> Vec<Vertex> {
     let ends = if low == high { vec![low] } else { vec![low, high] };
-    ends.into_iter().map(|end| [Form::known(end, 0.0), Form::known(0.0, 0.0)]).collect()
+    ends.into_iter().map(|end| [Affine::known(end, 0.0), Affine::known(0.0, 0.0)]).collect()
 }
 
 fn of_arc([low, high]: [f64; 2]) -> Vec<Vertex> {
-    let [first, last] = [low, high].map(|end| Form::known(end, 0.0));
+    let [first, last] = [low, high].map(|end| Affine::known(end, 0.0));
     if low == high {
         return vec![first.sin_cos()];
     }
     let half = half_piece([low, high]);
     let distance = half.sin_cos()[1].reciprocal();
     let meetings = (0..PIECES).map(|piece| {
-        let halves = Form::known((2 * piece + 1) as f64, 0.0);
+        let halves = Affine::known((2 * piece + 1) as f64, 0.0);
         first.add(&half.mul(&halves)).sin_cos().map(|part| part.mul(&distance))
     });
     [first.sin_cos(), last.sin_cos()].into_iter().chain(meetings).collect()
 }
 
 /// Half of a piece of an arc.
-fn half_piece([low, high]: [f64; 2]) -> Form<0> {
-    let width = Form::known(high, 0.0).sub(&Form::known(low, 0.0));
-    width.mul(&Form::known((2 * PIECES) as f64, 0.0).reciprocal())
+fn half_piece([low, high]: [f64; 2]) -> Affine<0> {
+    let width = Affine::known(high, 0.0).sub(&Affine::known(low, 0.0));
+    width.mul(&Affine::known((2 * PIECES) as f64, 0.0).reciprocal())
 }
 
 /// The names on which each operation depends.
@@ -242,8 +242,8 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    use super::super::tape::Tape;
     use super::*;
+    use crate::tape::Tape;
 
     /// How many angles there are; the name after them stands by itself.
     const ANGLES: usize = 3;

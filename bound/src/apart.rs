@@ -4,7 +4,9 @@ use abbe_codegen::chain::{Apart, Magnitude};
 use abbe_codegen::graph::Graph;
 use abbe_spec::expr::Symbol;
 
-use super::{Effort, Moving, largest};
+use crate::effort::Effort;
+use crate::largest::largest;
+use crate::moving::Moving;
 
 /// Parts depend on little, and are soon known.
 const EFFORT: Effort = Effort { gap: 1e-3, boxes: 2000, at_most: f64::INFINITY };

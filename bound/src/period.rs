@@ -17,7 +17,7 @@ enum Dependence {
 }
 
 /// Whether a node is the same after a whole turn of a symbol.
-pub(super) fn is_angle(graph: &Graph, node: Node, symbol: Symbol) -> bool {
+pub(crate) fn is_angle(graph: &Graph, node: Node, symbol: Symbol) -> bool {
     use Dependence::{Angle, None, Other, Turned};
     let mut known: Vec<Dependence> = Vec::with_capacity(node.index() + 1);
     for op in graph.ops().take(node.index() + 1) {
@@ -37,6 +37,6 @@ pub(super) fn is_angle(graph: &Graph, node: Node, symbol: Symbol) -> bool {
 }
 
 /// No more than one turn of a range, and a little.
-pub(super) fn once_around([low, high]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn once_around([low, high]: [f64; 2]) -> [f64; 2] {
     [low, high.min((low + TAU).next_up().next_up())]
 }

@@ -6,20 +6,20 @@ use std::sync::Arc;
 use abbe_codegen::graph::{Graph, Node, Op};
 use abbe_spec::expr::{Function, Lookup, Symbol, Table};
 
-use super::form::Form;
+use crate::affine::Affine;
 
-pub(super) type Register = usize;
+pub(crate) type Register = usize;
 
 /// An operation on registers; numbers that no name moves are known when it is made.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Step {
-    Known(Form<0>),
+pub(crate) enum Step {
+    Known(Affine<0>),
     Neg(Register),
     Add(Register, Register),
     Sub(Register, Register),
-    Shift(Register, Form<0>),
+    Shift(Register, Affine<0>),
     Mul(Register, Register),
-    Scale(Register, Form<0>),
+    Scale(Register, Affine<0>),
     Div(Register, Register),
     Power(Register, f64),
     Angle(Register, Register),
@@ -33,18 +33,18 @@ pub(super) enum Step {
 
 /// Operations that compute some numbers from the values of names.
 #[derive(Clone, Debug)]
-pub(super) struct Tape {
-    pub(super) steps: Vec<Step>,
-    pub(super) outputs: Vec<Register>,
+pub(crate) struct Tape {
+    pub(crate) steps: Vec<Step>,
+    pub(crate) outputs: Vec<Register>,
     tables: Vec<Arc<Table>>,
     /// Whether the derivative of an absolute value is part of a value, and not only of its slopes: it jumps.
-    pub(super) sides_jump: bool,
+    pub(crate) sides_jump: bool,
 }
 
 /// What a node is while the tape is made.
 #[derive(Clone, Copy)]
 enum Value {
-    Known(Form<0>),
+    Known(Affine<0>),
     At(Register),
 }
 
@@ -57,7 +57,7 @@ struct Draft {
 
 impl Tape {
     /// The values of some nodes from those of some names; all other symbols have the values that `fixed` says.
-    pub(super) fn new(
+    pub(crate) fn new(
         graph: &Graph,
         nodes: &[Node],
         names: &[Symbol],
@@ -82,11 +82,11 @@ impl Tape {
         let mut values: Vec<Value> = Vec::with_capacity(count);
         for (op, needed) in ops.iter().zip(needed) {
             values.push(match op {
-                _ if !needed => Value::Known(Form::known(f64::NAN, 0.0)),
-                Op::Constant(bits) => Value::Known(Form::known(f64::from_bits(*bits), 0.0)),
+                _ if !needed => Value::Known(Affine::known(f64::NAN, 0.0)),
+                Op::Constant(bits) => Value::Known(Affine::known(f64::from_bits(*bits), 0.0)),
                 Op::Symbol(symbol) => match names.iter().position(|name| name == symbol) {
                     Some(name) => Value::At(name),
-                    None => Value::Known(Form::known(fixed(*symbol), 0.0)),
+                    None => Value::Known(Affine::known(fixed(*symbol), 0.0)),
                 },
                 _ => draft.operation(*op, |node| values[node.index()]),
             });
@@ -96,32 +96,32 @@ impl Tape {
     }
 
     /// Whether it has derivatives of absolute values.
-    pub(super) fn has_sides(&self) -> bool {
+    pub(crate) fn has_sides(&self) -> bool {
         self.steps.iter().any(|step| matches!(step, Step::Call(Function::Side, _)))
     }
 
     /// What the numbers are while each name is within its half width of its centre, and whether one of them may jump there.
-    pub(super) fn evaluate<const N: usize>(
+    pub(crate) fn evaluate<const N: usize>(
         &self,
-        registers: &mut Vec<Form<N>>,
+        registers: &mut Vec<Affine<N>>,
         centres: &[f64],
         halves: &[f64],
-    ) -> (Vec<Form<N>>, bool) {
+    ) -> (Vec<Affine<N>>, bool) {
         registers.clear();
         for (i, (centre, half)) in centres.iter().zip(halves).enumerate() {
             let mut slopes = [0.0; N];
             match slopes.get_mut(i) {
                 Some(slope) => *slope = *half,
-                None if *half > 0.0 => return (vec![Form::anything(); self.outputs.len()], true),
+                None if *half > 0.0 => return (vec![Affine::anything(); self.outputs.len()], true),
                 None => {}
             }
-            registers.push(Form { centre: *centre, slopes, spread: *half, rest: 0.0 });
+            registers.push(Affine { centre: *centre, slopes, spread: *half, rest: 0.0 });
         }
         let mut jumps = false;
         for step in &self.steps {
             let at = |register: Register| &registers[register];
             let form = match *step {
-                Step::Known(number) => Form::known(number.centre, number.rest),
+                Step::Known(number) => Affine::known(number.centre, number.rest),
                 Step::Neg(a) => at(a).neg(),
                 Step::Add(a, b) => at(a).add(at(b)),
                 Step::Sub(a, b) => at(a).sub(at(b)),
@@ -215,7 +215,7 @@ impl Draft {
             Op::Pow(a, b) => match of(b) {
                 Value::Known(exponent) => Step::Power(self.register(of(a)), exponent.centre),
                 // No graph has such a power: its exponents are numbers.
-                Value::At(_) => Step::Known(Form::anything()),
+                Value::At(_) => Step::Known(Affine::anything()),
             },
             Op::Neg(a) => Step::Neg(self.register(of(a))),
             Op::Atan2(a, b) => Step::Angle(self.register(of(a)), self.register(of(b))),
@@ -223,16 +223,16 @@ impl Draft {
             Op::Max(a, b) => Step::Larger(self.register(of(a)), self.register(of(b))),
             Op::Call(function, a) => Step::Call(function, self.register(of(a))),
             Op::Lookup(lookup, a) => Step::Lookup(lookup, self.register(of(a))),
-            Op::Constant(_) | Op::Symbol(_) => Step::Known(Form::anything()),
+            Op::Constant(_) | Op::Symbol(_) => Step::Known(Affine::anything()),
         };
         Value::At(self.push(step))
     }
 
     /// The result of an operation on numbers, by a tape of its own.
-    fn number(&self, op: Op, of: impl Fn(Node) -> Value) -> Form<0> {
+    fn number(&self, op: Op, of: impl Fn(Node) -> Value) -> Affine<0> {
         let known = |node: Node| match of(node) {
             Value::Known(number) => number,
-            Value::At(_) => Form::anything(),
+            Value::At(_) => Affine::anything(),
         };
         match op {
             Op::Neg(a) => known(a).neg(),
@@ -246,14 +246,14 @@ impl Draft {
             Op::Max(a, b) => known(a).larger(&known(b)),
             Op::Call(function, a) => match (function, known(a)) {
                 // A sum of squares that are all 0 has the root 0, and no slope.
-                (Function::Sqrt, Form { centre: 0.0, rest: 0.0, .. }) => Form::known(0.0, 0.0),
+                (Function::Sqrt, Affine { centre: 0.0, rest: 0.0, .. }) => Affine::known(0.0, 0.0),
                 (function, a) => a.call(function).0,
             },
             Op::Lookup(Lookup { table, order }, a) => {
                 known(a).look_up(&self.tape.tables[usize::from(table)], u32::from(order))
             }
-            Op::Constant(bits) => Form::known(f64::from_bits(bits), 0.0),
-            Op::Symbol(_) => Form::anything(),
+            Op::Constant(bits) => Affine::known(f64::from_bits(bits), 0.0),
+            Op::Symbol(_) => Affine::anything(),
         }
     }
 }

@@ -1,14 +1,14 @@
 //! Numbers at corners: some of them side by side, or how large all of them are and how far rounding has put them off.
 
-use super::convex::Operation;
-use super::form::{Form, UNIT, above};
+use crate::affine::{Affine, UNIT, above};
+use crate::convex::Operation;
 
 /// How many corners stand side by side: those of the vertices of two names.
-pub(super) const LANES: usize = 16;
+pub(crate) const LANES: usize = 16;
 
 /// What operations compute with.
-pub(super) trait Number: Copy {
-    fn known(number: &Form<0>) -> Self;
+pub(crate) trait Number: Copy {
+    fn known(number: &Affine<0>) -> Self;
     fn neg(self) -> Self;
     fn add(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
@@ -20,7 +20,7 @@ pub(super) trait Number: Copy {
 
 /// The result of an operation; `names` are sine and cosine of each name, or the name.
 #[inline(always)]
-pub(super) fn result<T: Number>(operation: &Operation, before: &[T], names: &[[T; 2]]) -> T {
+pub(crate) fn result<T: Number>(operation: &Operation, before: &[T], names: &[[T; 2]]) -> T {
     match *operation {
         Operation::Name(name, part) => names[name][part],
         Operation::Known(number) => T::known(&number),
@@ -34,11 +34,11 @@ pub(super) fn result<T: Number>(operation: &Operation, before: &[T], names: &[[T
 }
 
 /// Numbers at several corners, rounded.
-pub(super) type Lanes = [f64; LANES];
+pub(crate) type Lanes = [f64; LANES];
 
 impl Number for Lanes {
     #[inline(always)]
-    fn known(number: &Form<0>) -> Self {
+    fn known(number: &Affine<0>) -> Self {
         [number.centre; LANES]
     }
 
@@ -75,21 +75,21 @@ impl Number for Lanes {
 
 /// What numbers do not exceed: neither those that are computed nor the exact ones, nor how far they are apart.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Size {
-    pub(super) most: f64,
-    pub(super) off: f64,
+pub(crate) struct Size {
+    pub(crate) most: f64,
+    pub(crate) off: f64,
 }
 
 impl Size {
     /// No less than either.
-    pub(super) fn of_both(self, other: Self) -> Self {
+    pub(crate) fn of_both(self, other: Self) -> Self {
         Self { most: self.most.max(other.most), off: self.off.max(other.off) }
     }
 }
 
 /// Each result is rounded by no more than `UNIT` of its size, or underflows: `above` has room for both.
 impl Number for Size {
-    fn known(number: &Form<0>) -> Self {
+    fn known(number: &Affine<0>) -> Self {
         Self { most: above(number.centre.abs() + number.radius()), off: number.radius() }
     }
 

@@ -1,6 +1,6 @@
 //! How far the value of a box can be above that at its centre.
 
-use super::form::{Form, UNIT};
+use crate::affine::{Affine, UNIT};
 
 /// No sum here has more than 4096 roundings: those of 32 names, each with each, twice.
 const SUMS: f64 = 4096.0 * UNIT;
@@ -11,7 +11,7 @@ const SUMS: f64 = 4096.0 * UNIT;
 /// f(m + w t) − f(m) = ∫₀¹ Σ w_i t_i f_i(m + s w t) ds  ≤  Σ b_i t_i + ½ Σ B_ij t_i t_j + Σ ρ_i |t_i|
 /// b_i = w_i c_i        B_ij = ½ (w_i a_ij + w_j a_ji)        ρ_i = w_i r_i
 /// ```
-pub(super) struct Growth<const N: usize> {
+pub(crate) struct SlopeBound<const N: usize> {
     names: usize,
     rest: [f64; N],
     quadratic: Quadratic<N>,
@@ -25,8 +25,8 @@ struct Quadratic<const N: usize> {
     second: [[f64; N]; N],
 }
 
-impl<const N: usize> Growth<N> {
-    pub(super) fn new(slopes: &[Form<N>], halves: &[f64]) -> Self {
+impl<const N: usize> SlopeBound<N> {
+    pub(crate) fn new(slopes: &[Affine<N>], halves: &[f64]) -> Self {
         let names = slopes.len().min(N);
         let (mut first, mut rest, mut second) = ([0.0; N], [0.0; N], [[0.0; N]; N]);
         let mut rounding = 0.0;
@@ -47,7 +47,7 @@ impl<const N: usize> Growth<N> {
     ///
     /// The least of what follows from the quadratic as it is and from those that are left when one name after the other, that
     /// with the strongest curve first, is eliminated.
-    pub(super) fn most(&self) -> f64 {
+    pub(crate) fn most(&self) -> f64 {
         let mut least = self.quadratic.by_names(&self.rest, self.names);
         let rest: f64 = self.rest.iter().sum();
         let mut left = Quadratic { more: self.quadratic.more + rest, ..self.quadratic };
@@ -67,7 +67,7 @@ impl<const N: usize> Growth<N> {
     }
 
     /// What one name has to do with it.
-    pub(super) fn of(&self, name: usize) -> f64 {
+    pub(crate) fn share(&self, name: usize) -> f64 {
         let second: f64 = self.quadratic.second[name].iter().take(self.names).map(|entry| entry.abs()).sum();
         self.quadratic.first[name].abs() + self.rest[name] + 0.5 * second
     }

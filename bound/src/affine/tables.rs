@@ -1,13 +1,13 @@
 //! Tables of affine forms: polynomials between points, each over the part of it that is reached.
 
-use abbe::LookupTable;
+use abbe_core::LookupTable;
 use abbe_spec::expr::{Interpolation, Outside, Table};
 
-use super::form::{Form, UNIT, above};
+use super::form::{Affine, UNIT, above};
 
-impl<const N: usize> Form<N> {
+impl<const N: usize> Affine<N> {
     /// A derivative of a table, the function itself if of order 0.
-    pub(super) fn look_up(&self, table: &Table, order: u32) -> Self {
+    pub(crate) fn look_up(&self, table: &Table, order: u32) -> Self {
         let range = self.range();
         let [first, last] = table.ends();
         let is_inside = range[0] >= first && range[1] <= last;

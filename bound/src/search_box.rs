@@ -2,32 +2,20 @@
 
 use std::cmp::Ordering;
 
-use super::corners::{Corners, Numbers};
-use super::form::{Form, UNIT, above};
-use super::growth::Growth;
-use super::search::Search;
+use crate::affine::{Affine, UNIT, above};
+use crate::corners::{Corners, Numbers};
+use crate::problem::{Point, Problem};
+use crate::slopes::SlopeBound;
 
 /// A box that may hold the largest value.
 #[derive(Clone, Debug)]
-pub(super) struct Cell {
-    pub(super) low: Vec<f64>,
-    pub(super) high: Vec<f64>,
+pub(crate) struct SearchBox {
+    pub(crate) low: Vec<f64>,
+    pub(crate) high: Vec<f64>,
     /// What no value within exceeds.
-    pub(super) most: f64,
+    pub(crate) most: f64,
     /// The name that is to be halved.
-    pub(super) split: usize,
-}
-
-/// A value, and where it is.
-#[derive(Clone, Debug)]
-pub(super) struct Point {
-    /// No more than the value.
-    pub(super) value: f64,
-    pub(super) at: Vec<f64>,
-}
-
-impl Point {
-    const NONE: Self = Self { value: f64::NEG_INFINITY, at: Vec::new() };
+    pub(crate) split: usize,
 }
 
 /// Boxes that are no wider are looked at by their slopes, too, rad: close to a maximum these confine it.
@@ -39,68 +27,57 @@ const PASSES: usize = 4;
 /// A name whose quarter moves the value by this share of what its whole range does says nothing by its slope.
 const SATURATED: f64 = 0.95;
 
-/// Where numbers are kept while boxes are looked at.
-pub(super) struct Workspace<const N: usize> {
-    registers: Vec<Form<N>>,
-    points: Vec<Form<0>>,
+/// Looks at boxes, and keeps its numbers from one to the next.
+pub(crate) struct Workspace<'a, const N: usize> {
+    problem: &'a Problem,
+    registers: Vec<Affine<N>>,
+    points: Vec<Affine<0>>,
     corners: Numbers,
 }
 
-impl<const N: usize> Default for Workspace<N> {
-    fn default() -> Self {
-        Self { registers: Vec::new(), points: Vec::new(), corners: Numbers::default() }
-    }
-}
-
-impl Search {
-    /// The value at a point: no more, and no less, than it is.
-    pub(super) fn value_at(&self, points: &mut Vec<Form<0>>, at: &[f64]) -> [f64; 2] {
-        self.value.evaluate(points, at, &vec![0.0; at.len()]).0[0].range()
+impl<'a, const N: usize> Workspace<'a, N> {
+    pub(crate) fn new(problem: &'a Problem) -> Self {
+        Self { problem, registers: Vec::new(), points: Vec::new(), corners: Numbers::default() }
     }
 
     /// Looks at a box: nothing of it is left if it holds no more than was found.
-    pub(super) fn look<const N: usize>(
-        &self,
-        cell: Cell,
-        found: f64,
-        workspace: &mut Workspace<N>,
-    ) -> (Option<Cell>, Point) {
-        match &self.corners {
-            Some(corners) => self.look_at_corners(corners, cell, found, workspace),
-            None => self.look_at_slopes(cell, workspace),
+    pub(crate) fn look(&mut self, search_box: SearchBox, found: f64) -> (Option<SearchBox>, Point) {
+        match &self.problem.corners {
+            Some(corners) => self.look_at_corners(corners, search_box, found),
+            None => self.look_at_slopes(search_box),
         }
     }
 
     /// The corner with the largest value bounds the box. Where it is outside, a name is halved that takes it there.
-    fn look_at_corners<const N: usize>(
-        &self,
+    fn look_at_corners(
+        &mut self,
         corners: &Corners,
-        mut cell: Cell,
+        mut search_box: SearchBox,
         found: f64,
-        workspace: &mut Workspace<N>,
-    ) -> (Option<Cell>, Point) {
-        let is_too_long = |name: usize| corners.is_too_long(name, [cell.low[name], cell.high[name]]);
-        if let Some(name) = cell.widest(is_too_long) {
-            cell.split = name;
-            return (Some(cell), Point::NONE);
+    ) -> (Option<SearchBox>, Point) {
+        let is_too_long =
+            |name: usize| corners.is_too_long(name, [search_box.low[name], search_box.high[name]]);
+        if let Some(name) = search_box.widest(is_too_long) {
+            search_box.split = name;
+            return (Some(search_box), Point::NONE);
         }
-        let Some(corner) = corners.largest(&mut workspace.corners, &cell.low, &cell.high) else {
-            return self.look_at_slopes(cell, workspace);
+        let Some(corner) = corners.largest(&mut self.corners, &search_box.low, &search_box.high) else {
+            return self.look_at_slopes(search_box);
         };
-        cell.most = cell.most.min(corner.most);
-        if cell.most <= found {
+        search_box.most = search_box.most.min(corner.most);
+        if search_box.most <= found {
             return (None, Point::NONE);
         }
-        let split = cell.widest(|name| corner.is_outside(name)).or_else(|| cell.widest(|_| true));
-        cell.split = split.unwrap_or(0);
-        let at = corner.nearest(&cell.low, &cell.high);
-        let value = self.value_at(&mut workspace.points, &at)[0];
+        let split = search_box.widest(|name| corner.is_outside(name)).or_else(|| search_box.widest(|_| true));
+        search_box.split = split.unwrap_or(0);
+        let at = corner.nearest(&search_box.low, &search_box.high);
+        let value = self.problem.value_at(&mut self.points, &at)[0];
         let point = if value.is_finite() { Point { value, at } } else { Point::NONE };
-        if cell.high[cell.split] - cell.low[cell.split] > NARROW {
-            return (Some(cell), point);
+        if search_box.high[search_box.split] - search_box.low[search_box.split] > NARROW {
+            return (Some(search_box), point);
         }
-        let (cell, centre) = self.look_at_slopes(cell, workspace);
-        (cell, if centre.value > point.value { centre } else { point })
+        let (search_box, centre) = self.look_at_slopes(search_box);
+        (search_box, if centre.value > point.value { centre } else { point })
     }
 
     /// What of a box cannot hold the largest value is taken away:
@@ -108,65 +85,55 @@ impl Search {
     /// - Where the value grows with a name everywhere, it is largest at the upper end of that name: of a box that is not at the
     ///   end of the domain, nothing is left.
     /// - Where a name is not at an end of the domain, its slope must be 0: names are confined to where it can be.
-    fn look_at_slopes<const N: usize>(
-        &self,
-        mut cell: Cell,
-        workspace: &mut Workspace<N>,
-    ) -> (Option<Cell>, Point) {
+    fn look_at_slopes(&mut self, mut search_box: SearchBox) -> (Option<SearchBox>, Point) {
         let mut point = Point::NONE;
         for pass in 1.. {
-            let (centres, halves) = cell.centres();
-            let (forms, jumps) = self.all.evaluate(&mut workspace.registers, &centres, &halves);
-            let [value, slopes @ ..] = &forms[..] else { return (Some(cell), point) };
+            let (centres, halves) = search_box.centres();
+            let (forms, jumps) = self.problem.all.evaluate(&mut self.registers, &centres, &halves);
+            let [value, slopes @ ..] = &forms[..] else { return (Some(search_box), point) };
             if !jumps {
-                match self.confine(&mut cell, slopes, &centres, &halves) {
+                match self.confine(&mut search_box, slopes, &centres, &halves) {
                     Confined::Nothing => return (None, point),
                     Confined::Less if pass < PASSES => continue,
                     _ => {}
                 }
             }
-            let (centres, halves) = cell.centres();
-            let [low, high] = self.value_at(&mut workspace.points, &centres);
+            let (centres, halves) = search_box.centres();
+            let [low, high] = self.problem.value_at(&mut self.points, &centres);
             if low.is_finite() {
                 point = Point { value: low, at: centres.clone() };
             }
             let mut most = value.range()[1];
-            let growth = Growth::new(slopes, &halves);
+            let bound = SlopeBound::new(slopes, &halves);
             if !jumps {
-                let from_centre = high + above(growth.most() + UNIT * high.abs());
+                let from_centre = high + above(bound.most() + UNIT * high.abs());
                 // A comparison with what is not a number is false.
                 if from_centre < most {
                     most = from_centre;
                 }
             }
-            cell.split = self.most_promising(&centres, &halves, &growth, workspace);
-            cell.most = if most.is_nan() { f64::INFINITY } else { cell.most.min(most) };
-            return (Some(cell), point);
+            search_box.split = self.most_promising(&centres, &halves, &bound);
+            search_box.most = if most.is_nan() { f64::INFINITY } else { search_box.most.min(most) };
+            return (Some(search_box), point);
         }
-        (Some(cell), point)
+        (Some(search_box), point)
     }
 
     /// The name that moves the value most by its slope: its halving promises most. But a slope says little of a fast sine: a
     /// name that alone moves the value as much on a quarter of its range comes last. Where slopes have no end, a name comes first
     /// that alone makes the value endless, and then the longest.
-    fn most_promising<const N: usize>(
-        &self,
-        centres: &[f64],
-        halves: &[f64],
-        growth: &Growth<N>,
-        workspace: &mut Workspace<N>,
-    ) -> usize {
+    fn most_promising(&mut self, centres: &[f64], halves: &[f64], bound: &SlopeBound<N>) -> usize {
         let mut alone = vec![0.0; halves.len()];
         let mut moved = |i: usize, part: f64| {
             alone[i] = part * halves[i];
-            let radius = self.value.evaluate(&mut workspace.registers, centres, &alone).0[0].radius();
+            let radius = self.problem.value.evaluate(&mut self.registers, centres, &alone).0[0].radius();
             alone[i] = 0.0;
             if radius.is_nan() { f64::INFINITY } else { radius }
         };
         let mut order: Vec<(usize, [f64; 3])> = (0..halves.len())
             .filter(|i| halves[*i] > 0.0)
             .map(|i| {
-                let ([low, high], share) = (self.domain[i], growth.of(i));
+                let ([low, high], share) = (self.problem.domain[i], bound.share(i));
                 let key = match share.is_finite() {
                     true => [share, 0.0, 0.0],
                     false => [f64::INFINITY, moved(i, 1.0), halves[i] / (high - low)],
@@ -183,10 +150,10 @@ impl Search {
         names.iter().copied().find(|i| is_promising(*i)).or(names.first().copied()).unwrap_or(0)
     }
 
-    fn confine<const N: usize>(
+    fn confine(
         &self,
-        cell: &mut Cell,
-        slopes: &[Form<N>],
+        search_box: &mut SearchBox,
+        slopes: &[Affine<N>],
         centres: &[f64],
         halves: &[f64],
     ) -> Confined {
@@ -195,19 +162,19 @@ impl Search {
             if halves[i] == 0.0 {
                 continue;
             }
-            let ([low, high], [first, last]) = (slope.range(), self.domain[i]);
-            let (at_first, at_last) = (cell.low[i] <= first, cell.high[i] >= last);
+            let ([low, high], [first, last]) = (slope.range(), self.problem.domain[i]);
+            let (at_first, at_last) = (search_box.low[i] <= first, search_box.high[i] >= last);
             if low > 0.0 {
                 if !at_last {
                     return Confined::Nothing;
                 }
-                cell.low[i] = cell.high[i];
+                search_box.low[i] = search_box.high[i];
                 confined = Confined::Less;
             } else if high < 0.0 {
                 if !at_first {
                     return Confined::Nothing;
                 }
-                cell.high[i] = cell.low[i];
+                search_box.high[i] = search_box.low[i];
                 confined = Confined::Less;
             } else if !at_first && !at_last {
                 let Some([from, to]) = zero_of(slope, i) else { continue };
@@ -215,10 +182,10 @@ impl Search {
                     return Confined::Nothing;
                 }
                 let margin = 4.0 * UNIT * (centres[i].abs() + halves[i]);
-                let low = (centres[i] + halves[i] * from - margin).max(cell.low[i]);
-                let high = (centres[i] + halves[i] * to + margin).min(cell.high[i]);
-                if high - low < 0.7 * (cell.high[i] - cell.low[i]) {
-                    (cell.low[i], cell.high[i]) = (low, high);
+                let low = (centres[i] + halves[i] * from - margin).max(search_box.low[i]);
+                let high = (centres[i] + halves[i] * to + margin).min(search_box.high[i]);
+                if high - low < 0.7 * (search_box.high[i] - search_box.low[i]) {
+                    (search_box.low[i], search_box.high[i]) = (low, high);
                     confined = Confined::Less;
                 }
             }
@@ -235,7 +202,7 @@ enum Confined {
 }
 
 /// Where on −1 … 1 a form can be 0 along a name, whatever the others are; nothing if everywhere.
-fn zero_of<const N: usize>(slope: &Form<N>, name: usize) -> Option<[f64; 2]> {
+fn zero_of<const N: usize>(slope: &Affine<N>, name: usize) -> Option<[f64; 2]> {
     let own = slope.slopes[name];
     let others =
         above(slope.slopes.iter().enumerate().map(|(j, a)| if j == name { 0.0 } else { a.abs() }).sum());
@@ -245,9 +212,9 @@ fn zero_of<const N: usize>(slope: &Form<N>, name: usize) -> Option<[f64; 2]> {
     (middle.is_finite() && half.is_finite() && (from > -1.0 || to < 1.0)).then_some([from, to])
 }
 
-impl Cell {
+impl SearchBox {
     /// Its middle, and how far it goes from there on both sides at least.
-    pub(super) fn centres(&self) -> (Vec<f64>, Vec<f64>) {
+    pub(crate) fn centres(&self) -> (Vec<f64>, Vec<f64>) {
         let centres: Vec<f64> = self.low.iter().zip(&self.high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
         let ends = self.low.iter().zip(&self.high).zip(&centres);
         let halves = ends.map(|((low, high), centre)| match low == high {
@@ -266,7 +233,7 @@ impl Cell {
     }
 
     /// Both halves along the name that is to be halved.
-    pub(super) fn halves(&self) -> [Self; 2] {
+    pub(crate) fn halves(&self) -> [Self; 2] {
         let (mut lower, mut upper) = (self.clone(), self.clone());
         let middle = 0.5 * self.low[self.split] + 0.5 * self.high[self.split];
         lower.high[self.split] = middle;

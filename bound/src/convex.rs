@@ -9,21 +9,21 @@
 
 use abbe_spec::expr::Function;
 
-use super::form::Form;
-use super::tape::{Register, Step, Tape};
+use crate::affine::Affine;
+use crate::tape::{Register, Step, Tape};
 
 /// A set of names: a bit for each.
-pub(super) type Names = u32;
+pub(crate) type Names = u32;
 
 /// Which of the operations.
-pub(super) type At = usize;
+pub(crate) type At = usize;
 
 /// An operation on the results of others before it.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Operation {
+pub(crate) enum Operation {
     /// Sine (0) or cosine (1) of a name that is an angle; a name that stands by itself (0).
     Name(usize, usize),
-    Known(Form<0>),
+    Known(Affine<0>),
     Neg(At),
     Add(At, At),
     Mul(At, At),
@@ -33,7 +33,7 @@ pub(super) enum Operation {
 }
 
 impl Operation {
-    pub(super) fn operands(&self) -> impl Iterator<Item = At> {
+    pub(crate) fn operands(&self) -> impl Iterator<Item = At> {
         let (first, second) = match *self {
             Self::Name(..) | Self::Known(_) => (None, None),
             Self::Neg(a) | Self::Sqrt(a) | Self::Abs(a) => (Some(a), None),
@@ -45,16 +45,16 @@ impl Operation {
 
 /// A norm of numbers that are affine in each name.
 #[derive(Clone, Debug)]
-pub(super) struct Convex {
+pub(crate) struct Convex {
     /// What computes it; the last one is the norm.
-    pub(super) operations: Vec<Operation>,
+    pub(crate) operations: Vec<Operation>,
     /// Whether a name is an angle.
-    pub(super) angles: Vec<bool>,
+    pub(crate) angles: Vec<bool>,
 }
 
 impl Convex {
     /// Of a tape whose first value is a norm of the others; none if one of them is not affine.
-    pub(super) fn new(tape: &Tape, names: usize) -> Option<Self> {
+    pub(crate) fn new(tape: &Tape, names: usize) -> Option<Self> {
         let mut draft = Draft::new(names);
         for step in &tape.steps {
             draft.translate(step);
@@ -78,7 +78,7 @@ impl Convex {
 enum Value {
     Number(At),
     /// Names or their negatives, each once, and a number; as a number it is not yet asked for.
-    Angle(Vec<(usize, bool)>, Form<0>),
+    Angle(Vec<(usize, bool)>, Affine<0>),
     /// What is neither.
     Other,
 }
@@ -94,7 +94,7 @@ struct Draft {
 
 impl Draft {
     fn new(names: usize) -> Self {
-        let nothing = Form::known(0.0, 0.0);
+        let nothing = Affine::known(0.0, 0.0);
         let values = (0..names).map(|name| Value::Angle(vec![(name, false)], nothing)).collect();
         let operations = (0..2 * names).map(|i| Operation::Name(i / 2, i % 2)).collect();
         Self { operations, values, turned: vec![false; names], alone: vec![false; names] }
@@ -105,7 +105,7 @@ impl Draft {
         self.operations.len() - 1
     }
 
-    fn known(&mut self, number: Form<0>) -> At {
+    fn known(&mut self, number: Affine<0>) -> At {
         self.push(Operation::Known(number))
     }
 
@@ -123,7 +123,7 @@ impl Draft {
             sum = Some(sum.map_or(own, |sum| self.push(Operation::Add(sum, own))));
         }
         let mut sum = sum?;
-        if offset != Form::known(0.0, 0.0) {
+        if offset != Affine::known(0.0, 0.0) {
             let offset = self.known(offset);
             sum = self.push(Operation::Add(sum, offset));
         }
@@ -148,13 +148,13 @@ impl Draft {
             Value::Angle(names, offset) => Some((names.clone(), *offset)),
             _ => None,
         };
-        let negative = |(names, offset): (Vec<(usize, bool)>, Form<0>)| {
+        let negative = |(names, offset): (Vec<(usize, bool)>, Affine<0>)| {
             (
                 names.into_iter().map(|(name, is_negative)| (name, !is_negative)).collect::<Vec<_>>(),
                 offset.neg(),
             )
         };
-        let sum = |first: (Vec<(usize, bool)>, Form<0>), second: (Vec<(usize, bool)>, Form<0>)| {
+        let sum = |first: (Vec<(usize, bool)>, Affine<0>), second: (Vec<(usize, bool)>, Affine<0>)| {
             let is_new = second.0.iter().all(|(name, _)| first.0.iter().all(|(other, _)| other != name));
             is_new.then(|| ([first.0, second.0].concat(), first.1.add(&second.1)))
         };
@@ -174,7 +174,7 @@ impl Draft {
     /// Sine and cosine of an angle, name by name.
     fn sin_cos(&mut self, register: Register) -> Option<[At; 2]> {
         let Value::Angle(names, offset) = self.values[register].clone() else { return None };
-        let mut pair = match offset == Form::known(0.0, 0.0) {
+        let mut pair = match offset == Affine::known(0.0, 0.0) {
             true => None,
             false => Some(offset.sin_cos().map(|part| self.known(part))),
         };

@@ -8,9 +8,11 @@ use abbe_spec::expr::Symbol;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::form::{Form, above};
-use super::tape::Tape;
-use super::{Effort, MOST_MOVING, Moving, Progress, period};
+use crate::affine::{Affine, above};
+use crate::effort::{Effort, Progress};
+use crate::moving::{MOST_MOVING, Moving};
+use crate::period;
+use crate::tape::Tape;
 
 /// How many boxes are halved in a round, whatever the number of threads.
 const ROUND: usize = 64;
@@ -110,7 +112,7 @@ struct Search {
 }
 
 /// A box that may hold the value.
-struct Cell {
+struct Candidate {
     low: Vec<f64>,
     high: Vec<f64>,
     /// What no signed value within is below.
@@ -137,25 +139,25 @@ impl Search {
         // What is sought is the least signed value.
         let (mut found, mut at, mut boxes) = (f64::INFINITY, low.clone(), 0);
         let (mut open, mut waiting) =
-            (vec![Cell { low, high, least: self.unknown(), split: 0, number: 0 }], BinaryHeap::new());
+            (vec![Candidate { low, high, least: self.unknown(), split: 0, number: 0 }], BinaryHeap::new());
         // Boxes that cannot be halved.
         let mut left = f64::INFINITY;
         loop {
             let looks: Vec<Look> = open
                 .par_iter()
-                .map_init(Vec::<Form<N>>::new, |registers, cell| self.look(registers, cell))
+                .map_init(Vec::<Affine<N>>::new, |registers, candidate| self.look(registers, candidate))
                 .collect();
             let mut size = 0.0_f64;
-            for (cell, look) in open.drain(..).zip(looks) {
+            for (candidate, look) in open.drain(..).zip(looks) {
                 boxes += 1;
                 size = size.max(look.size);
                 if look.found < found {
                     (found, at) = (look.found, look.at);
                 }
-                let least = cell.least.max(look.least);
-                waiting.push(Cell { least, split: look.split, number: boxes, ..cell });
+                let least = candidate.least.max(look.least);
+                waiting.push(Candidate { least, split: look.split, number: boxes, ..candidate });
             }
-            let least = waiting.peek().map_or(f64::INFINITY, |cell: &Cell| cell.least);
+            let least = waiting.peek().map_or(f64::INFINITY, |candidate: &Candidate| candidate.least);
             let least = least.min(left).min(found);
             let allowed = (self.effort.gap * found.abs()).max(NOTHING * size);
             let complete = found.is_finite() && found - least <= allowed;
@@ -164,14 +166,20 @@ impl Search {
             let is_enough = is_enough || !watch(&Progress { found: shown, certified, boxes });
             while open.len() < 2 * ROUND
                 && !is_enough
-                && let Some(cell) = waiting.pop()
+                && let Some(candidate) = waiting.pop()
             {
-                let middle = cell.low.get(cell.split).map(|low| 0.5 * low + 0.5 * cell.high[cell.split]);
+                let middle = candidate
+                    .low
+                    .get(candidate.split)
+                    .map(|low| 0.5 * low + 0.5 * candidate.high[candidate.split]);
                 match middle {
-                    Some(middle) if cell.low[cell.split] < middle && middle < cell.high[cell.split] => {
-                        open.extend(cell.halves(middle));
+                    Some(middle)
+                        if candidate.low[candidate.split] < middle
+                            && middle < candidate.high[candidate.split] =>
+                    {
+                        open.extend(candidate.halves(middle));
                     }
-                    _ => left = left.min(cell.least),
+                    _ => left = left.min(candidate.least),
                 }
             }
             if open.is_empty() {
@@ -220,9 +228,10 @@ impl Search {
         self.sign() * self.sorted(matrix).0[0]
     }
 
-    fn look<const N: usize>(&self, registers: &mut Vec<Form<N>>, cell: &Cell) -> Look {
-        let centres: Vec<f64> = cell.low.iter().zip(&cell.high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
-        let halves = cell.low.iter().zip(&cell.high).zip(&centres).map(|((low, high), centre)| {
+    fn look<const N: usize>(&self, registers: &mut Vec<Affine<N>>, candidate: &Candidate) -> Look {
+        let centres: Vec<f64> =
+            candidate.low.iter().zip(&candidate.high).map(|(a, b)| 0.5 * a + 0.5 * b).collect();
+        let halves = candidate.low.iter().zip(&candidate.high).zip(&centres).map(|((low, high), centre)| {
             if low == high { 0.0 } else { (high - centre).max(centre - low).next_up() }
         });
         let halves: Vec<f64> = halves.collect();
@@ -238,7 +247,7 @@ impl Search {
         let size = middle.norm();
         let spread = above(forms.iter().map(|form| form.radius() * form.radius()).sum()).sqrt();
         let (values, vectors) = self.sorted(middle);
-        let rows: Vec<Vec<Form<N>>> = vectors
+        let rows: Vec<Vec<Affine<N>>> = vectors
             .iter()
             .map(|u| (0..count).map(|j| combined(u, (0..self.rows).map(|i| entry(i, j)))).collect())
             .collect();
@@ -258,8 +267,8 @@ impl Search {
         let split = (0..centres.len()).max_by(more).unwrap_or(0);
         let corner = centres.iter().enumerate().map(|(k, centre)| match self.sign() * square.slopes[k] {
             0.0 => *centre,
-            slope if slope > 0.0 => cell.low[k],
-            _ => cell.high[k],
+            slope if slope > 0.0 => candidate.low[k],
+            _ => candidate.high[k],
         });
         let corner: Vec<f64> = corner.collect();
         let [first, second] = [centres, corner].map(|at| (self.value_at(&at), at));
@@ -294,23 +303,23 @@ impl Search {
 }
 
 /// `Σ u_i f_i`.
-fn combined<'a, const N: usize>(u: &[f64], forms: impl Iterator<Item = &'a Form<N>>) -> Form<N> {
-    let parts = u.iter().zip(forms).map(|(factor, form)| form.scaled(&Form::known(*factor, 0.0)));
-    parts.reduce(|sum, part| sum.add(&part)).unwrap_or_else(|| Form::known(0.0, 0.0))
+fn combined<'a, const N: usize>(u: &[f64], forms: impl Iterator<Item = &'a Affine<N>>) -> Affine<N> {
+    let parts = u.iter().zip(forms).map(|(factor, form)| form.scaled(&Affine::known(*factor, 0.0)));
+    parts.reduce(|sum, part| sum.add(&part)).unwrap_or_else(|| Affine::known(0.0, 0.0))
 }
 
 /// `Σ a_j b_j`.
-fn product<const N: usize>(a: &[Form<N>], b: &[Form<N>]) -> Form<N> {
+fn product<const N: usize>(a: &[Affine<N>], b: &[Affine<N>]) -> Affine<N> {
     let parts = a.iter().zip(b).map(|(a, b)| a.mul(b));
-    parts.reduce(|sum, part| sum.add(&part)).unwrap_or_else(|| Form::known(0.0, 0.0))
+    parts.reduce(|sum, part| sum.add(&part)).unwrap_or_else(|| Affine::known(0.0, 0.0))
 }
 
-fn farthest<const N: usize>(form: &Form<N>) -> f64 {
+fn farthest<const N: usize>(form: &Affine<N>) -> f64 {
     let [low, high] = form.range();
     low.abs().max(high.abs())
 }
 
-impl Cell {
+impl Candidate {
     /// Both halves along the name that is to be halved.
     fn halves(self, middle: f64) -> [Self; 2] {
         let (mut lower, mut upper) = (self.high.clone(), self.low.clone());
@@ -321,23 +330,23 @@ impl Cell {
     }
 }
 
-impl Ord for Cell {
+impl Ord for Candidate {
     /// The one that may hold the least comes first, of equals that which was made first.
     fn cmp(&self, other: &Self) -> Ordering {
         other.least.total_cmp(&self.least).then(other.number.cmp(&self.number))
     }
 }
 
-impl PartialOrd for Cell {
+impl PartialOrd for Candidate {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Cell {
+impl PartialEq for Candidate {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Cell {}
+impl Eq for Candidate {}

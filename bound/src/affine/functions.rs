@@ -2,10 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use abbe::Scalar;
+use abbe_core::Scalar;
 use abbe_spec::expr::Function;
 
-use super::form::{Form, UNIT, above};
+use super::form::{Affine, UNIT, above};
 
 /// By how much our own sine and cosine may be off: 1.7 units in the last place of a number below 1, and no more than 4 units of
 /// roundoff beyond their reach.
@@ -15,13 +15,13 @@ const LIBRARY: f64 = 8.0 * UNIT;
 /// Up to here series stand for sine and cosine.
 const SMALL: f64 = 0.25;
 
-impl<const N: usize> Form<N> {
+impl<const N: usize> Affine<N> {
     /// Sine and cosine. With `x = m + δ` and `|δ| ≤ w`
     ///
     /// ```text
     /// sin x = sin m cos δ + cos m sin δ        cos δ between cos w and 1        sin δ = α δ ± e
     /// ```
-    pub(super) fn sin_cos(&self) -> [Self; 2] {
+    pub(crate) fn sin_cos(&self) -> [Self; 2] {
         let radius = self.radius();
         if !(radius < PI && self.centre.is_finite()) {
             return [Self::known(0.0, 1.0); 2];
@@ -36,7 +36,7 @@ impl<const N: usize> Form<N> {
     }
 
     /// Any function of one argument; and whether it jumps within the range.
-    pub(super) fn call(&self, function: Function) -> (Self, bool) {
+    pub(crate) fn call(&self, function: Function) -> (Self, bool) {
         let [low, high] = self.range();
         if !(low.is_finite() && high.is_finite()) {
             return (Self::anything(), true);
@@ -93,7 +93,7 @@ impl<const N: usize> Form<N> {
     }
 
     /// `1 / self`.
-    pub(super) fn reciprocal(&self) -> Self {
+    pub(crate) fn reciprocal(&self) -> Self {
         let [low, high] = self.range();
         if !(low > 0.0 || high < 0.0) {
             return Self::anything();
@@ -103,7 +103,7 @@ impl<const N: usize> Form<N> {
     }
 
     /// A power of what is more than 0.
-    pub(super) fn power(&self, exponent: f64) -> Self {
+    pub(crate) fn power(&self, exponent: f64) -> Self {
         let [low, high] = self.range();
         if !(low > 0.0 && high.is_finite()) {
             return Self::anything();
@@ -113,7 +113,7 @@ impl<const N: usize> Form<N> {
     }
 
     /// The angle of the point (x, self); and whether it may jump.
-    pub(super) fn angle(&self, x: &Self) -> (Self, bool) {
+    pub(crate) fn angle(&self, x: &Self) -> (Self, bool) {
         let ([x_low, _], [low, high]) = (x.range(), self.range());
         let quotient = |a: &Self, b: &Self| a.mul(&b.reciprocal()).call(Function::Atan).0;
         if x_low > 0.0 {
@@ -128,7 +128,7 @@ impl<const N: usize> Form<N> {
     }
 
     /// The larger of two.
-    pub(super) fn larger(&self, other: &Self) -> Self {
+    pub(crate) fn larger(&self, other: &Self) -> Self {
         let ([low, high], [other_low, other_high]) = (self.range(), other.range());
         if low >= other_high {
             return *self;
@@ -136,18 +136,18 @@ impl<const N: usize> Form<N> {
         if other_low >= high {
             return *other;
         }
-        let half = Form::known(0.5, 0.0);
+        let half = Affine::known(0.5, 0.0);
         let (sum, distance) = (self.add(other), self.sub(other).call(Function::Abs).0);
         sum.add(&distance).scaled(&half)
     }
 
     /// The smaller of two.
-    pub(super) fn smaller(&self, other: &Self) -> Self {
+    pub(crate) fn smaller(&self, other: &Self) -> Self {
         self.neg().larger(&other.neg()).neg()
     }
 
     /// A function that has this value at the centre, and slopes between two numbers everywhere.
-    pub(super) fn by_slopes(&self, value: f64, slopes: [f64; 2]) -> Self {
+    pub(crate) fn by_slopes(&self, value: f64, slopes: [f64; 2]) -> Self {
         let [first, second] = slopes;
         let (slope, margin) = (0.5 * first + 0.5 * second, 2.0 * LIBRARY * (first.abs() + second.abs()));
         let half = 0.5 * (first - second).abs() + margin;
@@ -158,8 +158,8 @@ impl<const N: usize> Form<N> {
 }
 
 /// π/2.
-fn quarter_turn() -> Form<0> {
-    Form::known(FRAC_PI_2, UNIT)
+fn quarter_turn() -> Affine<0> {
+    Affine::known(FRAC_PI_2, UNIT)
 }
 
 /// The least and the largest size of the numbers between two.
@@ -200,10 +200,10 @@ mod tests {
     use super::*;
 
     /// Every value of a function on a range lies where the form has it, t by t.
-    fn encloses(low: f64, high: f64, f: impl Fn(f64) -> f64, form: impl Fn(&Form<1>) -> Form<1>) {
+    fn encloses(low: f64, high: f64, f: impl Fn(f64) -> f64, form: impl Fn(&Affine<1>) -> Affine<1>) {
         let centre = 0.5 * low + 0.5 * high;
         let half = (high - centre).max(centre - low).next_up();
-        let result = form(&Form::new(centre, [half], 0.0));
+        let result = form(&Affine::new(centre, [half], 0.0));
         for k in 0..=200 {
             let t = f64::from(k) / 100.0 - 1.0;
             let x = (centre + t * half).clamp(low, high);
@@ -244,7 +244,7 @@ mod tests {
                 }
             }
             if low > 0.0 || high < 0.0 {
-                encloses(low, high, |x| 1.0 / x, Form::reciprocal);
+                encloses(low, high, |x| 1.0 / x, Affine::reciprocal);
             }
             if low > 0.0 {
                 encloses(low, high, |x| x.powf(2.5), |form| form.power(2.5));
@@ -254,13 +254,13 @@ mod tests {
                 low,
                 high,
                 |x| x.max(0.4 - x),
-                |form| form.larger(&form.neg().shifted(&Form::known(0.4, 0.0))),
+                |form| form.larger(&form.neg().shifted(&Affine::known(0.4, 0.0))),
             );
             encloses(
                 low,
                 high,
                 |x| x.atan2(1.0 + x * x),
-                |form| form.angle(&form.mul(form).shifted(&Form::known(1.0, 0.0))).0,
+                |form| form.angle(&form.mul(form).shifted(&Affine::known(1.0, 0.0))).0,
             );
         }
     }
@@ -268,10 +268,10 @@ mod tests {
     /// What is not known, and what has no end, is never taken for something.
     #[test]
     fn what_is_not_known_stays_so() {
-        let all = Form::<1>::new(0.0, [2.0], 0.0);
+        let all = Affine::<1>::new(0.0, [2.0], 0.0);
         for form in [all.reciprocal(), all.call(Function::Log).0, all.call(Function::Tan).0, all.power(0.5)] {
             assert_eq!(form.range(), [f64::NEG_INFINITY, f64::INFINITY]);
-            for further in [form.mul(&all), form.add(&form.neg()), form.mul(&Form::known(0.0, 0.0))] {
+            for further in [form.mul(&all), form.add(&form.neg()), form.mul(&Affine::known(0.0, 0.0))] {
                 assert_eq!(further.range(), [f64::NEG_INFINITY, f64::INFINITY], "{further:?}");
             }
         }

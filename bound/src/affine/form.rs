@@ -8,82 +8,82 @@
 //! that are not negative, with fewer than 64 roundings each: [`above`] makes them no less than the exact ones.
 
 /// By which share of itself a result may be rounded.
-pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
+pub(crate) const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// No less than a sum of products that are not negative is before its roundings, of which there are fewer than 64.
 #[inline(always)]
-pub(super) fn above(sum: f64) -> f64 {
+pub(crate) fn above(sum: f64) -> f64 {
     sum * (1.0 + 128.0 * UNIT) + f64::MIN_POSITIVE
 }
 
 /// `centre + Σ slopes_i t_i ± rest`, each `t_i` anything from −1 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Form<const N: usize> {
-    pub(super) centre: f64,
-    pub(super) slopes: [f64; N],
+pub(crate) struct Affine<const N: usize> {
+    pub(crate) centre: f64,
+    pub(crate) slopes: [f64; N],
     /// No less than `Σ |slopes_i|`.
-    pub(super) spread: f64,
-    pub(super) rest: f64,
+    pub(crate) spread: f64,
+    pub(crate) rest: f64,
 }
 
-impl<const N: usize> Form<N> {
-    pub(super) fn new(centre: f64, slopes: [f64; N], rest: f64) -> Self {
+impl<const N: usize> Affine<N> {
+    pub(crate) fn new(centre: f64, slopes: [f64; N], rest: f64) -> Self {
         let spread = above(slopes.iter().map(|slope| slope.abs()).sum());
         Self { centre, slopes, spread, rest }
     }
 
     /// A number that is known to `rest`.
-    pub(super) fn known(centre: f64, rest: f64) -> Self {
+    pub(crate) fn known(centre: f64, rest: f64) -> Self {
         Self { centre, slopes: [0.0; N], spread: 0.0, rest }
     }
 
     /// Anything between two numbers.
-    pub(super) fn between(low: f64, high: f64) -> Self {
+    pub(crate) fn between(low: f64, high: f64) -> Self {
         let centre = 0.5 * low + 0.5 * high;
         Self::known(centre, above((high - centre).abs().max((centre - low).abs()) + UNIT * centre.abs()))
     }
 
     /// Of which nothing is known.
-    pub(super) fn anything() -> Self {
+    pub(crate) fn anything() -> Self {
         Self::known(0.0, f64::INFINITY)
     }
 
     /// How far from the centre it can be.
-    pub(super) fn radius(&self) -> f64 {
+    pub(crate) fn radius(&self) -> f64 {
         above(self.spread + self.rest)
     }
 
     /// No more, and no less, than it can be; without end where nothing is known.
-    pub(super) fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         let radius = self.radius();
         let [low, high] = [(self.centre - radius).next_down(), (self.centre + radius).next_up()];
         if low <= high { [low, high] } else { [f64::NEG_INFINITY, f64::INFINITY] }
     }
 
-    pub(super) fn neg(&self) -> Self {
+    pub(crate) fn neg(&self) -> Self {
         Self { centre: -self.centre, slopes: self.slopes.map(|slope| -slope), ..*self }
     }
 
     #[inline(always)]
-    pub(super) fn add(&self, other: &Self) -> Self {
+    pub(crate) fn add(&self, other: &Self) -> Self {
         let slopes = std::array::from_fn(|i| self.slopes[i] + other.slopes[i]);
         let sum = Self::new(self.centre + other.centre, slopes, 0.0);
         Self { rest: above(self.rest + other.rest + UNIT * (sum.centre.abs() + sum.spread)), ..sum }
     }
 
     #[inline(always)]
-    pub(super) fn sub(&self, other: &Self) -> Self {
+    pub(crate) fn sub(&self, other: &Self) -> Self {
         self.add(&other.neg())
     }
 
     /// More by a number.
-    pub(super) fn shifted(&self, by: &Form<0>) -> Self {
+    pub(crate) fn shifted(&self, by: &Affine<0>) -> Self {
         let centre = self.centre + by.centre;
         Self { centre, rest: above(self.rest + by.rest + UNIT * centre.abs()), ..*self }
     }
 
     /// Times a number.
-    pub(super) fn scaled(&self, by: &Form<0>) -> Self {
+    pub(crate) fn scaled(&self, by: &Affine<0>) -> Self {
         let factor = by.centre;
         let scaled = Self::new(factor * self.centre, self.slopes.map(|slope| factor * slope), 0.0);
         let all = self.centre.abs() + self.spread + self.rest;
@@ -92,7 +92,7 @@ impl<const N: usize> Form<N> {
     }
 
     /// `slope (self − centre) + value ± rest`.
-    pub(super) fn linear(&self, slope: f64, value: f64, rest: f64) -> Self {
+    pub(crate) fn linear(&self, slope: f64, value: f64, rest: f64) -> Self {
         let scaled = Self::new(value, self.slopes.map(|own| slope * own), 0.0);
         Self { rest: above(slope.abs() * self.rest + rest + UNIT * scaled.spread), ..scaled }
     }
@@ -103,7 +103,7 @@ impl<const N: usize> Form<N> {
     /// ½ Σ a_i b_i  ±  (Σ |a_i| Σ |b_j| − ½ Σ |a_i b_i|)
     /// ```
     #[inline(always)]
-    pub(super) fn mul(&self, other: &Self) -> Self {
+    pub(crate) fn mul(&self, other: &Self) -> Self {
         let (mut cross, mut size) = (0.0, 0.0);
         for (a, b) in self.slopes.iter().zip(&other.slopes) {
             let product = a * b;

@@ -1,0 +1,99 @@
+//! From a point to one with a larger value: steps that are largest in a quadratic about the point, within a box that grows and
+//! shrinks with their success.
+
+use crate::affine::Affine;
+use crate::problem::{Point, Problem};
+
+/// How many points are looked at before the search.
+const SAMPLES: usize = 512;
+/// From how many of them it goes up.
+const ASCENTS: usize = 6;
+/// How many values of each name are looked at from where it begins.
+const SCANNED: usize = 33;
+/// How many steps an ascent takes at most.
+const STEPS: usize = 60;
+
+/// The largest value that ascents from where it begins, and from points all over the box, lead to.
+pub(crate) fn highest<const N: usize>(problem: &Problem) -> Point {
+    let mut points = Vec::new();
+    let mut samples: Vec<Point> = (0..SAMPLES)
+        .map(|sample| {
+            let at =
+                (0..problem.domain.len()).map(|i| share(problem, i, spread(sample, i))).collect::<Vec<_>>();
+            Point { value: problem.value_at(&mut points, &at)[0], at }
+        })
+        .filter(|point| point.value.is_finite())
+        .collect();
+    samples.sort_by(|a, b| b.value.total_cmp(&a.value));
+    samples.truncate(ASCENTS);
+    // Where it begins, and from there along each name by itself: a slope of 0 at the start says nothing.
+    let along = (0..problem.domain.len()).flat_map(|name| (0..SCANNED).map(move |i| (name, i)));
+    let along = along.map(|(name, i)| {
+        let mut at = problem.start.clone();
+        at[name] = share(problem, name, i as f64 / (SCANNED - 1) as f64);
+        at
+    });
+    let start = std::iter::once(problem.start.clone()).chain(along).map(|at| {
+        let value = problem.value_at(&mut points, &at)[0];
+        Point { value, at }
+    });
+    let start = start.filter(|point| point.value.is_finite());
+    samples.extend(start.max_by(|a, b| a.value.total_cmp(&b.value)));
+    let ascents = samples.into_iter().map(|point| ascend::<N>(problem, point));
+    let none = Point { value: f64::NEG_INFINITY, at: problem.domain.iter().map(|range| range[0]).collect() };
+    ascents.fold(none, |best, point| if point.value > best.value { point } else { best })
+}
+
+fn share(problem: &Problem, name: usize, share: f64) -> f64 {
+    let [low, high] = problem.domain[name];
+    (low + share * (high - low)).clamp(low, high)
+}
+
+/// Goes up as far as it goes.
+pub(crate) fn ascend<const N: usize>(problem: &Problem, mut best: Point) -> Point {
+    let widths: Vec<f64> = problem.domain.iter().map(|[low, high]| high - low).collect();
+    let (mut registers, mut points, mut reach) = (Vec::<Affine<N>>::new(), Vec::new(), 0.1);
+    for _ in 0..STEPS {
+        let halves: Vec<f64> = widths.iter().map(|width| 1e-6 * width).collect();
+        let (forms, _) = problem.all.evaluate(&mut registers, &best.at, &halves);
+        let [_, slopes @ ..] = &forms[..] else { return best };
+        let second = |i: usize, j: usize| slopes[i].slopes.get(j).map_or(0.0, |a| a / halves[j]);
+        let mut step = vec![0.0; widths.len()];
+        for _ in 0..8 {
+            for i in 0..step.len() {
+                let others: f64 = (0..step.len()).filter(|j| *j != i).map(|j| second(i, j) * step[j]).sum();
+                let (slope, curve) = (slopes[i].centre + others, second(i, i));
+                let limit = reach * widths[i];
+                let wanted = if curve < 0.0 { -slope / curve } else { slope.signum() * limit };
+                let [low, high] = problem.domain[i];
+                let (from, to) = ((low - best.at[i]).max(-limit), (high - best.at[i]).min(limit));
+                step[i] = if wanted.is_finite() { wanted.max(from).min(to) } else { 0.0 };
+            }
+        }
+        let at = best.at.iter().zip(&step).zip(&problem.domain);
+        let at: Vec<f64> = at.map(|((x, step), [low, high])| (x + step).clamp(*low, *high)).collect();
+        let value = problem.value_at(&mut points, &at)[0];
+        if value > best.value {
+            let gained = value - best.value;
+            best = Point { value, at };
+            reach = (2.0 * reach).min(0.5);
+            if gained <= 1e-14 * value.abs() {
+                break;
+            }
+        } else {
+            reach *= 0.25;
+            if reach < 1e-10 {
+                break;
+            }
+        }
+    }
+    best
+}
+
+/// Evenly spread shares of 1: multiples of the fractional parts of roots of primes.
+fn spread(sample: usize, name: usize) -> f64 {
+    const PRIMES: [f64; 16] =
+        [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0, 41.0, 43.0, 47.0, 53.0];
+    let root = PRIMES[name % PRIMES.len()].sqrt() * (1 + name / PRIMES.len()) as f64;
+    ((sample + 1) as f64 * root).fract()
+}
