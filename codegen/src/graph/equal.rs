@@ -1,29 +1,9 @@
 //! Nodes that are equal though they take other operations: a program computes whichever takes the fewest.
 
-use indexmap::IndexMap;
-
-use super::hash::Build;
-use super::{Graph, Node, Op, Vector};
-
-/// A node or its negative.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Signed {
-    /// The node, which is no change of sign.
-    pub node: Node,
-    /// Whether its negative is meant.
-    pub negative: bool,
-}
-
-/// What is known to be equal.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Equals {
-    /// What stands for all that are equal to a node, by its place; of a node that is equal to no other one none.
-    first: Vec<Option<Signed>>,
-    /// All that are equal to one that stands for them, itself the first.
-    all: IndexMap<Node, Vec<Signed>, Build>,
-    /// Nodes that may pay together where none of them does alone.
-    together: Vec<Vec<Node>>,
-}
+use super::arena::Graph;
+use super::classes::{Classes, Signed};
+use super::node::{Node, Op};
+use super::vector::Vector;
 
 impl Graph {
     /// States that two nodes are equal, whatever the symbols are.
@@ -48,14 +28,14 @@ impl Graph {
             return;
         }
         let negative = a.negative != b.negative;
-        self.equals.first.resize(self.len(), None);
-        let members = self.equals.all.swap_remove(&b.node).unwrap_or_else(|| vec![Signed::plain(b.node)]);
-        let all = self.equals.all.entry(a.node).or_insert_with(|| vec![Signed::plain(a.node)]);
-        self.equals.first[a.node.index()] = Some(Signed::plain(a.node));
+        self.classes.first.resize(self.len(), None);
+        let members = self.classes.all.swap_remove(&b.node).unwrap_or_else(|| vec![Signed::plain(b.node)]);
+        let all = self.classes.all.entry(a.node).or_insert_with(|| vec![Signed::plain(a.node)]);
+        self.classes.first[a.node.index()] = Some(Signed::plain(a.node));
         for member in members {
             let member = member.times(negative);
             all.push(member);
-            self.equals.first[member.node.index()] = Some(Signed { node: a.node, ..member });
+            self.classes.first[member.node.index()] = Some(Signed { node: a.node, ..member });
         }
     }
 
@@ -68,12 +48,12 @@ impl Graph {
 
     /// Proposes nodes, each equal to others, that may pay together where none of them does alone; those that others use first.
     pub(crate) fn propose_together(&mut self, nodes: Vec<Node>) {
-        self.equals.together.push(nodes);
+        self.classes.together.push(nodes);
     }
 
     /// What was proposed together.
     pub(crate) fn together(&self) -> &[Vec<Node>] {
-        &self.equals.together
+        &self.classes.together
     }
 
     /// The node that stands for all that are equal to this one, or to its negative.
@@ -87,32 +67,22 @@ impl Graph {
 
     /// All that is equal to a node that stands for it, or whose negative is: itself first.
     pub fn equal(&self, first: Node) -> impl Iterator<Item = Signed> {
-        let all = self.first(first).and_then(|first| self.equals.all.get(&first.node));
+        let all = self.first(first).and_then(|first| self.classes.all.get(&first.node));
         let others = all.map_or(&[][..], |all| &all[1..]);
         std::iter::once(Signed::plain(first)).chain(others.iter().copied())
     }
 
     fn first(&self, node: Node) -> Option<Signed> {
-        self.equals.first.get(node.index()).copied().flatten()
+        self.classes.first.get(node.index()).copied().flatten()
     }
 
     /// Forgets what was stated: what programs choose is held against what they would be without a choice.
     pub fn forget_equal(&mut self) {
-        self.equals = Equals::default();
+        self.classes = Classes::default();
     }
 
     /// All nodes that stand for more than themselves.
     pub fn classes(&self) -> impl Iterator<Item = Node> {
-        self.equals.all.keys().copied()
-    }
-}
-
-impl Signed {
-    fn plain(node: Node) -> Self {
-        Self { node, negative: false }
-    }
-
-    fn times(self, negative: bool) -> Self {
-        Self { negative: self.negative != negative, ..self }
+        self.classes.all.keys().copied()
     }
 }

@@ -6,15 +6,18 @@
 
 mod arena;
 mod arithmetic;
+mod classes;
 mod diff;
 mod equal;
 mod evaluate;
 mod functions;
 mod hash;
 mod lower;
+mod node;
 mod substitute;
 mod vector;
 
-pub use arena::{Graph, Node, Op};
-pub use equal::Signed;
+pub use arena::Graph;
+pub use classes::Signed;
+pub use node::{Node, Op};
 pub use vector::{Frame, Vector};

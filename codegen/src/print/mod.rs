@@ -18,12 +18,14 @@ mod names;
 mod python;
 mod records;
 pub mod rust;
+mod source_file;
 mod statement;
 mod statements;
 mod text;
 
 pub use c::Real;
 pub use fmu::Fmi;
+pub use source_file::SourceFile;
 
 use abbe_spec::Spec;
 
@@ -45,15 +47,6 @@ pub enum Language {
     Matlab,
     /// The files of a functional mock-up unit, whose archive simulators load.
     Fmu(Fmi),
-}
-
-/// A file of generated code.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SourceFile {
-    /// Its name: that of the manipulator, and an extension; in an archive with its folder.
-    pub name: String,
-    /// What stands in it.
-    pub text: String,
 }
 
 impl Language {

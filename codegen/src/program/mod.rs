@@ -15,6 +15,7 @@ mod rounding;
 mod routine;
 mod routines;
 mod select;
+mod step;
 mod straight_line;
 mod write;
 
@@ -23,4 +24,4 @@ pub use outputs::{results, straight_line};
 pub use rounding::Rounded;
 pub use routine::{Array, Block, Place, Repeated, Role, Routine, Row, Stage, Sums, Table};
 pub use routines::Routines;
-pub use straight_line::{Action, Operand, Program, Step};
+pub use step::{Action, Operand, Program, Step};

@@ -89,11 +89,12 @@ impl Bound {
             Classes { random: true, .. } => random.clone(),
             _ => repeatable.clone(),
         };
-        let remainder = sought.one(notes, |domain, watch| second_order::remainder(domain, &self.effort, watch))?;
+        let remainder =
+            sought.one(notes, |domain, watch| second_order::remainder(domain, &self.effort, watch))?;
         let before = [&repeatable.norm, &repeatable.orientation];
         let before = before.map(|largest| largest.certified.unwrap_or(f64::INFINITY));
-        let after_one_step =
-            sought.one(notes, |domain, watch| second_order::after_step(domain, &self.effort, before, watch))?;
+        let after_one_step = sought
+            .one(notes, |domain, watch| second_order::after_step(domain, &self.effort, before, watch))?;
         let (mut dexterity, mut stiffness) = (None, None);
         if self.least {
             dexterity = sought.one(notes, |domain, watch| least::dexterity(domain, &self.effort, watch))?;

@@ -2,7 +2,7 @@
 
 use abbe_spec::Spec;
 
-use super::Fmi;
+use super::fmi::Fmi;
 use super::units::definitions;
 use super::variables::{CORRECTION, Causality, Variable, Variables};
 use super::xml::Element;

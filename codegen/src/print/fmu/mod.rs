@@ -4,6 +4,7 @@
 //! that is the same for all machines: `fmi-3.c`, `fmi-2.c`, `fmi-instance.h`. `xml` writes elements, `units` their units.
 
 mod description;
+mod fmi;
 mod machine;
 mod page;
 mod units;
@@ -13,40 +14,12 @@ mod xml;
 use abbe_spec::Spec;
 use sha2::{Digest, Sha256};
 
+pub use self::fmi::Fmi;
 use self::variables::Variables;
-use super::{Real, SourceFile, c};
+use super::c::{self, Real};
+use super::source_file::SourceFile;
 use crate::chain::Model;
 use crate::program::Routines;
-
-/// A version of the Functional Mock-up Interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fmi {
-    /// 2.0.
-    Two,
-    /// 3.0.
-    Three,
-}
-
-impl Fmi {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Two, Self::Three];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Two => "2",
-            Self::Three => "3",
-        }
-    }
-
-    /// Its functions.
-    fn source(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Two => ("fmi-2.c", include_str!("fmi-2.c")),
-            Self::Three => ("fmi-3.c", include_str!("fmi-3.c")),
-        }
-    }
-}
 
 /// The files of the archive, with their folders. Inputs that are magnitudes of sources are its parameters.
 pub(super) fn files(spec: &Spec, model: &Model, routines: &Routines, fmi: Fmi) -> Vec<SourceFile> {

@@ -2,7 +2,7 @@
 
 use abbe_spec::Spec;
 
-use super::Fmi;
+use super::fmi::Fmi;
 use super::variables::{CORRECTION, Variables};
 use super::xml::escaped;
 

@@ -11,9 +11,9 @@ use abbe_spec::expr::Table;
 
 use self::functions::function;
 use self::operators::{WORDS, number, spelled};
-use super::SourceFile;
 use super::header::header;
 use super::layout::Writer;
+use super::source_file::SourceFile;
 use super::text::{escaped, harmless, wrapped};
 use crate::program::{Routines, Sums};
 

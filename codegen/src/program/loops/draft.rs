@@ -3,8 +3,8 @@
 use abbe_core::Orientation;
 use abbe_core::function::Count;
 
-use super::Loops;
 use super::body::Body;
+use super::span::Loops;
 use crate::chain::Rows;
 use crate::graph::Vector;
 use crate::program::routine::{Array, Place, Repeated, Role, Row, Stage};

@@ -2,59 +2,24 @@
 //!
 //! Straight-line code of long chains outgrows the instruction cache and takes its time to compile. The bodies of the
 //! loops are built by what builds straight-line code, from the entries of any transform in place of those of one.
-//! `sums` has the transforms as sums of few terms, `body` is the body of a loop, `draft` a routine made of such bodies;
+//! `sums` has the transforms as sums of few terms, `span` is what loops go over, `body` is the body of a loop, `draft` a routine made of such bodies;
 //! `walk` goes along the frames, `functions` are the loops of the functions.
 
 mod body;
 mod draft;
 mod functions;
+mod span;
 mod sums;
 mod walk;
 
-use abbe_core::{Function, Orientation};
-use abbe_spec::Spec;
+use abbe_core::Function;
 
 use self::draft::Draft;
-use self::sums::{Sum, Twists};
+pub(super) use self::span::Loops;
 use super::routine::{Array, Routine, Stage, Sums, Table};
-use crate::chain::{Covariance, Displacement, Model};
-use crate::graph::Node;
+use crate::chain::{Covariance, Displacement};
 
-/// What loops go over, and what helps them.
-pub(super) struct Loops<'m> {
-    model: &'m Model,
-    orientation: Orientation,
-    motions: usize,
-    joints: Twists,
-    parameters: Twists,
-    terms: Vec<Node>,
-    sums: Vec<Sums>,
-    tables: Vec<Table>,
-}
-
-impl<'m> Loops<'m> {
-    pub(super) fn new(spec: &Spec, model: &'m Model) -> Self {
-        let mut sum = Sum::new(&model.graph);
-        let motions = sum.motions(&model.transforms);
-        let joints = sum.twists(["JOINT_TWISTS", "JOINT_TWIST"], &model.joint_local_twists);
-        let parameters = sum.twists(["PARAMETER_TWISTS", "PARAMETER_TWIST"], &model.parameter_local_twists);
-        let Sum { terms, sums, mut tables, .. } = sum;
-        let by_source =
-            model.effects.iter().map(|effect| [6 * effect.frame + effect.component as usize, effect.source]);
-        let rows = by_source.collect();
-        tables.push(Table {
-            name: "EFFECT_COLUMNS",
-            documentation: "Column of `J_e` and source of every effect.",
-            rows,
-        });
-        let mut terms: Vec<Node> = terms.into_iter().collect();
-        if terms.is_empty() {
-            // Nothing moves: there is an array of terms all the same.
-            terms.extend(model.transforms.first().map(|first| first.position[0]));
-        }
-        Self { model, orientation: spec.orientation, motions, joints, parameters, terms, sums, tables }
-    }
-
+impl Loops<'_> {
     /// The helpers, tables and sums.
     pub(super) fn finish(self) -> (Vec<Routine>, Vec<Table>, Vec<Sums>) {
         (walk::helpers(&self), self.tables, self.sums)

@@ -2,9 +2,9 @@
 
 use abbe_core::function::Count;
 
-use super::Loops;
 use super::body::Body;
 use super::draft::{Draft, POSE};
+use super::span::Loops;
 use crate::chain::displaced;
 use crate::graph::Node;
 use crate::program::routine::{Array, Block, Place, Role, Routine, Row, Stage};

@@ -1,0 +1,107 @@
+//! Straight-line programs: steps, each after those it uses.
+
+use abbe_spec::expr::{Function, Lookup, Symbol};
+
+/// Where a value comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operand {
+    /// A number.
+    Constant(f64),
+    /// A variable, parameter or input.
+    Symbol(Symbol),
+    /// The result of the step that defines this register.
+    Register(usize),
+}
+
+/// What a step does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// `-a`.
+    Neg(Operand),
+    /// `a + b`.
+    Add(Operand, Operand),
+    /// `a - b`.
+    Sub(Operand, Operand),
+    /// `a · b`.
+    Mul(Operand, Operand),
+    /// `a · b + c`.
+    MulAdd(Operand, Operand, Operand),
+    /// `a · b - c`.
+    MulSub(Operand, Operand, Operand),
+    /// `c - a · b`.
+    NegMulAdd(Operand, Operand, Operand),
+    /// `a / b`.
+    Div(Operand, Operand),
+    /// `a ^ b`.
+    Pow(Operand, Operand),
+    /// The angle of the point (second, first).
+    Atan2(Operand, Operand),
+    /// The smaller.
+    Min(Operand, Operand),
+    /// The larger.
+    Max(Operand, Operand),
+    /// A function.
+    Call(Function, Operand),
+    /// A table.
+    Lookup(Lookup, Operand),
+    /// Sine, and in the next register cosine.
+    SinCos(Operand),
+}
+
+impl Action {
+    /// The operands, one to three.
+    pub fn operands(self) -> impl Iterator<Item = Operand> {
+        let (first, second, third) = match self {
+            Self::Neg(a) | Self::Call(_, a) | Self::Lookup(_, a) | Self::SinCos(a) => (a, None, None),
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Pow(a, b)
+            | Self::Atan2(a, b)
+            | Self::Min(a, b)
+            | Self::Max(a, b) => (a, Some(b), None),
+            Self::MulAdd(a, b, c) | Self::MulSub(a, b, c) | Self::NegMulAdd(a, b, c) => (a, Some(b), Some(c)),
+        };
+        [Some(first), second, third].into_iter().flatten()
+    }
+}
+
+/// One operation of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// The register it defines; [`Action::SinCos`] defines the next one too.
+    pub register: usize,
+    /// What it does.
+    pub action: Action,
+    /// What generated code should call the result.
+    pub name: Option<String>,
+}
+
+/// A straight-line program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// Each after the steps it uses; every one is needed.
+    pub steps: Vec<Step>,
+    /// The values it returns.
+    pub outputs: Vec<Operand>,
+    /// Numbers that recur, and what generated code should call them.
+    pub numbers: Vec<(f64, String)>,
+    /// How many registers the steps define.
+    pub registers: usize,
+    /// How often each register is used, as an operand or output.
+    pub uses: Vec<usize>,
+}
+
+impl Program {
+    pub(super) fn count_uses(&mut self) {
+        let mut uses = vec![0; self.registers];
+        let operands = self.steps.iter().flat_map(|step| step.action.operands());
+        for operand in operands.chain(self.outputs.iter().copied()) {
+            if let Operand::Register(register) = operand {
+                uses[register] += 1;
+            }
+        }
+        self.uses = uses;
+    }
+}
