@@ -1,11 +1,10 @@
 //! Joint commands that put the real tool where the ideal one should be.
 
 mod commands;
+mod in_f0;
 mod reason;
 mod rows;
 
-use abbe::Pose;
-use abbe::identify::{Measurement, Observation};
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
@@ -14,6 +13,7 @@ use crate::extrapolated::{Extrapolated, extrapolated};
 use crate::{Machine, Notes, finite, mistake};
 
 pub use commands::{Command, Commands};
+use in_f0::InF0;
 use rows::Task;
 pub use rows::{Norms, Row};
 
@@ -209,28 +209,6 @@ impl Compensate {
             told,
         };
         Ok(finite(&self.data.file, report)?)
-    }
-}
-
-/// Poses as the tool has them in `F_0`: without the station from where they are seen and what is mounted on the tool.
-struct InF0 {
-    stations: Vec<Pose>,
-    mounting: Pose,
-}
-
-impl InF0 {
-    fn new(map: &Map, data: &Data) -> Self {
-        let stands = |station: usize| data.stations.get(station).and_then(|name| map.stations.pose(name));
-        let stations =
-            (0..data.stations.len().max(1)).map(|i| stands(i).unwrap_or(Pose::IDENTITY).inverse()).collect();
-        Self { stations, mounting: map.mounting().inverse() }
-    }
-
-    fn row(&self, mut row: Observation) -> Observation {
-        if let Measurement::Pose(pose) = &mut row.measured {
-            **pose = self.stations[row.station as usize].then(pose).then(&self.mounting);
-        }
-        row
     }
 }
 

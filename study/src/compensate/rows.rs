@@ -12,7 +12,7 @@ use abbe::{Description, Error, Manipulator, Pose, Variable, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
-use super::InF0;
+use super::in_f0::InF0;
 use super::reason::reason;
 use crate::data::{Data, Unusable};
 use crate::number::{Named, length, of_variable};

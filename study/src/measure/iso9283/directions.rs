@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::super::errors::{Visit, norm};
-use super::MeanAndMax;
+use super::mean_and_max::MeanAndMax;
 use super::visits::mean;
 
 /// Configurations that were approached from several directions.

@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::super::errors::{Visit, norm};
-use super::MeanAndMax;
+use super::mean_and_max::MeanAndMax;
 use super::visits::{Visits, deviation};
 
 /// Pairs of configurations that were visited equally often.

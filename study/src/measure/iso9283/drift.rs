@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use super::MeanAndMax;
+use super::mean_and_max::MeanAndMax;
 use super::pose::Characteristics;
 use super::visits::Visits;
 

@@ -6,6 +6,7 @@
 mod directions;
 mod distances;
 mod drift;
+mod mean_and_max;
 mod pose;
 #[cfg(test)]
 mod tests;
@@ -17,6 +18,7 @@ use super::errors::Visit;
 pub use directions::Directions;
 pub use distances::Distances;
 pub use drift::Drift;
+pub use mean_and_max::MeanAndMax;
 use visits::{Visits, mean, visits};
 
 /// Configurations that were visited more than once.
@@ -44,30 +46,6 @@ pub struct Repeated {
     pub distances: Option<Distances>,
     /// Drift of pose characteristics, 7.6.
     pub drift: Option<Drift>,
-}
-
-/// Over all configurations.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct MeanAndMax {
-    /// The mean.
-    pub mean: f64,
-    /// The largest.
-    pub max: f64,
-}
-
-impl MeanAndMax {
-    /// None of nothing.
-    fn new(values: impl IntoIterator<Item = f64>) -> Option<Self> {
-        let values: Vec<f64> = values.into_iter().collect();
-        let max = values.iter().copied().reduce(f64::max)?;
-        Some(Self { mean: values.iter().sum::<f64>() / values.len() as f64, max })
-    }
-
-    /// Of the three turns, each by itself.
-    fn of_turns(values: &[[f64; 3]]) -> Option<[Self; 3]> {
-        let [a, b, c] = [0, 1, 2].map(|axis| Self::new(values.iter().map(|value| value[axis])));
-        Some([a?, b?, c?])
-    }
 }
 
 /// The errors of every visit about the barycentre of its configuration.
