@@ -3,9 +3,7 @@
 //! `docs/reference/map.md` has every key.
 
 mod above;
-mod cells;
 mod column;
-mod complete;
 mod configurations;
 mod date;
 mod dated;
@@ -31,20 +29,19 @@ mod station;
 mod table;
 mod turn;
 
-pub use cells::Cells;
 pub use column::{Channel, Column, Scale};
-pub(crate) use complete::in_order;
 pub use date::Calendar;
 pub(crate) use date::{in_name, parse_date};
 pub use dated::Dated;
 pub use from_rows::FromRows;
+pub(crate) use from_rows::in_order;
 pub use instrument::{Instrument, Instruments, Kind};
 pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use numbers::{Numbers, numbers};
 pub(crate) use rotation::reread;
 pub use rows::{Data, Summary, Unusable};
-pub use source::{Columns, Source};
+pub use source::{Cells, Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
 pub use table::{Csv, Heading, Table};
 pub(crate) use turn::EULER_ORDERS;

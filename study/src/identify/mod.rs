@@ -4,7 +4,7 @@
 //! be read; `readings` asks whether the data are read as they were meant, `reading`
 //! has other ways to read them, `doubt` says what no machine has, `known_rows` which test rows are none. `solve`
 //! fits and judges on the data alone, `gross` looks for gross errors; `magnitude` are sources of the spec that are fitted with
-//! the constants. `terms` are errors that richer models have, `candidates` those that are tried, by `family`, `derived` the inputs that
+//! the constants. `terms` are errors that richer models have, `candidates` those that are tried, `derived` the inputs that
 //! follow from the order of the rows; `choose` takes in what earns its place, `extended` is the spec that has it. `found` is the
 //! identified machine, `placed` where it stands and what is mounted on its tool, `written` its spec (`written_compliance` full compliances, `written_covariance` how well it is known) and `written_map` its map; `report` is what comes out,
 //! with `point_residuals` for pictures, `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
@@ -17,7 +17,6 @@ mod counts;
 mod derived;
 mod doubt;
 mod extended;
-mod family;
 mod found;
 mod gross;
 mod instruments;
@@ -45,16 +44,14 @@ mod written_map;
 
 pub use alike::Alike;
 pub(crate) use alike::alikes;
-pub use candidates::{Harmonics, candidates};
+pub use candidates::{Family, Harmonics, candidates};
 pub use counts::Counts;
 pub use derived::{Derived, DerivedKind};
 pub use extended::extended;
-pub use family::Family;
 pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use gross::shown_lines;
 pub use instruments::Told;
 pub use job::Identify;
-pub use meaning::Meaning;
 pub use not_known::NotKnown;
 pub use order::Order;
 pub use outside::Outside;
@@ -62,14 +59,12 @@ pub use placed::{Placed, PlacedInstrument, PlacedStation};
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter,
-    Report, TermGain,
+    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair,
+    Parameter, Report, Sizes, TermGain,
 };
 pub use solve::Settings;
 pub use terms::{Angle, Basis, Place, Term, Wave};
 pub use written::WrittenSpec;
-
-pub use crate::sizes::Sizes;
 
 pub(crate) use aim::{aimed, unaimed};
 pub(crate) use doubt::{doubt, too_large};
