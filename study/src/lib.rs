@@ -68,6 +68,7 @@ mod acceptance;
 mod changes;
 mod extrapolated;
 mod finite;
+mod interpretations;
 mod lines;
 mod listing;
 mod machine;

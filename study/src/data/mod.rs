@@ -39,7 +39,6 @@ pub use instrument::{Instrument, Instruments, Kind};
 pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use numbers::{Numbers, numbers};
-pub(crate) use rotation::reread;
 pub use rows::{Data, Summary, Unusable};
 pub use source::{Cells, Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
@@ -47,4 +46,6 @@ pub use table::{Csv, Heading, Table};
 pub(crate) use turn::EULER_ORDERS;
 pub use turn::{Order, Turn};
 
-pub(crate) use rotation::quaternion;
+pub(crate) use rotation::{
+    Rotation, from_euler, from_quaternion, from_rotation_vector, is_rotation, quaternion, to_numbers,
+};

@@ -10,7 +10,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::doubt::doubt;
 use super::extended::extended;
 use super::magnitude::own_magnitudes;
-use super::readings::check_readings;
+use super::misread::check_interpretation;
 use super::setup::Setup;
 use super::solve::{Settings, explained, solve};
 use super::terms::{Basis, Place, Term};
@@ -70,7 +70,7 @@ pub(super) fn choose(
     let own = own_magnitudes(spec);
     let interpreter = Interpreter::new(extended(spec, &carriers));
     let mut setup = Setup::new(&interpreter, map, data, own.len() + carriers.len())?;
-    check_readings(&setup, map, data)?;
+    check_interpretation(&setup, map, data)?;
     setup.come_near(data).map_err(|failure| explained(&failure, data))?;
     doubt(&setup, map, data, notes).map_err(|failure| explained(&failure, data))?;
     let solved = solve(&setup, data, &own, &[], settings, notes)?;

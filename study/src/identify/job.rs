@@ -24,11 +24,11 @@ use super::instruments::{estimate, told};
 use super::known_rows::{known_rows, sentence};
 use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::meaning::{InNumbers, number_terms};
+use super::misread::check_interpretation;
 use super::not_known::NotKnown;
 use super::order::Order;
 use super::outside::Outside;
 use super::point_residuals::{PointResidual, Valued};
-use super::readings::check_readings;
 use super::report::{
     Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
     TermGain,
@@ -103,7 +103,7 @@ impl Identify {
         let interpreter = Interpreter::new(extended(&spec, &[&terms[..], &numbers].concat()));
         let mut setup = Setup::new(&interpreter, map, &data, own.len() + terms.len() + numbers.len())?;
         if stages.is_empty() {
-            check_readings(&setup, map, &data)?;
+            check_interpretation(&setup, map, &data)?;
         }
         setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         if stages.is_empty() {

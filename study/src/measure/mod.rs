@@ -19,7 +19,7 @@ use serde::Serialize;
 
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::extrapolated::{Extrapolated, extrapolated};
-use crate::identify::{Order, Setup, Sizes, check_readings, too_large};
+use crate::identify::{Order, Setup, Sizes, check_interpretation, too_large};
 use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake};
 
 pub use errors::RowError;
@@ -180,7 +180,7 @@ impl Measure {
             Cow::Borrowed(_) => data,
         };
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
-        let fitted = check_readings(&setup, map, &data)?;
+        let fitted = check_interpretation(&setup, map, &data)?;
         let base_fitted = setup.find_places(map, &data)?;
         let mut seen = match map.instruments() {
             Some(all) => Seen::of_readings(&setup, all, data)?,

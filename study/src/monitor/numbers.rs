@@ -8,7 +8,7 @@ use super::checks::{Check, Checks};
 use super::places::{MOST, Places, TooMany};
 use super::single_errors::product;
 use crate::data::{Base, Map};
-use crate::identify::{Setup, check_readings, doubt};
+use crate::identify::{Setup, check_interpretation, doubt};
 use crate::{Notes, mistake};
 
 /// Measured minus model at every check, and how the model moves.
@@ -50,7 +50,7 @@ impl Numbers {
         for (i, check) in checks.list.iter().enumerate() {
             let setup = Setup::new(manipulator, map, &check.data, 0)?;
             if i == 0 {
-                check_readings(&setup, map, &check.data)?;
+                check_interpretation(&setup, map, &check.data)?;
                 let mut near = Setup::new(manipulator, map, &check.data, 0)?;
                 let fail = |failure| mistake::whole(&check.data.file, &failure);
                 near.come_near(&check.data).map_err(fail)?;

@@ -2,7 +2,7 @@
 
 use abbe::identify::{Failure, Loss, Options, fit};
 
-use super::readings::{ROWS, some};
+use super::misread::{ROWS, some};
 use super::setup::Setup;
 use crate::data::{Data, Map};
 use crate::{Notes, number};
