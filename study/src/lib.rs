@@ -75,6 +75,7 @@ mod machine;
 mod named;
 mod notes;
 mod reads;
+mod sizes;
 mod toml_text;
 
 pub use acceptance::{Acceptance, Accepted, Limit};

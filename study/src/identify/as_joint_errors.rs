@@ -11,8 +11,8 @@ use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
 use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_spec::expr::{Dimension, Motion, Symbol};
 use abbe_spec::{ChainNumber, DhNumber, Spec};
+use serde::Serialize;
 
-use super::report::Meaning;
 use super::setup::Setup;
 use super::solve::Solved;
 use super::terms::{self, Place, Term};
@@ -38,6 +38,21 @@ pub(super) struct InNumbers {
     pub(super) others: Vec<(usize, f64, f64)>,
     /// The covariance of all of them, by place among the kept unknowns.
     pub(super) covariance: Vec<Vec<f64>>,
+}
+
+/// What was found, said of a number of the chain.
+#[derive(Clone, Debug, Serialize)]
+pub struct Meaning {
+    /// The error of a frame that it takes the place of, such as `e_r1`.
+    pub in_place_of: String,
+    /// The number: `zero of q2`, `reach`, `a of shoulder`.
+    pub number: String,
+    /// By how much it is off: the length unit, or rad.
+    pub value: f64,
+    /// How well that is known.
+    pub standard_deviation: f64,
+    /// All this as a sentence.
+    pub sentence: String,
 }
 
 /// A number of the chain.

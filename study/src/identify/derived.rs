@@ -7,7 +7,7 @@ use abbe::{Component, Manipulator, VariableKind};
 use abbe_spec::expr::Dimension;
 use abbe_spec::{Input, Spec};
 
-use super::candidates::Family;
+use super::families::Family;
 use super::terms::{Basis, Place, Term};
 use crate::data::{Channel, Data, FromRows, Map, in_order};
 

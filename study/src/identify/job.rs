@@ -13,12 +13,13 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::alike::alikes;
-use super::candidates::{Family, Harmonics, candidates};
+use super::candidates::candidates;
 use super::choose::{Chosen, choose};
 use super::counts::Counts;
 use super::derived::{Derived, derived, with_columns, with_inputs};
 use super::doubt::doubt;
 use super::extended::extended;
+use super::families::{Family, Harmonics};
 use super::found::FoundModel;
 use super::instruments::{estimate, told};
 use super::known_rows::{known_rows, sentence};

@@ -17,6 +17,7 @@ mod counts;
 mod derived;
 mod doubt;
 mod extended;
+mod families;
 mod found;
 mod gross;
 mod instruments;
@@ -44,10 +45,11 @@ mod written_map;
 
 pub use alike::Alike;
 pub(crate) use alike::alikes;
-pub use candidates::{Family, Harmonics, candidates};
+pub use candidates::candidates;
 pub use counts::Counts;
 pub use derived::{Derived, DerivedKind};
 pub use extended::extended;
+pub use families::{Family, Harmonics};
 pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use gross::shown_lines;
 pub use instruments::Told;
@@ -59,8 +61,8 @@ pub use placed::{Placed, PlacedInstrument, PlacedStation};
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair,
-    Parameter, Report, Sizes, TermGain,
+    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter,
+    Report, TermGain,
 };
 pub use solve::Settings;
 pub use terms::{Angle, Basis, Place, Term, Wave};
@@ -68,7 +70,9 @@ pub use written::WrittenSpec;
 
 pub(crate) use aim::{aimed, unaimed};
 pub(crate) use doubt::{doubt, too_large};
+pub use meaning::Meaning;
 pub(crate) use meaning::chain_errors;
+pub use crate::sizes::Sizes;
 pub(crate) use misread::check_interpretation;
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;

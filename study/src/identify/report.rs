@@ -1,12 +1,13 @@
 //! What comes out of an identification.
 
-use abbe::identify::{Comparison, Figures};
+use abbe::identify::Comparison;
 use serde::Serialize;
 
 use super::alike::Alike;
 use super::counts::Counts;
 use super::found::FoundModel;
 use super::instruments::Told;
+use super::meaning::Meaning;
 use super::not_known::NotKnown;
 use super::order::Order;
 use super::outside::Outside;
@@ -14,6 +15,7 @@ use super::placed::Placed;
 use super::point_residuals::PointResidual;
 use crate::Accepted;
 use crate::data::{Summary, Unusable};
+use crate::sizes::Sizes;
 
 /// What is found, how well it is known, and how good it is.
 #[derive(Clone, Debug, Serialize)]
@@ -156,21 +158,6 @@ pub struct Parameter {
     pub hardly_known: bool,
 }
 
-/// What was found, said of a number of the chain.
-#[derive(Clone, Debug, Serialize)]
-pub struct Meaning {
-    /// The error of a frame that it takes the place of, such as `e_r1`.
-    pub in_place_of: String,
-    /// The number: `zero of q2`, `reach`, `a of shoulder`.
-    pub number: String,
-    /// By how much it is off: the length unit, or rad.
-    pub value: f64,
-    /// How well that is known.
-    pub standard_deviation: f64,
-    /// All this as a sentence.
-    pub sentence: String,
-}
-
 /// The magnitude of a source of the spec.
 #[derive(Clone, Debug, Serialize)]
 pub struct Magnitude {
@@ -204,21 +191,6 @@ pub struct Pair {
     pub of: [String; 2],
     /// Their correlation.
     pub correlation: f64,
-}
-
-/// Position errors.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Sizes {
-    /// The mean of their norms.
-    pub mean: f64,
-    /// The standard error of that, configurations counted; none if there is only one.
-    pub standard_error: Option<f64>,
-    /// The root mean square.
-    pub rms: f64,
-    /// The largest.
-    pub max: f64,
-    /// What 95 % of them do not exceed.
-    pub p95: f64,
 }
 
 /// Position errors of some rows.
@@ -292,13 +264,6 @@ pub struct LeftOut {
     pub line: u64,
     /// Why not.
     pub reason: String,
-}
-
-impl From<Figures> for Sizes {
-    fn from(Figures { mean, standard_error, rms, max, p95, .. }: Figures) -> Self {
-        let standard_error = Some(standard_error).filter(|error| error.is_finite());
-        Self { mean, standard_error, rms, max, p95 }
-    }
 }
 
 impl From<Comparison> for Gain {

@@ -6,7 +6,7 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::checks::{Check, Checks};
 use super::places::{MOST, Places, TooMany};
-use super::single_errors::product;
+use super::vectors::product;
 use crate::data::{Base, Map};
 use crate::identify::{Setup, check_interpretation, doubt};
 use crate::{Notes, mistake};
