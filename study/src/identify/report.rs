@@ -3,16 +3,16 @@
 use abbe::identify::Comparison;
 use serde::Serialize;
 
-use super::alike::Alike;
+use super::as_joint_errors::JointError;
 use super::counts::Counts;
+use super::drift::ResidualDrift;
+use super::extrapolation::Extrapolation;
 use super::found::FoundModel;
-use super::instruments::Told;
-use super::meaning::Meaning;
-use super::not_known::NotKnown;
-use super::order::Order;
-use super::outside::Outside;
+use super::indistinguishable::Indistinguishable;
+use super::instruments::InstrumentFit;
 use super::placed::Placed;
 use super::point_residuals::PointResidual;
+use super::weakly_determined::WeaklyDetermined;
 use crate::Accepted;
 use crate::data::{Summary, Unusable};
 use crate::sizes::Sizes;
@@ -39,15 +39,15 @@ pub struct Report {
     /// Indices of observability.
     pub observability: Indices,
     /// What cannot be told apart, and why.
-    pub groups: Vec<Alike>,
+    pub groups: Vec<Indistinguishable>,
     /// What stays unknown for other reasons than the groups say: 0 if they explain it all.
     pub unexplained: usize,
     /// The unknowns that stand for the combinations that are known.
     pub parameters: Vec<Parameter>,
     /// Joints' zeros, parameters and Denavit-Hartenberg numbers that can stand in the place of some of these.
-    pub meanings: Vec<Meaning>,
+    pub meanings: Vec<JointError>,
     /// Errors of which these data tell too little beside what is known before; they are held at zero.
-    pub not_known: Vec<NotKnown>,
+    pub not_known: Vec<WeaklyDetermined>,
     /// The magnitudes of sources of the spec that are to be found.
     pub magnitudes: Vec<Magnitude>,
     /// The others.
@@ -59,7 +59,7 @@ pub struct Report {
     /// How sure all standard deviations are.
     pub certainty: Certainty,
     /// Instruments that are read one by one, each with what is left of its own numbers.
-    pub instruments: Vec<Told>,
+    pub instruments: Vec<InstrumentFit>,
     /// Where `F_0` stands as the instrument sees it, errors of the base aside: rows of a homogeneous matrix.
     pub base: [[f64; 4]; 4],
     /// Where the machine stands and what is mounted on its tool, as found.
@@ -71,7 +71,7 @@ pub struct Report {
     /// How many of the test rows are rows of the fit, digit by digit: by them nothing is judged.
     pub test_rows_of_the_fit: usize,
     /// Test rows outside the ranges of joints and inputs that were fitted; none if there are no such rows.
-    pub outside: Option<Outside>,
+    pub outside: Option<Extrapolation>,
     /// How good it is on rows left out in turn.
     pub cross_validation: CrossValidation,
     /// Whether it is within the limits that were declared, if any were.
@@ -81,7 +81,7 @@ pub struct Report {
     /// How many groups of terms were tried.
     pub tried: usize,
     /// Whether what is left follows the order of the rows; none for too few rows to tell.
-    pub order: Option<Order>,
+    pub order: Option<ResidualDrift>,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,
     /// Lines that a robust loss left out.

@@ -1,7 +1,7 @@
 //! The job: numbers, single errors, charts, and what has changed.
 
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
 
 use super::charts::{Chart, Limit, charts};
 use super::checks::Checks;
@@ -38,8 +38,7 @@ impl Monitor {
         let (charts, left) = charts(&errors, &numbers, &limit);
         let date = |check: usize| checks.calendar.show(checks.list[check].time);
         let alarm = alarm(&charts, &left, date);
-        let found =
-            alarm.as_ref().and_then(|_| finding(&errors, &numbers, checks, settings.tolerance));
+        let found = alarm.as_ref().and_then(|_| finding(&errors, &numbers, checks, settings.tolerance));
         let report = Report {
             name: spec.name.clone(),
             length: spec.length.symbol(),

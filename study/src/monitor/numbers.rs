@@ -8,7 +8,7 @@ use super::checks::{Check, Checks};
 use super::places::{MOST, Places, TooMany};
 use super::vectors::product;
 use crate::data::{Base, Map};
-use crate::identify::{Setup, check_interpretation, doubt};
+use crate::identify::{Setup, check_interpretation, check_plausibility};
 use crate::{Notes, mistake};
 
 /// Measured minus model at every check, and how the model moves.
@@ -54,7 +54,7 @@ impl Numbers {
                 let mut near = Setup::new(manipulator, map, &check.data, 0)?;
                 let fail = |failure| mistake::whole(&check.data.file, &failure);
                 near.come_near(&check.data).map_err(fail)?;
-                doubt(&near, map, &check.data, notes).map_err(fail)?;
+                check_plausibility(&near, map, &check.data, notes).map_err(fail)?;
             }
             one_station(check, map)?;
             let places = places.get_or_insert_with(|| Places::new(&setup));
