@@ -227,8 +227,8 @@ impl Machine {
             let page = abbe_report::identification(&machine.spec, map, &report, &provenance);
             let mut pages: Pages = vec![("report.html".into(), page)];
             if nominal {
-                let spec = report.found.written(&machine.spec, &text.clone()?, "found.toml")?;
-                let map = report.found.written_map(map, &machine.spec, "found.map.toml")?;
+                let spec = report.found.identified_spec(&machine.spec, &text.clone()?, "found.toml")?;
+                let map = report.found.identified_map(map, &machine.spec, "found.map.toml")?;
                 pages.extend([("found.toml".into(), spec.text), ("found.map.toml".into(), map)]);
             }
             Ok(pages)

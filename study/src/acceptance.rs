@@ -7,8 +7,8 @@ use abbe_spec::expr::Dimension;
 use abbe_spec::value::parse_value;
 use serde::Serialize;
 
-use crate::identify::Sizes;
 use crate::number;
+use crate::sizes::Sizes;
 
 /// The figures that can be limited, by the names that limits call them.
 pub(crate) const FIGURES: [&str; 4] = ["mean", "rms", "p95", "max"];
@@ -113,7 +113,7 @@ mod tests {
     use abbe::LengthUnit;
 
     use super::Acceptance;
-    use crate::identify::Sizes;
+    use crate::sizes::Sizes;
 
     #[test]
     fn limits_are_read_and_judged() {

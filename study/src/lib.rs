@@ -68,12 +68,14 @@ mod acceptance;
 mod changes;
 mod extrapolated;
 mod finite;
+mod interpretations;
 mod lines;
 mod listing;
 mod machine;
 mod named;
 mod notes;
 mod reads;
+mod sizes;
 mod toml_text;
 
 pub use acceptance::{Acceptance, Accepted, Limit};

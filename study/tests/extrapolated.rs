@@ -68,7 +68,7 @@ fn found(seed: u64) -> Machine {
     let nominal = ur5();
     machine(
         "found.toml",
-        &report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap().text,
+        &report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap().text,
     )
 }
 

@@ -92,9 +92,9 @@ fn backlash_goes_round() {
     let after = report.test.as_ref().unwrap().after;
     assert!(after.mean < 0.05, "{after:?}");
 
-    let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+    let spec = report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let found = machine("found.toml", &spec.text);
-    let text = report.found.written_map(&guess, &nominal.spec, "found.map.toml").unwrap();
+    let text = report.found.identified_map(&guess, &nominal.spec, "found.map.toml").unwrap();
     assert!(text.contains("approach = \"q2\"") && text.contains("gravity_moment = \"q3\""), "{text}");
     let left = |text: &str| {
         let map = Map::parse("found.map.toml", text, &found.spec).unwrap();
@@ -142,5 +142,5 @@ fn inputs_in_one_line_are_kept() {
     let names: Vec<&str> = report.terms.iter().map(|term| &term.name[..]).collect();
     assert!(names.contains(&"q2: joint error with shoulder_from"), "{names:?}");
     assert!(!names.iter().any(|name| name.contains("q2_direction")), "{names:?}");
-    report.found.written_map(&map, &nominal.spec, "found.map.toml").unwrap();
+    report.found.identified_map(&map, &nominal.spec, "found.map.toml").unwrap();
 }

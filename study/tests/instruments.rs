@@ -259,9 +259,10 @@ fn what_is_found_is_measured_again() {
         let report = identified_with(&map, simulated(&map, 240, 3), Some(unseen.clone()), 0.002);
         let test = report.test.unwrap();
         let nominal = nominal();
-        let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+        let spec =
+            report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
         let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
-        let text = report.found.written_map(&map, &nominal.spec, "found.map.toml").unwrap();
+        let text = report.found.identified_map(&map, &nominal.spec, "found.map.toml").unwrap();
         let found =
             Map::parse("found.map.toml", &text, &machine.spec).unwrap_or_else(|m| panic!("{name}: {m}"));
         let measure = |map: Map| {

@@ -133,9 +133,9 @@ fn the_identified_machine_is_measured_again() {
     job.terms = vec![Family::Joint, Family::Elastic];
     let report = job.run(&mut ()).unwrap();
     let nominal = ur5();
-    let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+    let spec = report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let machine = Machine::of_spec(Spec::parse("found.toml", &spec.text).unwrap(), "found.toml");
-    let text = report.found.written_map(&map, &nominal.spec, "found.map.toml").unwrap();
+    let text = report.found.identified_map(&map, &nominal.spec, "found.map.toml").unwrap();
     let map = Map::parse("found.map.toml", &text, &nominal.spec).unwrap();
     let measured = Measure { machine, map, data, accept: Acceptance::default() }.run(&mut ()).unwrap();
     assert_eq!(measured.row_errors.len(), 300);

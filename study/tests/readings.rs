@@ -103,6 +103,10 @@ impl Notes for Heard {
 fn combinations_of_wrong_readings_are_named() {
     let metres = POINT.replace("mm", "m");
     let swapped = POINT.replace("\"x\", \"y\"", "\"y\", \"x\"");
+    let centimetres = POINT.replace("mm", "cm");
+    let in_rad = euler("zyx").replace("unit = \"deg\"", "unit = \"rad\"");
+    // R_z(c) R_y(b) R_x(a): angles about fixed axes x, y, z.
+    let fixed = euler("zyx").replace("[\"a\", \"b\", \"c\"]", "[\"c\", \"b\", \"a\"]");
     let (deg, rad) =
         (|reversed: &[usize], layout: &str| map("deg", reversed, layout), map("rad", &[], POINT));
     let angles = "angles in rad, not deg";
@@ -115,6 +119,13 @@ fn combinations_of_wrong_readings_are_named() {
         (deg(&[], &swapped), deg(&[], POINT), vec!["two of the measured columns x, y and z swapped"]),
         (deg(&[], &euler("xyz")), deg(&[], &euler("zyx")), vec!["Euler angles in the order `xyz`"]),
         (deg(&[1, 4], &euler("zxy")), deg(&[], &euler("zyx")), vec!["order `zxy`", "`q1`, `q4` count"]),
+        (deg(&[], POINT), deg(&[], &centimetres), vec!["lengths in mm, not cm"]),
+        (deg(&[], &in_rad), deg(&[], &euler("zyx")), vec!["angles of the orientations in rad, not deg"]),
+        (
+            deg(&[], &fixed),
+            deg(&[], &euler("xyz")),
+            vec!["fixed axes, `xyz`? give the columns the other way round, and `order = \"zyx\"`"],
+        ),
     ] {
         let text = written(&meant, 3);
         assert!(identified(&meant, &text).unwrap() < 0.05);

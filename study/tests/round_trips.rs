@@ -149,9 +149,9 @@ fn job(map: &Map, data: Data, test: Option<Data>) -> Identify {
 /// The spec and the map that are written.
 fn written(report: &Report, map: &Map) -> (Machine, Map) {
     let nominal = ur5();
-    let spec = report.found.written(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
+    let spec = report.found.identified_spec(&nominal.spec, &nominal.text().unwrap(), "found.toml").unwrap();
     let found = machine("found.toml", &spec.text);
-    let text = report.found.written_map(map, &nominal.spec, "found.map.toml").unwrap();
+    let text = report.found.identified_map(map, &nominal.spec, "found.map.toml").unwrap();
     let map = Map::parse("found.map.toml", &text, &found.spec).unwrap();
     (found, map)
 }

@@ -72,14 +72,14 @@ fn job(nominal: &str, base: &str, layout: &str, data: &Data) -> Identify {
 /// The identified machine as a spec.
 fn written(report: &Report, nominal: &str) -> String {
     let machine = machine(nominal);
-    report.found.written(&machine.spec, nominal, "found.toml").expect("it is a spec").text
+    report.found.identified_spec(&machine.spec, nominal, "found.toml").expect("it is a spec").text
 }
 
 /// What is left when the spec and the map that are written predict what was measured.
 fn left(report: &Report, nominal: &str, base: &str, layout: &str, data: &Data) -> f64 {
     let found = machine(&written(report, nominal));
     let map = map(base, layout, &machine(nominal));
-    let map = report.found.written_map(&map, &found.spec, "found.map.toml");
+    let map = report.found.identified_map(&map, &found.spec, "found.map.toml");
     let map = Map::parse("found.map.toml", &map.expect("it is a map"), &found.spec).expect("it is a map");
     let (data, accept) = (data.clone(), Acceptance::default());
     let job = measure::Measure { machine: found, map, data, accept };

@@ -1,6 +1,6 @@
 //! What cannot be told apart, in words.
 
-use abbe_study::identify::Alike;
+use abbe_study::identify::Indistinguishable;
 
 use abbe_report::text::Table;
 
@@ -12,7 +12,7 @@ struct Sentence<'r> {
 }
 
 /// What cannot be told apart, and why; nothing if all can.
-pub(crate) fn table(groups: &[Alike]) -> String {
+pub(crate) fn table(groups: &[Indistinguishable]) -> String {
     let mut table = Table::new(&["because", "these cannot be told apart"]);
     for sentence in sentences(groups) {
         table.row(vec![wrapped_at(sentence.reason, 38), sentence.groups.join("\n")]);
@@ -36,7 +36,7 @@ fn wrapped_at(text: &str, width: usize) -> String {
 }
 
 /// One sentence for every reason.
-fn sentences(groups: &[Alike]) -> Vec<Sentence<'_>> {
+fn sentences(groups: &[Indistinguishable]) -> Vec<Sentence<'_>> {
     let mut sentences: Vec<Sentence> = Vec::new();
     for group in groups {
         let words = group.sentence();

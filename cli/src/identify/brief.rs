@@ -2,7 +2,7 @@
 
 use abbe_report::text::{Table, wrapped};
 use abbe_spec::Spec;
-use abbe_study::identify::{Kind, Meaning, Parameter, Report, Sizes, TermGain};
+use abbe_study::identify::{JointError, Kind, Parameter, Report, Sizes, TermGain};
 use abbe_study::number::{digits, error_decimals, fixed};
 
 use super::text::{comparison, instruments, judged, left, outside, sizes, table};
@@ -61,7 +61,7 @@ fn good(spec: &Spec, report: &Report) -> String {
     let line = format!(
         "±: one standard error of the mean. Standard deviations times {factor} hold with 95 %.{better}"
     );
-    if let Some(said) = report.on_known_rows() {
+    if let Some(said) = report.on_train_test_overlap() {
         text += &format!("{}\n", wrapped(&(said + "."), 0));
     }
     text += &format!("{}\n{}{}", wrapped(&line, 0), outside(report), instruments(report));
@@ -92,8 +92,8 @@ fn found(spec: &Spec, report: &Report) -> String {
             "What was found: of {count} errors those that are farthest from nothing, by their deviations\n{shown}"
         ),
     };
-    let mut meanings: Vec<&Meaning> = report.meanings.iter().collect();
-    let of = |meaning: &Meaning| sure(meaning.value, meaning.standard_deviation);
+    let mut meanings: Vec<&JointError> = report.meanings.iter().collect();
+    let of = |meaning: &JointError| sure(meaning.value, meaning.standard_deviation);
     meanings.sort_by(|a, b| of(b).total_cmp(&of(a)));
     let meanings: Vec<String> = meanings.into_iter().map(|meaning| meaning.sentence.clone()).collect();
     if !meanings.is_empty() {

@@ -133,9 +133,9 @@ impl Found {
 /// What is to be written; what was added to the spec is said line by line.
 fn found(file: &Path, job: &Identify, report: &Report) -> Result<Found, Failure> {
     let machine = &job.machine;
-    let spec = report.found.written(&machine.spec, &machine.text()?, &file.display().to_string())?;
+    let spec = report.found.identified_spec(&machine.spec, &machine.text()?, &file.display().to_string())?;
     let name = map_file(file).display().to_string();
-    let map = report.found.written_map(&job.map, &machine.spec, &name)?;
+    let map = report.found.identified_map(&job.map, &machine.spec, &name)?;
     let lines = spec.added.trim_end().lines().map(|line| format!("+ {line}").trim_end().to_owned());
     let beside = format!(
         "Beside it {name}: the map with where the machine stands and what is mounted on its tool. Give `measure`, \

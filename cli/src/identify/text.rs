@@ -1,7 +1,7 @@
 //! All that comes out, for people: `--full`.
 
 use abbe_spec::Spec;
-use abbe_study::identify::{Gain, Kind, NotKnown, Parameter, Report, Sizes, shown_lines};
+use abbe_study::identify::{Gain, Kind, Parameter, Report, Sizes, WeaklyDetermined, shown_lines};
 use abbe_study::number::{self, counted, digits, fixed};
 
 use super::alike;
@@ -139,7 +139,7 @@ fn not_known(spec: &Spec, report: &Report) -> String {
     if report.not_known.is_empty() {
         return String::new();
     }
-    let one = |not_known: &NotKnown| {
+    let one = |not_known: &WeaklyDetermined| {
         let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
         let told = digits(not_known.told * factor, 2);
         format!(
@@ -187,7 +187,7 @@ fn errors(spec: &Spec, report: &Report) -> String {
     let mut text = sizes(spec, report);
     let line = match &report.test {
         Some(_) if report.test_rows_of_the_fit > 0 => {
-            report.on_known_rows().map_or(String::new(), |said| said + ".")
+            report.on_train_test_overlap().map_or(String::new(), |said| said + ".")
         }
         Some(_) => "Nothing of the test rows was used to find or to choose anything.".to_owned(),
         None => {

@@ -3,7 +3,7 @@
 use abbe_spec::Spec;
 use abbe_study::Accepted;
 use abbe_study::data::Map;
-use abbe_study::identify::{Alike, Kind, NotKnown, Parameter, Report, Sizes};
+use abbe_study::identify::{Indistinguishable, Kind, Parameter, Report, Sizes, WeaklyDetermined};
 use abbe_study::number::{self, digits, fixed};
 
 use super::figure::Figures;
@@ -146,7 +146,7 @@ fn placed(spec: &Spec, report: &Report) -> String {
 }
 
 fn not_known(report: &Report) -> String {
-    let one = |not_known: &NotKnown| {
+    let one = |not_known: &WeaklyDetermined| {
         let (unit, factor) = if not_known.unit == "rad" { ("mrad", 1e3) } else { (not_known.unit, 1.0) };
         let [told, expected] = [not_known.told, not_known.expected].map(|value| digits(value * factor, 2));
         format!(
@@ -193,7 +193,7 @@ fn parameters(spec: &Spec, report: &Report, is_shown: impl Fn(Kind) -> bool) -> 
 fn groups(report: &Report) -> String {
     let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
     for group in &report.groups {
-        let sentence = escaped(&Alike::sentence(group));
+        let sentence = escaped(&Indistinguishable::sentence(group));
         match reasons.last_mut() {
             Some((reason, sentences)) if *reason == group.reason => sentences.push(sentence),
             _ => reasons.push((&group.reason, vec![sentence])),

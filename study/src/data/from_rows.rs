@@ -1,14 +1,8 @@
 //! Inputs that no column has because the rows have them: by their order, or by the pose of the machine in each.
 
-use std::borrow::Cow;
-
 use abbe::identify::Observation;
 use abbe::{Manipulator, Pose};
 use abbe_spec::Spec;
-
-use super::column::Channel;
-use super::map::Map;
-use super::rows::Data;
 
 /// How an input follows from the rows. Its value is −1, 0 or 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,41 +61,6 @@ impl FromRows {
             Self::Approach(variable) => approaches(rows, variable),
             Self::GravityMoment { variable, at } => moments(manipulator, spec, rows, variable, at),
         }
-    }
-}
-
-impl Map {
-    /// Whether an input follows from the rows.
-    pub(crate) fn follows_from_rows(&self) -> bool {
-        self.inputs.iter().any(|channel| matches!(channel, Channel::FromRows(_)))
-    }
-}
-
-impl Data {
-    /// The same rows with the inputs that follow from them; `manipulator` is that of the spec.
-    pub(crate) fn completed(&self, map: &Map, manipulator: &dyn Manipulator, spec: &Spec) -> Cow<'_, Self> {
-        Self::complete(Cow::Borrowed(self), map, manipulator, spec)
-    }
-
-    /// The same, without a copy of rows that are given away.
-    pub(crate) fn complete<'d>(
-        data: Cow<'d, Self>,
-        map: &Map,
-        manipulator: &dyn Manipulator,
-        spec: &Spec,
-    ) -> Cow<'d, Self> {
-        if !map.follows_from_rows() {
-            return data;
-        }
-        let mut data = data.into_owned();
-        let order = in_order(&data.observations);
-        for (input, channel) in map.inputs.iter().enumerate() {
-            let Channel::FromRows(follows) = channel else { continue };
-            let sorted: Vec<&Observation> = order.iter().map(|i| &data.observations[*i]).collect();
-            let values = follows.values(manipulator, spec, &sorted);
-            order.iter().zip(values).for_each(|(i, value)| data.observations[*i].u[input] = value);
-        }
-        Cow::Owned(data)
     }
 }
 

@@ -3,7 +3,9 @@
 //! `docs/reference/map.md` has every key.
 
 mod above;
+mod cells;
 mod column;
+mod completed;
 mod configurations;
 mod date;
 mod dated;
@@ -29,6 +31,7 @@ mod station;
 mod table;
 mod turn;
 
+pub use cells::Cells;
 pub use column::{Channel, Column, Scale};
 pub use date::Calendar;
 pub(crate) use date::{in_name, parse_date};
@@ -39,12 +42,13 @@ pub use instrument::{Instrument, Instruments, Kind};
 pub use keys::TABLES;
 pub use map::{Base, Layout, Map, Target};
 pub(crate) use numbers::{Numbers, numbers};
-pub(crate) use rotation::reread;
 pub use rows::{Data, Summary, Unusable};
-pub use source::{Cells, Columns, Source};
+pub use source::{Columns, Source};
 pub use station::{Placement, StatedStation, Stations};
 pub use table::{Csv, Heading, Table};
 pub(crate) use turn::EULER_ORDERS;
 pub use turn::{Order, Turn};
 
-pub(crate) use rotation::quaternion;
+pub(crate) use rotation::{
+    Rotation, from_euler, from_quaternion, from_rotation_vector, is_rotation, quaternion, to_numbers,
+};

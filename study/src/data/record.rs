@@ -7,9 +7,9 @@ use abbe_spec::cell::meant;
 use abbe_spec::expr::LARGEST;
 use csv::StringRecord;
 
+use super::cells::Cells;
 use super::date::parse_date;
 use super::dialect::Dialect;
-use super::source::Cells;
 
 /// A record below the heading.
 pub(super) struct Record {

@@ -18,34 +18,40 @@ pub(super) fn from_numbers(turn: &Turn, numbers: &[f64]) -> Result<Rotation, Str
         Turn::Matrix(_) => {
             let column = |j: usize| [numbers[j], numbers[3 + j], numbers[6 + j]];
             let r = [column(0), column(1), column(2)];
-            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-            let unit = (0..3).all(|i| (dot(r[i], r[i]) - 1.0).abs() < 0.01);
-            let square = (0..3).all(|i| dot(r[i], r[(i + 1) % 3]).abs() < 0.01);
-            let [x, y, z] = r;
-            let cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
-            if unit && square && dot(cross, z) > 0.0 {
-                Ok(r)
-            } else {
-                Err("the matrix is not a rotation".to_owned())
-            }
+            if is_rotation(&r, 0.01) { Ok(r) } else { Err("the matrix is not a rotation".to_owned()) }
         }
-        Turn::Euler(_, axes, factor) => {
-            let turns = axes.iter().zip(numbers).map(|(axis, angle)| about(*axis, angle * factor));
-            Ok(turns.fold(about(0, 0.0), |product, turn| times(&product, &turn)))
-        }
-        Turn::RotationVector(_, factor) => {
-            let vector = [0, 1, 2].map(|i| numbers[i] * factor);
-            let angle = length(vector);
-            // sin(a/2) / a.
-            let share = if angle > 0.0 { (0.5 * angle).sin() / angle } else { 0.5 };
-            let [x, y, z] = vector.map(|v| v * share);
-            from_quaternion(&[(0.5 * angle).cos(), x, y, z])
-        }
+        Turn::Euler(_, axes, factor) => Ok(from_euler(*axes, [0, 1, 2].map(|i| numbers[i] * factor))),
+        Turn::RotationVector(_, factor) => from_rotation_vector([0, 1, 2].map(|i| numbers[i] * factor)),
     }
 }
 
+/// Tests whether columns are those of a rotation: lengths and angles between them to this tolerance, right-handed.
+pub(crate) fn is_rotation(r: &Rotation, tolerance: f64) -> bool {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let [x, y, z] = *r;
+    let cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+    (0..3).all(|i| (dot(r[i], r[i]) - 1.0).abs() < tolerance)
+        && (0..3).all(|i| dot(r[i], r[(i + 1) % 3]).abs() < tolerance)
+        && dot(cross, z) > 0.0
+}
+
+/// `R_a R_b R_c` of three angles in rad about these axes, 0 = x.
+pub(crate) fn from_euler(axes: [usize; 3], angles: [f64; 3]) -> Rotation {
+    let turns = axes.into_iter().zip(angles).map(|(axis, angle)| about(axis, angle));
+    turns.fold(about(0, 0.0), |product, turn| times(&product, &turn))
+}
+
+/// The rotation of an axis times its angle in rad, or why it is none.
+pub(crate) fn from_rotation_vector(vector: [f64; 3]) -> Result<Rotation, String> {
+    let angle = length(vector);
+    // sin(a/2) / a.
+    let share = if angle > 0.0 { (0.5 * angle).sin() / angle } else { 0.5 };
+    let [x, y, z] = vector.map(|v| v * share);
+    from_quaternion(&[(0.5 * angle).cos(), x, y, z])
+}
+
 /// The rotation of a quaternion w x y z, or why it is none.
-pub(super) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
+pub(crate) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
     let [w, x, y, z] = numbers.try_into().unwrap_or([0.0; 4]);
     let length = (w * w + x * x + y * y + z * z).sqrt();
     if !(0.99..1.01).contains(&length) {
@@ -59,13 +65,8 @@ pub(super) fn from_quaternion(numbers: &[f64]) -> Result<Rotation, String> {
     ])
 }
 
-/// The rotation if its numbers were written as another kind.
-pub(crate) fn reread(turn: &Turn, other: &Turn, r: &Rotation) -> Rotation {
-    from_numbers(other, &to_numbers(turn, r)).unwrap_or(*r)
-}
-
 /// The numbers of a rotation, as they are written.
-pub(super) fn to_numbers(turn: &Turn, r: &Rotation) -> Vec<f64> {
+pub(crate) fn to_numbers(turn: &Turn, r: &Rotation) -> Vec<f64> {
     match turn {
         Turn::Quaternion(_, order) => {
             let [w, x, y, z] = quaternion(r);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use abbe_spec::diagnostic::Diagnostics;
 use sha2::{Digest, Sha256};
 
+use super::cells::Cells;
 use super::file::{File, MOST_ROWS};
 use super::record::Record;
 use crate::{hash, mistake};
@@ -27,24 +28,6 @@ pub struct Columns {
     pub(super) heading: Arc<[String]>,
     cells: Vec<Arc<Cells>>,
     rows: usize,
-}
-
-/// The cells of a column.
-#[derive(Clone, Debug)]
-pub enum Cells {
-    /// Numbers; one that is not there is NaN.
-    Numbers(Vec<f64>),
-    /// Texts; one that is not there is empty.
-    Texts(Vec<String>),
-}
-
-impl Cells {
-    fn len(&self) -> usize {
-        match self {
-            Self::Numbers(cells) => cells.len(),
-            Self::Texts(cells) => cells.len(),
-        }
-    }
 }
 
 impl Columns {

@@ -4,6 +4,7 @@ use abbe_spec::Spec;
 use abbe_spec::diagnostic::{Diagnostics, listed};
 
 use crate::data::{Numbers, Source, numbers};
+use crate::interpretations::configurations;
 use crate::{Notes, mistake};
 
 /// The rows of a file or a table.
@@ -16,8 +17,6 @@ pub(super) struct Columns {
     pub(super) joints: Vec<Vec<f64>>,
     /// What was seen, as it stands there.
     pub(super) pose: Vec<Vec<f64>>,
-    /// How many configurations the rows are of.
-    pub(super) configurations: usize,
 }
 
 /// Of fewer configurations every reading fits.
@@ -99,22 +98,6 @@ impl Columns {
             return fail(message, "give four at least, better ten, at configurations far from each other");
         }
         let names = |places: &[usize]| places.iter().map(|place| heading[*place].clone()).collect();
-        Ok(Self {
-            joint_names: names(&joints),
-            pose_names: names(&pose),
-            joints: at,
-            pose: seen,
-            configurations,
-        })
+        Ok(Self { joint_names: names(&joints), pose_names: names(&pose), joints: at, pose: seen })
     }
-}
-
-/// How many rows differ from all before them in a joint, by more than a thousandth of how far its column goes from 0.
-fn configurations(rows: &[Vec<f64>]) -> usize {
-    let count = rows.first().map_or(0, Vec::len);
-    let largest = |joint: usize| rows.iter().fold(0.0_f64, |most, row| most.max(row[joint].abs()));
-    let steps: Vec<f64> = (0..count).map(|joint| 1e-3 * largest(joint)).collect();
-    let same =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&steps).all(|((a, b), step)| (a - b).abs() <= *step);
-    (0..rows.len()).filter(|i| !rows[..*i].iter().any(|before| same(before, &rows[*i]))).count()
 }

@@ -5,22 +5,19 @@ use abbe::{Error, Manipulator, Pose, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::{DhConvention, Frame, Spec};
 
+use crate::interpretations::{Chain, Parts};
+
 /// A spec that is evaluated as it is written, and with its Denavit-Hartenberg numbers read in the other convention.
 pub(super) struct Kinematics {
     as_written: Interpreter,
     other: Option<Interpreter>,
     parameters: Vec<f64>,
-    pub(super) kinds: Vec<VariableKind>,
+    kinds: Vec<VariableKind>,
     /// How many frames stand before the first that moves.
     fixed: usize,
     pub(super) has_tool: bool,
-    pub(super) metres: f64,
-    /// The middle of the joints' limits.
-    pub(super) home: Vec<f64>,
+    metres: f64,
 }
-
-/// What stands before everything that moves, what moves, and the tool.
-pub(super) type Parts = [Pose; 3];
 
 impl Kinematics {
     pub(super) fn new(spec: &Spec) -> Result<Self, Error> {
@@ -41,26 +38,34 @@ impl Kinematics {
             metres: spec.length.in_metres(),
             as_written,
             other,
-            home,
         };
-        let [_, _, tool] = kinematics.parts(&kinematics.home, false)?;
+        let [_, _, tool] = kinematics.parts(&home, false)?;
         kinematics.has_tool = tool != Pose::IDENTITY;
         Ok(kinematics)
     }
 
-    /// Whether there is a frame by Denavit-Hartenberg numbers.
+    /// Tells whether there is a frame by Denavit-Hartenberg numbers.
     pub(super) fn has_convention(&self) -> bool {
         self.other.is_some()
     }
 
-    /// Whether fixed frames stand at the base.
+    /// Tells whether fixed frames stand at the base.
     pub(super) fn has_base(&self) -> bool {
         self.fixed > 0
     }
+}
 
-    /// Base, chain and tool at `q`; of the other convention if that is asked for and there is one.
-    pub(super) fn parts(&self, q: &[f64], other: bool) -> Result<Parts, Error> {
-        let interpreter = self.other.as_ref().filter(|_| other).unwrap_or(&self.as_written);
+impl Chain for Kinematics {
+    fn kinds(&self) -> &[VariableKind] {
+        &self.kinds
+    }
+
+    fn metres(&self) -> f64 {
+        self.metres
+    }
+
+    fn parts(&self, q: &[f64], other_convention: bool) -> Result<Parts, Error> {
+        let interpreter = self.other.as_ref().filter(|_| other_convention).unwrap_or(&self.as_written);
         let mut transforms = vec![Pose::IDENTITY; interpreter.description().frames.len() + 1];
         interpreter.transforms(q, &self.parameters, &mut transforms)?;
         let product = |all: &[Pose]| all.iter().fold(Pose::IDENTITY, |product, next| product.then(next));

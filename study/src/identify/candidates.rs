@@ -6,53 +6,8 @@ use abbe_codegen::graph::Graph;
 use abbe_spec::{ChainNumber, Factor, Spec};
 
 use super::derived::{Derived, DerivedKind};
-use super::terms::{Angle, Basis, Place, Term, Wave};
-
-/// A family of terms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    /// Errors of joints, and of frames with their own joint: one to four times per turn, or in proportion to its travel, its
-    /// square and its cube.
-    Joint,
-    /// Errors of joints, parameters and frames in proportion to an input: to a load, a temperature, a motor's current.
-    Load,
-    /// Turns of base and frames in proportion to the moment that the loads of the spec, or the weight of 1 kg at the tool
-    /// point, have about them: each about its own axis, then what couples the axes.
-    Elastic,
-    /// Errors of joints by the direction from which they came, row by row, or in which a weight pulls at them.
-    Backlash,
-    /// Errors of joints with another joint, or with two.
-    Product,
-    /// Errors of frames that grow or settle from row to row.
-    Drift,
-}
-
-impl Family {
-    /// All.
-    pub const ALL: [Self; 6] =
-        [Self::Joint, Self::Load, Self::Elastic, Self::Backlash, Self::Product, Self::Drift];
-
-    /// Its name, as it is asked for.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Joint => "joint",
-            Self::Load => "load",
-            Self::Elastic => "elastic",
-            Self::Backlash => "backlash",
-            Self::Product => "product",
-            Self::Drift => "drift",
-        }
-    }
-}
-
-/// How often per turn of a joint errors are looked for, beside 1 to 4: gear ratios.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Harmonics {
-    /// The joint.
-    pub variable: usize,
-    /// So many times per turn.
-    pub times: Vec<u16>,
-}
+use super::families::{Family, Harmonics};
+use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
 
 /// Groups of terms that come together, the sine and cosine of a joint, say: stage by stage, the likelier ones first.
 ///
@@ -80,7 +35,7 @@ pub fn candidates(
     };
     let gears = harmonics.iter().flat_map(|one| {
         let group = |times: &u16| {
-            let place = Place::Joint(one.variable);
+            let place = ErrorSite::Joint(one.variable);
             let bases = Basis::waves(Angle::times(one.variable, *times));
             bases.into_iter().map(|basis| Term { place, basis }).collect::<Vec<_>>()
         };
@@ -102,9 +57,9 @@ pub fn candidates(
     let joints: Vec<Option<(usize, Component)>> =
         (0..spec.variables.len()).map(|joint| error_of_joint(spec, joint)).collect();
     let as_joint = |term: &Term| match term.place {
-        Place::Frame(frame, component) => {
+        ErrorSite::Frame(frame, component) => {
             let joint = joints.iter().position(|same| *same == Some((frame, component)));
-            joint.map(|joint| Term { place: Place::Joint(joint), ..*term })
+            joint.map(|joint| Term { place: ErrorSite::Joint(joint), ..*term })
         }
         _ => None,
     };
@@ -134,7 +89,7 @@ fn error_of_joint(spec: &Spec, joint: usize) -> Option<(usize, Component)> {
 fn joint(spec: &Spec, times: &[u16], exponents: &[u8]) -> Vec<Vec<Term>> {
     let moved = spec.frames.iter().enumerate().filter_map(|(frame, has)| Some((frame, has.variable?)));
     let groups = moved.flat_map(|(frame, variable)| {
-        let places = Component::ALL.map(|component| Place::Frame(frame, component));
+        let places = Component::ALL.map(|component| ErrorSite::Frame(frame, component));
         let bases: Vec<Vec<Basis>> = match spec.variables[variable].kind {
             VariableKind::Revolute => {
                 times.iter().map(|times| Basis::waves(Angle::times(variable, *times))).collect()
@@ -144,7 +99,7 @@ fn joint(spec: &Spec, times: &[u16], exponents: &[u8]) -> Vec<Vec<Term>> {
                 exponents.iter().map(power).collect()
             }
         };
-        [Place::Joint(variable)].into_iter().chain(places).flat_map(move |place| {
+        [ErrorSite::Joint(variable)].into_iter().chain(places).flat_map(move |place| {
             let term = move |basis: &Basis| Term { place, basis: *basis };
             bases.iter().map(|group| group.iter().map(term).collect()).collect::<Vec<_>>()
         })
@@ -157,22 +112,22 @@ fn load(spec: &Spec, inputs: usize) -> Vec<Vec<Term>> {
         !frame_twists(&mut Graph::with_tables(&spec.tables), spec, ChainNumber::Parameter(*parameter))
             .is_empty()
     };
-    let joints = (0..spec.variables.len()).map(Place::Joint);
-    let parameters = (0..spec.parameters.len()).filter(used).map(Place::Parameter);
+    let joints = (0..spec.variables.len()).map(ErrorSite::Joint);
+    let parameters = (0..spec.parameters.len()).filter(used).map(ErrorSite::Parameter);
     let frames = (0..spec.frames.len())
-        .flat_map(|frame| Component::ALL.map(|component| Place::Frame(frame, component)));
-    let places: Vec<Place> = joints.chain(parameters).chain(frames).collect();
+        .flat_map(|frame| Component::ALL.map(|component| ErrorSite::Frame(frame, component)));
+    let places: Vec<ErrorSite> = joints.chain(parameters).chain(frames).collect();
     let term = |input, place| vec![Term { place, basis: Basis::Input(input) }];
     (0..inputs).flat_map(|input| places.iter().map(move |place| term(input, *place))).collect()
 }
 
 /// The turns of the base, if its errors can be said at the first frame, and of every frame.
-fn turns(spec: &Spec) -> Vec<[Place; 3]> {
+fn turns(spec: &Spec) -> Vec<[ErrorSite; 3]> {
     let turns = [Component::Spin, Component::Roll, Component::Pitch];
     let inverse =
         |frame: &abbe_spec::Frame| !frame.factors.iter().any(|factor| matches!(factor, Factor::Matrix(_)));
-    let base = spec.frames.first().is_some_and(inverse).then(|| turns.map(Place::Base));
-    let frames = (0..spec.frames.len()).map(|frame| turns.map(|turn| Place::Frame(frame, turn)));
+    let base = spec.frames.first().is_some_and(inverse).then(|| turns.map(ErrorSite::Base));
+    let frames = (0..spec.frames.len()).map(|frame| turns.map(|turn| ErrorSite::Frame(frame, turn)));
     base.into_iter().chain(frames).collect()
 }
 
@@ -183,8 +138,8 @@ fn elastic(spec: &Spec) -> Vec<Vec<Term>> {
 
 /// What full compliances have off their diagonals, of base and frames: pair by pair, and all three of a place at once.
 fn coupled(spec: &Spec) -> Vec<Vec<Term>> {
-    let of_place = |[spin, roll, _]: [Place; 3]| {
-        let pair = |place: Place, other| Term { place, basis: Basis::Coupled(other) };
+    let of_place = |[spin, roll, _]: [ErrorSite; 3]| {
+        let pair = |place: ErrorSite, other| Term { place, basis: Basis::Coupled(other) };
         let three = [pair(spin, Component::Roll), pair(spin, Component::Pitch), pair(roll, Component::Pitch)];
         three.map(|term| vec![term]).into_iter().chain([three.to_vec()])
     };
@@ -215,7 +170,7 @@ fn product(spec: &Spec) -> Vec<Vec<Term>> {
     let of_joint = |joint: usize| {
         let others = (0..count).filter(|other| *other != joint).flat_map(alone);
         let pairs = (0..count).flat_map(|one| (one + 1..count).flat_map(move |other| both(one, other)));
-        let place = Place::Joint(joint);
+        let place = ErrorSite::Joint(joint);
         let group = |bases: Vec<Basis>| bases.into_iter().map(|basis| Term { place, basis }).collect();
         others.chain(pairs).map(group).collect::<Vec<_>>()
     };

@@ -7,13 +7,13 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::doubt::doubt;
 use super::extended::extended;
 use super::magnitude::own_magnitudes;
-use super::readings::check_readings;
+use super::misread::check_interpretation;
+use super::plausibility::check_plausibility;
 use super::setup::Setup;
 use super::solve::{Settings, explained, solve};
-use super::terms::{Basis, Place, Term};
+use super::terms::{Basis, ErrorSite, Term};
 use crate::Notes;
 use crate::data::{Data, Map};
 
@@ -70,9 +70,9 @@ pub(super) fn choose(
     let own = own_magnitudes(spec);
     let interpreter = Interpreter::new(extended(spec, &carriers));
     let mut setup = Setup::new(&interpreter, map, data, own.len() + carriers.len())?;
-    check_readings(&setup, map, data)?;
+    check_interpretation(&setup, map, data)?;
     setup.come_near(data).map_err(|failure| explained(&failure, data))?;
-    doubt(&setup, map, data, notes).map_err(|failure| explained(&failure, data))?;
+    check_plausibility(&setup, map, data, notes).map_err(|failure| explained(&failure, data))?;
     let solved = solve(&setup, data, &own, &[], settings, notes)?;
 
     let fitted = solved.model.unknowns.len();
@@ -125,7 +125,7 @@ pub(super) fn choose(
 /// The unknown of a model that a constant term is, if it is one.
 fn unknown_error(term: Term) -> Option<Unknown> {
     match (term.place, term.basis) {
-        (Place::Frame(frame, component), Basis::One) => Some(Unknown::Error(frame, component)),
+        (ErrorSite::Frame(frame, component), Basis::One) => Some(Unknown::Error(frame, component)),
         _ => None,
     }
 }

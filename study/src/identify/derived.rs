@@ -7,8 +7,8 @@ use abbe::{Component, Manipulator, VariableKind};
 use abbe_spec::expr::Dimension;
 use abbe_spec::{Input, Spec};
 
-use super::candidates::Family;
-use super::terms::{Basis, Place, Term};
+use super::families::Family;
+use super::terms::{Basis, ErrorSite, Term};
 use crate::data::{Channel, Data, FromRows, Map, in_order};
 
 /// Such an input.
@@ -150,10 +150,10 @@ impl Derived {
         match self.kind {
             DerivedKind::FromRows(
                 FromRows::Approach(variable) | FromRows::GravityMoment { variable, .. },
-            ) => vec![group(Place::Joint(variable))],
+            ) => vec![group(ErrorSite::Joint(variable))],
             DerivedKind::Settling(_) | DerivedKind::Drift => {
                 let frames = 0..spec.frames.len();
-                let frames = frames.flat_map(|frame| Component::ALL.map(|c| Place::Frame(frame, c)));
+                let frames = frames.flat_map(|frame| Component::ALL.map(|c| ErrorSite::Frame(frame, c)));
                 frames.map(group).collect()
             }
         }

@@ -5,7 +5,7 @@ use abbe_spec::expr::{Dimension, Elementary, Expression, Function, Motion, Symbo
 use abbe_spec::{Axes, Cause, ChainNumber, Compliance, Deviation, Effect, Factor, Load, Point, Source, Spec};
 
 use super::magnitude::own_magnitudes;
-use super::terms::{Angle, Basis, Place, Term, Wave};
+use super::terms::{Angle, Basis, ErrorSite, Term, Wave};
 
 /// The spec with its own sources whose magnitude is to be found once more, of magnitude 1, and then all terms as repeatable
 /// sources of magnitude 1, behind its own.
@@ -65,28 +65,28 @@ impl Term {
             _ => Cause::Errors(vec![(component, error(Dimension::LENGTH))]),
         };
         match self.place {
-            Place::Joint(joint) => {
+            ErrorSite::Joint(joint) => {
                 let dimension = match spec.variables[joint].kind {
                     VariableKind::Revolute => Dimension::NONE,
                     VariableKind::Prismatic => Dimension::LENGTH,
                 };
                 deviation(ChainNumber::Joint(joint), dimension);
             }
-            Place::Parameter(parameter) => {
+            ErrorSite::Parameter(parameter) => {
                 deviation(ChainNumber::Parameter(parameter), spec.parameters[parameter].dimension);
             }
-            Place::DenavitHartenberg(frame, number) => {
+            ErrorSite::DenavitHartenberg(frame, number) => {
                 let dimension = match number.motion().0 {
                     Motion::Rotation => Dimension::NONE,
                     Motion::Translation => Dimension::LENGTH,
                 };
                 deviation(ChainNumber::DenavitHartenberg { frame, number }, dimension);
             }
-            Place::Frame(frame, component) => {
+            ErrorSite::Frame(frame, component) => {
                 effects.push(Effect { frame, at: Vec::new(), cause: cause(component), span: 0..0 });
             }
             // E_0 A_1 = A_1 (A_1⁻¹ E_0 A_1): an error of the first frame, located at F_0.
-            Place::Base(component) => {
+            ErrorSite::Base(component) => {
                 let at = spec.frames.first().map_or(Vec::new(), |first| inverse(&first.factors));
                 effects.push(Effect { frame: 0, at, cause: cause(component), span: 0..0 });
             }
@@ -184,7 +184,7 @@ mod tests {
     use abbe_interpreter::Interpreter;
     use abbe_spec::Spec;
 
-    use super::super::terms::{Basis, Place, Term};
+    use super::super::terms::{Basis, ErrorSite, Term};
     use super::extended;
 
     /// 1 kg, 300 mm from the axis, and a microradian per N mm.
@@ -192,7 +192,7 @@ mod tests {
     fn the_default_load_hangs_at_the_tool_point() {
         let text = "[manipulator]\nname = \"arm\"\nlength = \"mm\"\n[[frame]]\nname = \"arm\"\nvariable = { name = \"q1\", kind = \"revolute\" }\ntransform = \"Rz(q1)\"\n[tool]\ntransform = \"Tx(300)\"\n";
         let spec = Spec::parse("arm.toml", text).unwrap();
-        let term = Term { place: Place::Frame(0, Component::Spin), basis: Basis::Moment };
+        let term = Term { place: ErrorSite::Frame(0, Component::Spin), basis: Basis::Moment };
         let robot = Interpreter::new(extended(&spec, &[term]));
         let mut errors = [[0.0; 6]];
         robot.generalized_errors(&[0.7], &[], &[], &mut errors).unwrap();

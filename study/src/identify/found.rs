@@ -5,11 +5,11 @@ use abbe::identify::{Configurations, Unknown};
 use abbe_spec::expr::Symbol;
 use abbe_spec::{Fitted, Spec};
 
+use super::as_joint_errors::AsJointErrors;
 use super::derived::Derived;
-use super::meaning::InNumbers;
 use super::placed::Placed;
 use super::solve::Solved;
-use super::terms::{Basis, Place, Term};
+use super::terms::{Basis, ErrorSite, Term};
 use crate::data::Data;
 use crate::number::digits;
 
@@ -76,12 +76,12 @@ pub struct FoundMagnitude {
 }
 
 impl FoundModel {
-    /// In numbers of the chain as far as `in_numbers` has them; `left` is the root mean square position error of the rows that were
+    /// In numbers of the chain as far as `joint_errors` has them; `left` is the root mean square position error of the rows that were
     /// used, and of rows left out in turn.
     pub(super) fn new(
         spec: &Spec,
         solved: &Solved,
-        in_numbers: Option<&InNumbers>,
+        joint_errors: Option<&AsJointErrors>,
         data: &Data,
         pose: bool,
         left: [f64; 2],
@@ -90,7 +90,7 @@ impl FoundModel {
         let deviations = fit.standard_deviations();
         let kept = &fit.identifiable.kept;
         let as_found = |(place, k): (usize, &usize)| (place, fit.x[*k], deviations[*k].unwrap_or_default());
-        let values: Vec<(usize, f64, f64)> = in_numbers
+        let values: Vec<(usize, f64, f64)> = joint_errors
             .map_or_else(|| kept.iter().enumerate().map(as_found).collect(), |one| one.others.clone());
         let placed = Placed::new(model, fit, pose);
         let mut found = Self { placed, frames: vec![Vec::new(); spec.frames.len()], ..Self::default() };
@@ -115,15 +115,15 @@ impl FoundModel {
                 _ => {}
             }
         }
-        for one in in_numbers.iter().flat_map(|one| &one.numbers) {
-            let term = Term { place: Place::of_number(one.number), basis: Basis::One };
+        for one in joint_errors.iter().flat_map(|one| &one.numbers) {
+            let term = Term { place: ErrorSite::of_number(one.number), basis: Basis::One };
             let (magnitude, standard_deviation) = (one.value, one.standard_deviation);
             found.numbers.push(FoundTerm { place: one.place, term, magnitude, standard_deviation });
         }
         found.fitted = fitted(spec, data);
         let count = kept.len();
         let of_fit = || (0..count).map(|i| (0..count).map(|j| fit.covariance[(i, j)]).collect()).collect();
-        found.covariance = in_numbers.map_or_else(of_fit, |one| one.covariance.clone());
+        found.covariance = joint_errors.map_or_else(of_fit, |one| one.covariance.clone());
         let unit = spec.length.symbol();
         found.reference = format!(
             "Identified from {} rows{} of {} by abbe {}: rms {} {unit} left, {} {unit} on rows left out in turn",

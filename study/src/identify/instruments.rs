@@ -1,4 +1,4 @@
-//! How good every instrument is: as stated, or as the data tell.
+//! The uncertainty of every instrument: as stated, or estimated from the data.
 
 use abbe::identify::{Failure, Fit, Model, Options, VarianceComponent, fit, variance_components};
 use serde::Serialize;
@@ -10,9 +10,9 @@ use crate::data::{Data, Map};
 /// How often uncertainties are estimated anew, at most.
 const ROUNDS: usize = 25;
 
-/// An instrument, and what is left of its numbers.
+/// An instrument and its residuals.
 #[derive(Clone, Debug, Serialize)]
-pub struct Told {
+pub struct InstrumentFit {
     /// What the map calls it.
     pub name: String,
     /// How many numbers it told.
@@ -63,14 +63,19 @@ pub(super) fn estimate(setup: &mut Setup, map: &Map, data: &Data, prior: Prior) 
 }
 
 /// What is left of the numbers of every instrument.
-pub(super) fn told(model: &Model, map: &Map, data: &Data, found: &Fit) -> Result<Vec<Told>, Failure> {
+pub(super) fn instrument_fits(
+    model: &Model,
+    map: &Map,
+    data: &Data,
+    found: &Fit,
+) -> Result<Vec<InstrumentFit>, Failure> {
     let Some(all) = map.instruments() else { return Ok(Vec::new()) };
     let components = variance_components(model, &data.observations, found)?;
     let length = model.manipulator.description().length.symbol();
     let told = all.list.iter().zip(components).map(|(instrument, component)| {
         let VarianceComponent { numbers, freedom, factor } = component;
         let reading = &model.readings[instrument.readings.start];
-        Told {
+        InstrumentFit {
             name: instrument.name.clone(),
             numbers,
             freedom,

@@ -12,23 +12,22 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::alike::alikes;
-use super::candidates::{Family, Harmonics, candidates};
+use super::as_joint_errors::{AsJointErrors, number_terms};
+use super::candidates::candidates;
 use super::choose::{Chosen, choose};
 use super::counts::Counts;
 use super::derived::{Derived, derived, with_columns, with_inputs};
-use super::doubt::doubt;
+use super::drift::ResidualDrift;
 use super::extended::extended;
+use super::extrapolation::Extrapolation;
+use super::families::{Family, Harmonics};
 use super::found::FoundModel;
-use super::instruments::{estimate, told};
-use super::known_rows::{known_rows, sentence};
+use super::indistinguishable::indistinguishable;
+use super::instruments::{estimate, instrument_fits};
 use super::magnitude::{OwnMagnitude, own_magnitudes};
-use super::meaning::{InNumbers, number_terms};
-use super::not_known::NotKnown;
-use super::order::Order;
-use super::outside::Outside;
+use super::misread::check_interpretation;
+use super::plausibility::check_plausibility;
 use super::point_residuals::{PointResidual, Valued};
-use super::readings::check_readings;
 use super::report::{
     Certainty, Compared, CrossValidation, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter, Report,
     TermGain,
@@ -37,6 +36,8 @@ use super::scale::scale_note;
 use super::setup::Setup;
 use super::solve::{Settings, Solved, solve};
 use super::terms::Term;
+use super::train_test_overlap::{sentence, train_test_overlap};
+use super::weakly_determined::WeaklyDetermined;
 use crate::data::{Data, Map, Summary};
 use crate::number::digits;
 use crate::{Acceptance, Machine, Notes, finite, mistake, number};
@@ -80,7 +81,7 @@ impl Identify {
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
         let Self { machine, map, settings, .. } = self;
-        let known = test.as_deref().map_or(0, |test| known_rows(&data, test));
+        let known = test.as_deref().map_or(0, |test| train_test_overlap(&data, test));
         if let Some(said) = test.as_deref().and_then(|test| sentence(known, test.observations.len())) {
             notes.warn(&format!(
                 "{said}; measure others, or give no test: rows of the fit are left out in turn"
@@ -103,11 +104,12 @@ impl Identify {
         let interpreter = Interpreter::new(extended(&spec, &[&terms[..], &numbers].concat()));
         let mut setup = Setup::new(&interpreter, map, &data, own.len() + terms.len() + numbers.len())?;
         if stages.is_empty() {
-            check_readings(&setup, map, &data)?;
+            check_interpretation(&setup, map, &data)?;
         }
         setup.come_near(&data).map_err(|failure| mistake::whole(&data.file, &failure))?;
         if stages.is_empty() {
-            doubt(&setup, map, &data, notes).map_err(|failure| mistake::whole(&data.file, &failure))?;
+            check_plausibility(&setup, map, &data, notes)
+                .map_err(|failure| mistake::whole(&data.file, &failure))?;
         }
         estimate(&mut setup, map, &data, settings.prior)
             .map_err(|failure| mistake::whole(&data.file, &failure))?;
@@ -174,7 +176,7 @@ fn report(
     let rows = &data.observations;
     let fail = |failure: Failure| mistake::whole(&data.file, &failure);
     let scale = scale_note(&setup.ideal, rows, &setup.moved(rows)).map_err(fail)?;
-    let alike = alikes(model, &rows[0].q, &setup.moved(rows), setup.pose)
+    let alike = indistinguishable(model, &rows[0].q, &setup.moved(rows), setup.pose)
         .map_err(|error| mistake::whole(&data.file, &error))?;
     let compared_fit = compared(solved, &setup.delivered, data, |i| fit.is_kept(i))?;
     refuse_worse(&compared_fit, data, setup, map)?;
@@ -191,11 +193,11 @@ fn report(
     };
     let files: Vec<Summary> = std::iter::once(data).chain(test).map(Data::summary).collect();
     let parameters = parameters(setup, solved, spec.length);
-    let in_numbers = InNumbers::new(spec, model, fit);
+    let joint_errors = AsJointErrors::new(spec, model, fit);
     let left = compared_fit.after.rms;
-    let apart = in_numbers.difference(spec, setup, solved, rows);
+    let apart = joint_errors.difference(spec, setup, solved, rows);
     let apart = apart.map_err(|failure| mistake::whole(&data.file, &failure))?;
-    let same = Some(&in_numbers).filter(|_| apart <= SAME * left);
+    let same = Some(&joint_errors).filter(|_| apart <= SAME * left);
     let found = FoundModel {
         derived: derived.to_vec(),
         ..FoundModel::new(spec, solved, same, data, setup.pose, [left, crossed.rms])
@@ -203,7 +205,7 @@ fn report(
     let order = drift(model, &fit.kept(rows).collect::<Vec<_>>(), &fit.x);
     let order = order.map_err(|failure| mistake::whole(&data.file, &failure))?;
     let outside = |test: &Data| {
-        let outside = Outside::new(solved, &found.fitted, rows, &test.observations);
+        let outside = Extrapolation::new(solved, &found.fitted, rows, &test.observations);
         outside.map_err(|failure| mistake::whole(&test.file, &failure))
     };
     let rejected: Vec<u64> = fit.rejected(rows).map(|row| row.line).collect();
@@ -221,9 +223,9 @@ fn report(
         observability: Indices { o1: o.o1, o2: o.o2, o3: o.o3, o4: o.o4, o5: o.o5 },
         unexplained: (model.unknowns.len() - identifiable.rank)
             .saturating_sub(alike.len() + identifiable.weak.len()),
-        not_known: NotKnown::all(model, identifiable, spec.length),
+        not_known: WeaklyDetermined::all(model, identifiable, spec.length),
         groups: alike,
-        meanings: in_numbers.meanings(spec, model, fit),
+        meanings: joint_errors.joint_errors(spec, model, fit),
         magnitudes: magnitudes(spec, solved),
         parameters,
         held: identifiable
@@ -241,7 +243,7 @@ fn report(
             .collect(),
         uncertainty_factor: fit.sigma,
         certainty: Certainty::new(fit),
-        instruments: told(model, map, data, fit).map_err(fail)?,
+        instruments: instrument_fits(model, map, data, fit).map_err(fail)?,
         base: setup.ideal.stations[0].pose.rows().map(|row| row.map(|entry| entry + 0.0)),
         fit: compared_fit,
         test: test_sizes,
@@ -261,7 +263,7 @@ fn report(
             .map(|(terms, selection)| gain(spec, &found, terms, selection, length))
             .collect(),
         tried: chosen.tried,
-        order: order.map(|drift| Order::new(drift, setup.description.length)),
+        order: order.map(|drift| ResidualDrift::new(drift, setup.description.length)),
         unusable: files.iter().flat_map(LeftOut::of_file).collect(),
         rejected,
         notes: solved.notes.iter().chain(&chosen.notes[..]).cloned().chain(scale).collect(),

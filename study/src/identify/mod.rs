@@ -1,74 +1,84 @@
 //! The generalized errors of a real machine, from measurements.
 //!
-//! `setup` places the machine before the instrument, `instruments` says how good every one of several is, `aim` where they can
-//! be read; `readings` asks whether the data are read as they were meant, `reading`
-//! has other ways to read them, `doubt` says what no machine has, `known_rows` which test rows are none. `solve`
-//! fits and judges on the data alone, `gross` looks for gross errors; `magnitude` are sources of the spec that are fitted with
-//! the constants. `terms` are errors that richer models have, `candidates` those that are tried, `derived` the inputs that
-//! follow from the order of the rows; `choose` takes in what earns its place, `extended` is the spec that has it. `found` is the
-//! identified machine, `placed` where it stands and what is mounted on its tool, `written` its spec (`written_compliance` full compliances, `written_covariance` how well it is known) and `written_map` its map; `report` is what comes out,
-//! with `point_residuals` for pictures, `alike`, `counts` and `meaning` (the findings in the words of the spec), `job` the way from one to the other.
+//! `setup` places the machine before the instrument, `line_of_sight` moves it to where instruments can be read, `instruments` fits
+//! their uncertainties. `misread` tests whether the data are read as they are meant, against what the map has `stated`;
+//! `plausibility` finds errors that no machine has, `train_test_overlap` test rows that were fitted.
+//!
+//! `solve` fits and judges on the data alone, with `priors`; `outliers` looks for gross errors; `magnitude` are sources of the spec that
+//! are fitted with the constants. `terms` are errors that richer models have, `families` and `candidates` those that are tried,
+//! `derived` the inputs that follow from the order of the rows; `choose` takes in those that help, `extended` is the spec that has
+//! them.
+//!
+//! `found` is the identified machine, `placed` where it stands and what is mounted on its tool. `spec_writer` writes its spec,
+//! `compliance_writer` full compliances, `covariance_writer` the covariance, `map_writer` the map. The `report` has `counts`,
+//! `as_joint_errors` (the errors as zeros and lengths of the chain), what is `indistinguishable` or `weakly_determined`, `drift`,
+//! `extrapolation`, the `scale`, and `point_residuals` for pictures. `job` is the way from one to the other.
 
-mod aim;
-mod alike;
+mod as_joint_errors;
 mod candidates;
 mod choose;
+mod compliance_writer;
 mod counts;
+mod covariance_writer;
 mod derived;
-mod doubt;
+mod drift;
 mod extended;
+mod extrapolation;
+mod families;
 mod found;
-mod gross;
+mod indistinguishable;
 mod instruments;
 mod job;
-mod known_rows;
+mod line_of_sight;
 mod magnitude;
-mod meaning;
-mod not_known;
-mod order;
-mod outside;
+mod map_writer;
+mod misread;
+mod outliers;
 mod placed;
+mod plausibility;
 mod point_residuals;
 mod priors;
-mod reading;
-mod readings;
 mod report;
 mod scale;
 mod setup;
 mod solve;
+mod spec_writer;
+mod stated;
 mod terms;
-mod written;
-mod written_compliance;
-mod written_covariance;
-mod written_map;
+mod train_test_overlap;
+mod weakly_determined;
 
-pub use alike::Alike;
-pub(crate) use alike::alikes;
-pub use candidates::{Family, Harmonics, candidates};
+pub use as_joint_errors::JointError;
+pub use candidates::candidates;
 pub use counts::Counts;
 pub use derived::{Derived, DerivedKind};
+pub use drift::ResidualDrift;
 pub use extended::extended;
+pub use extrapolation::Extrapolation;
+pub use families::{Family, Harmonics};
 pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
-pub use gross::shown_lines;
-pub use instruments::Told;
+pub use indistinguishable::Indistinguishable;
+pub use instruments::InstrumentFit;
 pub use job::Identify;
-pub use not_known::NotKnown;
-pub use order::Order;
-pub use outside::Outside;
+pub use outliers::shown_lines;
 pub use placed::{Placed, PlacedInstrument, PlacedStation};
 pub use point_residuals::PointResidual;
 pub use priors::Prior;
 pub use report::{
-    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Meaning, Pair,
-    Parameter, Report, Sizes, TermGain,
+    Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter,
+    Report, TermGain,
 };
 pub use solve::Settings;
-pub use terms::{Angle, Basis, Place, Term, Wave};
-pub use written::WrittenSpec;
+pub use spec_writer::IdentifiedSpec;
+pub use terms::{Angle, Basis, ErrorSite, Term, Wave};
+pub use weakly_determined::WeaklyDetermined;
 
-pub(crate) use aim::{aimed, unaimed};
-pub(crate) use doubt::{doubt, too_large};
-pub(crate) use meaning::chain_errors;
-pub(crate) use readings::check_readings;
+pub use crate::sizes::Sizes;
+
+pub(crate) use as_joint_errors::chain_errors;
+pub(crate) use indistinguishable::indistinguishable;
+pub(crate) use line_of_sight::{nothing_readable, readable_configurations};
+pub(crate) use misread::check_interpretation;
+pub(crate) use plausibility::{check_plausibility, too_large};
 pub(crate) use scale::scale_note;
 pub(crate) use setup::Setup;

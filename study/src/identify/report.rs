@@ -1,19 +1,21 @@
 //! What comes out of an identification.
 
-use abbe::identify::{Comparison, Figures};
+use abbe::identify::Comparison;
 use serde::Serialize;
 
-use super::alike::Alike;
+use super::as_joint_errors::JointError;
 use super::counts::Counts;
+use super::drift::ResidualDrift;
+use super::extrapolation::Extrapolation;
 use super::found::FoundModel;
-use super::instruments::Told;
-use super::not_known::NotKnown;
-use super::order::Order;
-use super::outside::Outside;
+use super::indistinguishable::Indistinguishable;
+use super::instruments::InstrumentFit;
 use super::placed::Placed;
 use super::point_residuals::PointResidual;
+use super::weakly_determined::WeaklyDetermined;
 use crate::Accepted;
 use crate::data::{Summary, Unusable};
+use crate::sizes::Sizes;
 
 /// What is found, how well it is known, and how good it is.
 #[derive(Clone, Debug, Serialize)]
@@ -37,15 +39,15 @@ pub struct Report {
     /// Indices of observability.
     pub observability: Indices,
     /// What cannot be told apart, and why.
-    pub groups: Vec<Alike>,
+    pub groups: Vec<Indistinguishable>,
     /// What stays unknown for other reasons than the groups say: 0 if they explain it all.
     pub unexplained: usize,
     /// The unknowns that stand for the combinations that are known.
     pub parameters: Vec<Parameter>,
     /// Joints' zeros, parameters and Denavit-Hartenberg numbers that can stand in the place of some of these.
-    pub meanings: Vec<Meaning>,
+    pub meanings: Vec<JointError>,
     /// Errors of which these data tell too little beside what is known before; they are held at zero.
-    pub not_known: Vec<NotKnown>,
+    pub not_known: Vec<WeaklyDetermined>,
     /// The magnitudes of sources of the spec that are to be found.
     pub magnitudes: Vec<Magnitude>,
     /// The others.
@@ -57,7 +59,7 @@ pub struct Report {
     /// How sure all standard deviations are.
     pub certainty: Certainty,
     /// Instruments that are read one by one, each with what is left of its own numbers.
-    pub instruments: Vec<Told>,
+    pub instruments: Vec<InstrumentFit>,
     /// Where `F_0` stands as the instrument sees it, errors of the base aside: rows of a homogeneous matrix.
     pub base: [[f64; 4]; 4],
     /// Where the machine stands and what is mounted on its tool, as found.
@@ -69,7 +71,7 @@ pub struct Report {
     /// How many of the test rows are rows of the fit, digit by digit: by them nothing is judged.
     pub test_rows_of_the_fit: usize,
     /// Test rows outside the ranges of joints and inputs that were fitted; none if there are no such rows.
-    pub outside: Option<Outside>,
+    pub outside: Option<Extrapolation>,
     /// How good it is on rows left out in turn.
     pub cross_validation: CrossValidation,
     /// Whether it is within the limits that were declared, if any were.
@@ -79,7 +81,7 @@ pub struct Report {
     /// How many groups of terms were tried.
     pub tried: usize,
     /// Whether what is left follows the order of the rows; none for too few rows to tell.
-    pub order: Option<Order>,
+    pub order: Option<ResidualDrift>,
     /// Rows that cannot be used.
     pub unusable: Vec<LeftOut>,
     /// Lines that a robust loss left out.
@@ -156,21 +158,6 @@ pub struct Parameter {
     pub hardly_known: bool,
 }
 
-/// What was found, said of a number of the chain.
-#[derive(Clone, Debug, Serialize)]
-pub struct Meaning {
-    /// The error of a frame that it takes the place of, such as `e_r1`.
-    pub in_place_of: String,
-    /// The number: `zero of q2`, `reach`, `a of shoulder`.
-    pub number: String,
-    /// By how much it is off: the length unit, or rad.
-    pub value: f64,
-    /// How well that is known.
-    pub standard_deviation: f64,
-    /// All this as a sentence.
-    pub sentence: String,
-}
-
 /// The magnitude of a source of the spec.
 #[derive(Clone, Debug, Serialize)]
 pub struct Magnitude {
@@ -204,21 +191,6 @@ pub struct Pair {
     pub of: [String; 2],
     /// Their correlation.
     pub correlation: f64,
-}
-
-/// Position errors.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Sizes {
-    /// The mean of their norms.
-    pub mean: f64,
-    /// The standard error of that, configurations counted; none if there is only one.
-    pub standard_error: Option<f64>,
-    /// The root mean square.
-    pub rms: f64,
-    /// The largest.
-    pub max: f64,
-    /// What 95 % of them do not exceed.
-    pub p95: f64,
 }
 
 /// Position errors of some rows.
@@ -292,13 +264,6 @@ pub struct LeftOut {
     pub line: u64,
     /// Why not.
     pub reason: String,
-}
-
-impl From<Figures> for Sizes {
-    fn from(Figures { mean, standard_error, rms, max, p95, .. }: Figures) -> Self {
-        let standard_error = Some(standard_error).filter(|error| error.is_finite());
-        Self { mean, standard_error, rms, max, p95 }
-    }
 }
 
 impl From<Comparison> for Gain {

@@ -7,11 +7,11 @@ use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cro
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
 
-use super::gross;
 use super::magnitude::OwnMagnitude;
+use super::outliers;
 use super::priors::Prior;
 use super::setup::Setup;
-use super::terms::{Basis, Place, Term};
+use super::terms::{Basis, ErrorSite, Term};
 use crate::data::Data;
 use crate::number::digits;
 use crate::{Notes, mistake};
@@ -91,7 +91,7 @@ pub(super) fn solve<'a>(
     let prior = settings.prior.chosen(&model, rows, settings.folds, fitted).map_err(explained)?;
     let found = fitted(&model, prior);
     let warning = match settings.loss {
-        Loss::Squares => gross::warning(&model, data, found.as_ref().ok()),
+        Loss::Squares => outliers::warning(&model, data, found.as_ref().ok()),
         _ => None,
     };
     if let (Err(_), Some(warning)) = (&found, &warning) {
@@ -130,10 +130,10 @@ impl Term {
     /// of the arm.
     fn scale(self, setup: &Setup) -> f64 {
         let is_angle = match self.place {
-            Place::Joint(joint) => setup.description.variables[joint].kind == VariableKind::Revolute,
-            Place::Frame(_, component) | Place::Base(component) => component.is_rotation(),
-            Place::DenavitHartenberg(_, number) => number.motion().0 == Motion::Rotation,
-            Place::Parameter(_) => false,
+            ErrorSite::Joint(joint) => setup.description.variables[joint].kind == VariableKind::Revolute,
+            ErrorSite::Frame(_, component) | ErrorSite::Base(component) => component.is_rotation(),
+            ErrorSite::DenavitHartenberg(_, number) => number.motion().0 == Motion::Rotation,
+            ErrorSite::Parameter(_) => false,
         };
         match self.basis {
             Basis::Moment | Basis::Coupled(_) => 1e6 / (9.80665 * setup.arm),

@@ -7,14 +7,14 @@ use abbe_spec::{ChainNumber, DhNumber, Spec};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
     /// What it is an error of.
-    pub place: Place,
+    pub place: ErrorSite,
     /// What it is in proportion to.
     pub basis: Basis,
 }
 
 /// What a term is an error of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum ErrorSite {
     /// A joint, wherever transforms depend on it.
     Joint(usize),
     /// A structural parameter, likewise.
@@ -191,8 +191,8 @@ impl Term {
         let (owner, error) = self.place.names(spec);
         match self.basis {
             Basis::One => match self.place {
-                Place::Joint(_) => format!("zero of {owner}"),
-                Place::Parameter(_) => owner.to_owned(),
+                ErrorSite::Joint(_) => format!("zero of {owner}"),
+                ErrorSite::Parameter(_) => owner.to_owned(),
                 _ => format!("{error} of {owner}"),
             },
             Basis::Moment => format!("{owner}: gives way under weight, {error}"),
@@ -220,7 +220,7 @@ impl Term {
     }
 }
 
-impl Place {
+impl ErrorSite {
     /// A number of the chain.
     pub(super) fn of_number(number: ChainNumber) -> Self {
         match number {

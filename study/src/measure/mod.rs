@@ -19,7 +19,7 @@ use serde::Serialize;
 
 use crate::data::{Data, Instruments, Map, Summary, Table};
 use crate::extrapolated::{Extrapolated, extrapolated};
-use crate::identify::{Order, Setup, Sizes, check_readings, too_large};
+use crate::identify::{ResidualDrift, Setup, Sizes, check_interpretation, too_large};
 use crate::{Acceptance, Accepted, Machine, Notes, finite, mistake};
 
 pub use errors::RowError;
@@ -70,7 +70,7 @@ pub struct Report {
     /// The standard error of the mean norm of ΔX, configurations counted; none if there is only one.
     pub standard_error: Option<f64>,
     /// Whether what the sources do not explain follows the order of the rows; none for too few rows to tell.
-    pub order: Option<Order>,
+    pub order: Option<ResidualDrift>,
     /// How many rows could not be used.
     pub unusable: usize,
     /// The length unit as such.
@@ -180,7 +180,7 @@ impl Measure {
             Cow::Borrowed(_) => data,
         };
         let mut setup = Setup::new(&interpreter, map, &data, 0)?;
-        let fitted = check_readings(&setup, map, &data)?;
+        let fitted = check_interpretation(&setup, map, &data)?;
         let base_fitted = setup.find_places(map, &data)?;
         let mut seen = match map.instruments() {
             Some(all) => Seen::of_readings(&setup, all, data)?,
@@ -213,7 +213,7 @@ impl Measure {
             repeated: iso9283::repeated(&seen.visits, setup.pose || setup.ideal.targets.len() > 1),
             configurations,
             standard_error: Some(standard_error).filter(|error| error.is_finite()),
-            order: order.map(|drift| Order::new(drift, setup.description.length)),
+            order: order.map(|drift| ResidualDrift::new(drift, setup.description.length)),
             unusable: seen.data.unusable.len(),
             file: seen.data.summary(),
             base_fitted,

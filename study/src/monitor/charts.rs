@@ -3,9 +3,10 @@
 use abbe::control::{SelfStarting, ewma_limit};
 use serde::Serialize;
 
-use super::Settings;
 use super::numbers::Numbers;
-use super::single_errors::{SingleErrors, norm, product};
+use super::settings::Settings;
+use super::single_errors::SingleErrors;
+use super::vectors::{norm, product};
 
 /// The chart of one error, or of what is left.
 #[derive(Clone, Debug, Serialize)]

@@ -6,9 +6,9 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::checks::{Check, Checks};
 use super::places::{MOST, Places, TooMany};
-use super::single_errors::product;
+use super::vectors::product;
 use crate::data::{Base, Map};
-use crate::identify::{Setup, check_readings, doubt};
+use crate::identify::{Setup, check_interpretation, check_plausibility};
 use crate::{Notes, mistake};
 
 /// Measured minus model at every check, and how the model moves.
@@ -50,11 +50,11 @@ impl Numbers {
         for (i, check) in checks.list.iter().enumerate() {
             let setup = Setup::new(manipulator, map, &check.data, 0)?;
             if i == 0 {
-                check_readings(&setup, map, &check.data)?;
+                check_interpretation(&setup, map, &check.data)?;
                 let mut near = Setup::new(manipulator, map, &check.data, 0)?;
                 let fail = |failure| mistake::whole(&check.data.file, &failure);
                 near.come_near(&check.data).map_err(fail)?;
-                doubt(&near, map, &check.data, notes).map_err(fail)?;
+                check_plausibility(&near, map, &check.data, notes).map_err(fail)?;
             }
             one_station(check, map)?;
             let places = places.get_or_insert_with(|| Places::new(&setup));

@@ -1,6 +1,7 @@
 //! What the checks say in words.
 
-use super::{Finding, Report};
+use super::finding::Finding;
+use super::report::Report;
 use crate::number::{digits, fixed, trimmed};
 
 impl Report {

@@ -5,6 +5,7 @@ use abbe::{Component, Description};
 use abbe_spec::Spec;
 
 use super::numbers::Numbers;
+use super::vectors::{cosine, norm};
 use crate::identify::chain_errors;
 
 /// Beyond this cosine two errors count as one: what they do differs by less than a fifth of itself.
@@ -118,16 +119,4 @@ fn name(model: &Model, unknown: Unknown, description: &Description) -> String {
         }
         _ => short,
     }
-}
-
-pub(super) fn norm(v: &[f64]) -> f64 {
-    product(v, v).sqrt()
-}
-
-pub(super) fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn cosine(a: &[f64], b: &[f64]) -> f64 {
-    product(a, b) / (norm(a) * norm(b)).max(1e-300)
 }

@@ -14,7 +14,9 @@ use abbe_interpreter::Interpreter;
 use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::{Instruments, Map};
-use crate::identify::{Counts, NotKnown, Setup, aimed, alikes, scale_note, unaimed};
+use crate::identify::{
+    Counts, Setup, WeaklyDetermined, indistinguishable, nothing_readable, readable_configurations, scale_note,
+};
 use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, finite, mistake};
 
@@ -120,7 +122,8 @@ impl Plan {
         if let Some(note) = scale_note(&setup.ideal, &rows, &moved).map_err(fail)? {
             notes.note(&note);
         }
-        let alike = rows.first().map_or(Ok(Vec::new()), |row| alikes(&model, &row.q, &moved, setup.pose));
+        let alike =
+            rows.first().map_or(Ok(Vec::new()), |row| indistinguishable(&model, &row.q, &moved, setup.pose));
         let alike = alike.map_err(|error| mistake::whole(&machine.origin, &error))?;
         let report = Report {
             name: machine.spec.name.clone(),
@@ -132,7 +135,7 @@ impl Plan {
             rank: observed.rank,
             unknowns: model.unknowns.len(),
             machine: Counts::new(&model, &observed),
-            not_known: NotKnown::all(&model, &observed, machine.spec.length),
+            not_known: WeaklyDetermined::all(&model, &observed, machine.spec.length),
             condition: observed.observability.condition,
             log_det: design.log_det,
             exchanges: design.exchanges,
@@ -148,9 +151,9 @@ impl Plan {
 
     fn aimed(&self, setup: &Setup, list: Vec<Observation>) -> Result<Vec<Observation>, Diagnostics> {
         let most = list.len();
-        let aimed = aimed(setup, &self.map, list, most);
+        let aimed = readable_configurations(setup, &self.map, list, most);
         let aimed = aimed.map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
-        if aimed.is_empty() { Err(unaimed(self.map.path())) } else { Ok(aimed) }
+        if aimed.is_empty() { Err(nothing_readable(self.map.path())) } else { Ok(aimed) }
     }
 
     fn choose(

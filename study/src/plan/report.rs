@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::sets::Counted;
 use crate::data::{Map, Table};
-use crate::identify::{Alike, Counts, NotKnown};
+use crate::identify::{Counts, Indistinguishable, WeaklyDetermined};
 use crate::number;
 
 /// What is to be measured, and what it will tell.
@@ -30,7 +30,7 @@ pub struct Report {
     /// Of base and frames alone, without the targets on the tool.
     pub machine: Counts,
     /// Errors of which these rows will tell too little beside what is known before.
-    pub not_known: Vec<NotKnown>,
+    pub not_known: Vec<WeaklyDetermined>,
     /// The condition number.
     pub condition: f64,
     /// `ln det` of the information of columns of unit length.
@@ -47,7 +47,7 @@ pub struct Report {
     pub unseen: Vec<Unseen>,
     /// What cannot be told apart, and why.
     #[serde(skip)]
-    pub groups: Vec<Alike>,
+    pub groups: Vec<Indistinguishable>,
     /// What is to be measured.
     #[serde(skip)]
     pub observations: Vec<Observation>,

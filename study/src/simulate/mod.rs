@@ -11,7 +11,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use serde::Serialize;
 
 use crate::data::{Channel, Data, Heading, Instruments, Map, Table};
-use crate::identify::{Setup, aimed, unaimed};
+use crate::identify::{Setup, nothing_readable, readable_configurations};
 use crate::number::quantity;
 use crate::workspace::has_range;
 use crate::{Machine, Notes, finite, mistake};
@@ -240,10 +240,10 @@ impl Simulate {
         let stations = self.map.station_names();
         let tried = Asked::Sampled { samples: self.samples(manipulator, tries)?, stations: stations.len() };
         let rows = (0..tried.len()).map(|i| tried.row(i, &self.map).into_owned());
-        let observations = aimed(setup, &self.map, rows.collect(), count)
+        let observations = readable_configurations(setup, &self.map, rows.collect(), count)
             .map_err(|failure| mistake::whole(&self.machine.origin, &failure))?;
         if observations.is_empty() {
-            return Err(unaimed(self.map.path()));
+            return Err(nothing_readable(self.map.path()));
         }
         let file = "--samples".to_owned();
         Ok(Data { file, observations, stations: stations.clone(), ..Data::default() })

@@ -8,7 +8,7 @@ use abbe::{Manipulator, VariableKind};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
 use abbe_study::Machine;
-use abbe_study::doctor::{Change, Layout, Reading};
+use abbe_study::doctor::{Change, Interpretation, PoseFormat};
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 const ROWS: usize = 10;
@@ -107,7 +107,7 @@ pub(crate) fn is_layout(mistake: Mistake) -> bool {
 pub(crate) struct Case {
     pub(crate) spec: String,
     pub(crate) data: String,
-    pub(crate) right: Reading,
+    pub(crate) right: Interpretation,
 }
 
 /// Rows of a robot, with mistakes. The right reading undoes them.
@@ -124,7 +124,7 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
     let kinds: Vec<VariableKind> = variables.iter().map(|variable| variable.kind).collect();
 
     let layout = if has(Quaternion) {
-        Layout::Quaternion { scalar_first: random.below(2) == 0 }
+        PoseFormat::Quaternion { scalar_first: random.below(2) == 0 }
     } else if has(Euler) {
         let axes = loop {
             let axes = [random.below(3), random.below(3), random.below(3)];
@@ -132,15 +132,15 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
                 break axes;
             }
         };
-        Layout::Euler { axes, fixed: random.below(2) == 0, degrees: random.below(2) == 0 }
+        PoseFormat::Euler { axes, fixed: random.below(2) == 0, degrees: random.below(2) == 0 }
     } else if has(Position) {
-        Layout::Position
+        PoseFormat::Position
     } else if has(RotationVector) {
-        Layout::RotationVector { degrees: random.below(2) == 0 }
+        PoseFormat::RotationVector { degrees: random.below(2) == 0 }
     } else if has(Difference) {
-        Layout::Difference { target_minus_actual: random.below(2) == 0 }
+        PoseFormat::Difference { target_minus_actual: random.below(2) == 0 }
     } else {
-        Layout::Matrix { by_rows: !has(Matrix) }
+        PoseFormat::Matrix { by_rows: !has(Matrix) }
     };
     let mut changes = Vec::new();
     let mut order: Vec<usize> = (0..count).collect();
@@ -205,9 +205,9 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
     };
     let mut data: String = (0..count).map(|i| format!("j{i},")).collect::<String>() + "x,y,z";
     let more = match layout {
-        Layout::Quaternion { .. } => 4,
-        Layout::Matrix { .. } => 9,
-        Layout::Position => 0,
+        PoseFormat::Quaternion { .. } => 4,
+        PoseFormat::Matrix { .. } => 9,
+        PoseFormat::Position => 0,
         _ => 3,
     };
     (0..more).for_each(|k| write!(data, ",r{k}").unwrap());
@@ -269,34 +269,34 @@ pub(crate) fn case(robot: &str, mistakes: &[Mistake], random: &mut Random) -> Ca
         let mut numbers = Vec::new();
         let r: Matrix3<f64> = *pose.rotation.to_rotation_matrix().matrix();
         match layout {
-            Layout::Quaternion { scalar_first } => {
+            PoseFormat::Quaternion { scalar_first } => {
                 let [x, y, z, w] = pose.rotation.coords.into();
                 numbers.extend(if scalar_first { [w, x, y, z] } else { [x, y, z, w] });
             }
-            Layout::Euler { axes, fixed, degrees } => {
+            PoseFormat::Euler { axes, fixed, degrees } => {
                 let angles = euler(&r, axes, fixed);
                 numbers.extend(angles.map(|angle| if degrees { angle.to_degrees() } else { angle }));
             }
-            Layout::RotationVector { degrees } => {
+            PoseFormat::RotationVector { degrees } => {
                 let vector = pose.rotation.scaled_axis();
                 numbers.extend(vector.iter().map(|v| if degrees { v.to_degrees() } else { *v }));
             }
-            Layout::Difference { target_minus_actual } => {
+            PoseFormat::Difference { target_minus_actual } => {
                 let sign = if target_minus_actual { 1.0 } else { -1.0 };
                 numbers.extend((sign * off * per_length).iter());
                 position += off;
             }
-            Layout::Matrix { by_rows } => {
+            PoseFormat::Matrix { by_rows } => {
                 numbers.extend((0..9).map(|k| if by_rows { r[(k / 3, k % 3)] } else { r[(k % 3, k / 3)] }));
             }
-            Layout::Position => {}
-            Layout::Homogeneous { .. } => unreachable!(),
+            PoseFormat::Position => {}
+            PoseFormat::Homogeneous { .. } => unreachable!(),
         }
         let all = position.iter().map(|x| x * per_length).chain(numbers);
         data += &all.map(|x| x.to_string()).collect::<Vec<_>>().join(",");
         data.push('\n');
     }
-    let right = Reading {
+    let right = Interpretation {
         joints_in_degrees: kinds.contains(&VariableKind::Revolute).then_some(degrees),
         slides_in: kinds.contains(&VariableKind::Prismatic).then_some(unit),
         lengths_in: lengths,

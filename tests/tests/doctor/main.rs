@@ -10,7 +10,7 @@ use std::path::Path;
 use abbe_spec::Spec;
 use abbe_study::Machine;
 use abbe_study::data::{Data, Map};
-use abbe_study::doctor::{Change, Doctor, Reading, Report};
+use abbe_study::doctor::{Change, Doctor, Interpretation, Report};
 use abbe_study::measure::Measure;
 
 use case::Mistake::*;
@@ -36,7 +36,7 @@ fn map_holds(report: &Report, folder: &Path) -> bool {
     let corrected = report.corrected(&machine.spec, &text, "corrected.toml").unwrap();
     let is_corrected = corrected.is_some();
     let of_rows = |change: &Change| matches!(change, Change::PoseInverted);
-    let rest = report.found.first().is_some_and(|found| found.reading.changes.iter().any(of_rows));
+    let rest = report.found.first().is_some_and(|found| found.interpretation.changes.iter().any(of_rows));
     let differs = report.of_spec.iter().any(|line| line.starts_with("differences"));
     let held = report.of_spec.is_empty() || (is_corrected && !rest && !differs);
     // Whatever is about a spec of these robots can be said in its text.
@@ -62,7 +62,7 @@ fn map_holds(report: &Report, folder: &Path) -> bool {
 }
 
 /// Whether two readings say the same, zeros to 0.02 rad, or 2 mm.
-fn is_same(a: &Reading, b: &Reading, in_mm: f64) -> bool {
+fn is_same(a: &Interpretation, b: &Interpretation, in_mm: f64) -> bool {
     let near = |change: &Change| {
         b.changes.iter().any(|other| match (change, other) {
             (Change::Zero { joint, offset }, Change::Zero { joint: of, offset: other }) => {
@@ -93,7 +93,8 @@ struct Score {
 impl Score {
     fn add(&mut self, case: &Case, report: &Report, what: &str) {
         let in_mm = if report.length == "mm" { 1.0 } else { 1e3 };
-        let place = report.found.iter().position(|finding| is_same(&case.right, &finding.reading, in_mm));
+        let place =
+            report.found.iter().position(|finding| is_same(&case.right, &finding.interpretation, in_mm));
         self.cases += 1;
         self.first += usize::from(place == Some(0));
         self.among += usize::from(place.is_some());
@@ -207,7 +208,7 @@ fn another_tool_stands_in_the_map() {
         let spec = case.spec.replace("Tx(30 mm)", "Tx(75 mm)");
         assert_ne!(spec, case.spec);
         let report = run(&spec, &case.data, folder.path());
-        assert_eq!(report.found[0].reading.changes, [Change::ToolElsewhere], "{}", report.sentence);
+        assert_eq!(report.found[0].interpretation.changes, [Change::ToolElsewhere], "{}", report.sentence);
         assert!(report.of_spec.is_empty() && report.map.as_ref().unwrap().contains("[placement]"));
         map_holds(&report, folder.path());
     }
@@ -231,14 +232,14 @@ fn what_less_changed_leaves_is_said_and_can_be_accepted() {
             })
             .collect();
         let report = run(&spec, &shifted, folder.path());
-        assert!(!report.found[0].reading.changes.is_empty(), "{}", report.sentence);
+        assert!(!report.found[0].interpretation.changes.is_empty(), "{}", report.sentence);
         let simpler = report.simpler.unwrap();
-        assert!(simpler.reading.changes.is_empty() && simpler.both > report.found[0].both);
+        assert!(simpler.interpretation.changes.is_empty() && simpler.both > report.found[0].both);
         let machine = Machine::find(folder.path().join("robot.toml")).unwrap();
         let within = Some(1.2 * simpler.both);
         let rows = folder.path().join("rows.csv");
         let asked = Doctor { machine, data: (&rows).into(), within }.run(&mut ()).unwrap();
-        assert_eq!(asked.found[0].reading, simpler.reading, "{}", asked.sentence);
+        assert_eq!(asked.found[0].interpretation, simpler.interpretation, "{}", asked.sentence);
     }
 }
 
@@ -253,7 +254,11 @@ fn few_rows_of_what_is_as_in_the_spec_are_as_in_the_spec() {
             let case = case(robot, &[layout], &mut Random(seed));
             let rows: String = case.data.lines().take(5).map(|line| line.to_owned() + "\n").collect();
             let report = run(&case.spec, &rows, folder.path());
-            assert!(is_same(&report.found[0].reading, &case.right, 1.0), "{robot}: {}", report.sentence);
+            assert!(
+                is_same(&report.found[0].interpretation, &case.right, 1.0),
+                "{robot}: {}",
+                report.sentence
+            );
             map_holds(&report, folder.path());
         }
     }
@@ -270,7 +275,7 @@ fn a_row_that_is_not_whole_is_left_out() {
         lines[4] = format!("{before},{slip}");
         let report = run(&case.spec, &lines.join("\n"), folder.path());
         assert_eq!(report.rows, 9);
-        assert!(is_same(&report.found[0].reading, &case.right, 1.0), "{slip}: {}", report.sentence);
+        assert!(is_same(&report.found[0].interpretation, &case.right, 1.0), "{slip}: {}", report.sentence);
     }
 }
 

@@ -1,17 +1,17 @@
-//! Errors that no machine has: it is said before anything is made of them.
+//! Errors that are too large for a machine: a warning before anything is fitted to them.
 
 use abbe::identify::{Failure, Loss, Options, fit};
 
-use super::readings::{ROWS, some};
+use super::misread::{ROWS, some};
 use super::setup::Setup;
 use crate::data::{Data, Map};
 use crate::{Notes, number};
 
-/// Errors of more than this share of the arm are none of a machine.
+/// The share of the arm beyond which errors are too large for a machine.
 const LARGE: f64 = 1e-2;
 
-/// What is to be said of errors that are too large for a machine, their root mean square; `fitted` is what is left with base
-/// and tool fitted, if they could be.
+/// Returns a warning if the root mean square of errors is too large for a machine; `fitted` is that with base and tool fitted, if they
+/// could be.
 pub(crate) fn too_large(rms: f64, fitted: Option<f64>, setup: &Setup) -> Option<String> {
     let large = LARGE * setup.arm;
     if rms <= large {
@@ -35,7 +35,12 @@ pub(crate) fn too_large(rms: f64, fitted: Option<f64>, setup: &Setup) -> Option<
 
 /// Warns of data to which errors are to be fitted if base and tool alone, which are fitted as well, leave errors that are too
 /// large for a machine: in half of the rows and more, so that gross errors are none. After [`Setup::come_near`].
-pub(crate) fn doubt(setup: &Setup, map: &Map, data: &Data, notes: &mut dyn Notes) -> Result<(), Failure> {
+pub(crate) fn check_plausibility(
+    setup: &Setup,
+    map: &Map,
+    data: &Data,
+    notes: &mut dyn Notes,
+) -> Result<(), Failure> {
     let rows = some(&data.observations, ROWS);
     if setup.delivered.figures(&rows, &[])?.rms <= LARGE * setup.arm {
         return Ok(());

@@ -1,4 +1,4 @@
-//! What cannot be told apart, by name.
+//! Errors that the data cannot distinguish, by name.
 
 use abbe::identify::{Group, Model, Reason, Unknown, groups};
 use abbe::{Component, Description, Error, VariableKind};
@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use crate::number;
 
-/// Unknowns that cannot be told apart: a combination that acts as another, or cannot be seen at all.
+/// Unknowns that cannot be distinguished: a combination that acts as another, or has no effect on what is measured.
 #[derive(Clone, Debug, Serialize)]
-pub struct Alike {
+pub struct Indistinguishable {
     /// The combination: names and factors.
     pub these: Vec<(String, f64)>,
     /// What acts the same; nothing if it cannot be seen.
@@ -17,13 +17,19 @@ pub struct Alike {
     pub reason: String,
 }
 
-/// All that cannot be told apart, whose variables in `moved` are moved, all others staying at `q`.
-pub(crate) fn alikes(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> Result<Vec<Alike>, Error> {
+/// Returns all combinations that cannot be distinguished if the variables in `moved` are moved and all others stay at `q`.
+pub(crate) fn indistinguishable(
+    model: &Model,
+    q: &[f64],
+    moved: &[usize],
+    pose: bool,
+) -> Result<Vec<Indistinguishable>, Error> {
     let description = model.manipulator.description();
     let found = groups(model, q, moved, pose)?;
-    let mut alikes: Vec<Alike> = found.iter().map(|group| Alike::new(group, model, description)).collect();
+    let mut all: Vec<Indistinguishable> =
+        found.iter().map(|group| Indistinguishable::new(group, model, description)).collect();
     if model.readings.is_empty() || model.stations.iter().any(|station| !station.exact) {
-        return Ok(alikes);
+        return Ok(all);
     }
     // What an error of the base would act as: as the places of the fixtures, or nothing.
     let base = Component::ALL.map(|component| Unknown::Base(0, component));
@@ -32,8 +38,8 @@ pub(crate) fn alikes(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> R
         let is_base = |(unknown, _): &(Unknown, f64)| matches!(unknown, Unknown::Base(..));
         !group.these.is_empty() && group.these.iter().all(is_base)
     });
-    alikes.extend(of_base.map(|group| {
-        Alike {
+    all.extend(of_base.map(|group| {
+        Indistinguishable {
             these: group.act_as.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect(),
             act_as: Vec::new(),
             reason:
@@ -41,10 +47,10 @@ pub(crate) fn alikes(model: &Model, q: &[f64], moved: &[usize], pose: bool) -> R
                     .to_owned(),
         }
     }));
-    Ok(alikes)
+    Ok(all)
 }
 
-impl Alike {
+impl Indistinguishable {
     fn new(group: &Group, model: &Model, description: &Description) -> Self {
         let named = |combination: &[(Unknown, f64)]| {
             combination.iter().map(|(unknown, factor)| (model.name(*unknown), *factor)).collect()
@@ -57,7 +63,7 @@ impl Alike {
     }
 }
 
-impl Alike {
+impl Indistinguishable {
     /// `e_z1 acts as e_z2`.
     pub fn sentence(&self) -> String {
         let these = combination(&self.these);

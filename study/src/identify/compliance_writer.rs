@@ -4,8 +4,8 @@ use abbe::Component;
 use abbe_spec::Spec;
 
 use super::found::{FoundModel, FoundTerm};
-use super::terms::{Basis, Place};
-use super::written::{number, source_name};
+use super::spec_writer::{number, source_name};
+use super::terms::{Basis, ErrorSite};
 use crate::number::digits;
 
 /// The turns of a compliance, in the order of its rows.
@@ -78,8 +78,8 @@ impl FoundModel {
 fn owner(found: &FoundTerm) -> Option<Owner> {
     match found.term.place {
         _ if !found.term.basis.is_elastic() => None,
-        Place::Frame(frame, _) => Some(Some(frame)),
-        Place::Base(_) => Some(None),
+        ErrorSite::Frame(frame, _) => Some(Some(frame)),
+        ErrorSite::Base(_) => Some(None),
         _ => None,
     }
 }
@@ -88,7 +88,7 @@ fn owner(found: &FoundTerm) -> Option<Owner> {
 fn entry(found: &FoundTerm) -> (usize, usize) {
     let place = |component: Component| TURNS.iter().position(|turn| *turn == component).unwrap_or_default();
     let row = match found.term.place {
-        Place::Frame(_, component) | Place::Base(component) => place(component),
+        ErrorSite::Frame(_, component) | ErrorSite::Base(component) => place(component),
         _ => 0,
     };
     let column = match found.term.basis {

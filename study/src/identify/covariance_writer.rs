@@ -3,7 +3,7 @@
 use abbe_spec::Spec;
 
 use super::found::FoundModel;
-use super::written::{ABOVE, constant_name};
+use super::spec_writer::{ABOVE, constant_name};
 
 /// Something that was found as the spec names it, where it stands in the covariance, and what that is to be divided by.
 struct Entry {

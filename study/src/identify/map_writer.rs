@@ -16,7 +16,7 @@ impl FoundModel {
     /// identification said of it is left out.
     ///
     /// What is written is a map of the found spec, or it is not written.
-    pub fn written_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String, Diagnostics> {
+    pub fn identified_map(&self, map: &Map, spec: &Spec, path: &str) -> Result<String, Diagnostics> {
         let (whole, needed) = (with_inputs(spec, &self.derived), self.needed(spec));
         let text = with_from_rows(&without_places(map.text()), &whole, &needed);
         let places = self.placed.text(spec.length.symbol());

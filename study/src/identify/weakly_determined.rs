@@ -1,13 +1,12 @@
-//! What the data do not tell, and is therefore held at what was expected.
+//! Errors that the data determine too weakly; they are held at zero.
 
 use abbe::LengthUnit;
 use abbe::identify::{Identifiable, Model, Unknown};
 use serde::Serialize;
 
-/// An error of which these data tell too little beside what is known before, no better than to half of it: it is held at
-/// zero and not written.
+/// An error that these data determine no better than to half of what is expected of it: it is held at zero and not written.
 #[derive(Clone, Debug, Serialize)]
-pub struct NotKnown {
+pub struct WeaklyDetermined {
     /// The error.
     pub name: String,
     /// The standard deviation that the data alone would give it, beside all that is found.
@@ -18,7 +17,7 @@ pub struct NotKnown {
     pub unit: &'static str,
 }
 
-impl NotKnown {
+impl WeaklyDetermined {
     pub(crate) fn all(model: &Model, identifiable: &Identifiable, length: LengthUnit) -> Vec<Self> {
         // Of an instrument's direction no more need be known than is expected of it.
         let matters = |k: usize| !matches!(model.unknowns[k], Unknown::Fixture(..) | Unknown::Zero(_));

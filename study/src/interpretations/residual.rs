@@ -5,12 +5,12 @@ use abbe::identify::f_test;
 
 /// What is left, as root mean squares.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Residual {
-    pub(super) position: f64,
+pub(crate) struct Residual {
+    pub(crate) position: f64,
     /// None if orientations were not seen.
-    pub(super) angle: Option<f64>,
+    pub(crate) angle: Option<f64>,
     /// Both as a length, angles times a lever: as it would be if nothing had been fitted.
-    pub(super) both: f64,
+    pub(crate) both: f64,
     /// How many numbers more were seen than fitted.
     pub(super) freedom: f64,
 }
@@ -53,7 +53,7 @@ impl Residual {
     }
 
     /// Whether this is more than noise makes of what leaves so little, by an F-test of their variances. A rule: angles are
-    /// taken for as noisy as positions, and the best of many readings is best by chance, too.
+    /// taken for as noisy as positions, and the best of many interpretations is best by chance, too.
     pub(super) fn is_beyond(&self, other: &Self) -> bool {
         let squares = |residual: &Self| residual.both.powi(2) * residual.freedom;
         let (own, least) = (squares(self), squares(other));

@@ -1,21 +1,34 @@
-//! Which changes are tried together.
+//! The interpretations that are tried where nothing is stated.
 
-use abbe::VariableKind;
-
-use super::change::Change;
 use super::kinematics::Kinematics;
+use crate::interpretations::{Chain, Change, Trial};
+
+/// Differences one by one and in pairs; then every choice of signs and, of up to six joints, every order.
+pub(super) fn stages(kinematics: &Kinematics) -> impl Iterator<Item = Vec<Trial>> {
+    let (of_joints, of_ends) = (of_joints(kinematics), of_ends(kinematics));
+    let pairs = move || {
+        let trial = |joints: &Vec<Change>| {
+            let ends = of_ends.iter().filter(|ends| are_tried(joints, ends)).cloned().collect();
+            Trial { joints: joints.clone(), ends }
+        };
+        of_joints.iter().map(trial).collect()
+    };
+    let count = kinematics.kinds().len();
+    let further = move || {
+        let ends = [vec![], vec![Change::PoseInverted], vec![Change::BaseElsewhere, Change::ToolElsewhere]];
+        let trial = |joints| Trial { joints, ends: ends.to_vec() };
+        further(count).into_iter().map(trial).collect()
+    };
+    std::iter::once_with(pairs).chain(std::iter::once_with(further))
+}
 
 /// Changes of the joints, one alone and two together, none first.
-pub(super) fn of_joints(kinematics: &Kinematics) -> Vec<Vec<Change>> {
-    let kinds = &kinematics.kinds;
+fn of_joints(kinematics: &Kinematics) -> Vec<Vec<Change>> {
+    let kinds = kinematics.kinds();
     let count = kinds.len();
     let mut all: Vec<Change> = (0..count).map(|joint| Change::Reversed(vec![joint])).collect();
-    let swapped = |i: usize, j: usize| {
-        let mut order: Vec<usize> = (0..count).collect();
-        order.swap(i, j);
-        Change::Order(order)
-    };
-    all.extend((0..count).flat_map(|j| (0..j).map(move |i| (i, j))).map(|(i, j)| swapped(i, j)));
+    let pairs = (0..count).flat_map(|j| (0..j).map(move |i| (i, j)));
+    all.extend(pairs.map(|(i, j)| Change::exchanged(i, j, count)));
     if count > 3 {
         // Two or three of them are swapped then.
         all.push(Change::Order((0..count).rev().collect()));
@@ -35,7 +48,7 @@ pub(super) fn of_joints(kinematics: &Kinematics) -> Vec<Vec<Change>> {
 }
 
 /// Changes of base, tool and poses, one alone and two together, none first.
-pub(super) fn of_ends(kinematics: &Kinematics) -> Vec<Vec<Change>> {
+fn of_ends(kinematics: &Kinematics) -> Vec<Vec<Change>> {
     let mut all = vec![Change::PoseInverted, Change::BaseElsewhere, Change::ToolElsewhere];
     if kinematics.has_tool {
         all.extend([Change::ToolInverted, Change::ToolLeftOut]);
@@ -51,7 +64,7 @@ pub(super) fn of_ends(kinematics: &Kinematics) -> Vec<Vec<Change>> {
     sets
 }
 
-/// Whether one makes the other meaningless.
+/// Tells whether one makes the other meaningless.
 fn excludes(one: &Change, other: &Change) -> bool {
     use Change::{
         BaseElsewhere, BaseInverted, BaseLeftOut, EndsExchanged, ToolElsewhere, ToolInverted, ToolLeftOut,
@@ -81,8 +94,8 @@ fn up_to_pairs(all: &[Change]) -> Vec<Vec<Change>> {
     sets
 }
 
-/// Whether changes of joints and of ends are tried together: two in all, and one of the joints whatever base and tool are.
-pub(super) fn are_tried(of_joints: &[Change], of_ends: &[Change]) -> bool {
+/// Tells whether changes of joints and of ends are tried together: two in all, and one of the joints whatever base and tool are.
+fn are_tried(of_joints: &[Change], of_ends: &[Change]) -> bool {
     let is_fitted = |change: &Change| matches!(change, Change::BaseElsewhere | Change::ToolElsewhere);
     let zero = of_joints.iter().any(|change| matches!(change, Change::Zero { .. }));
     if of_ends.iter().any(is_fitted) {
@@ -91,8 +104,8 @@ pub(super) fn are_tried(of_joints: &[Change], of_ends: &[Change]) -> bool {
     of_joints.len() + of_ends.len() <= 2
 }
 
-/// Where nothing of that fits: every order of up to six joints, and every choice of signs.
-pub(super) fn further(count: usize) -> Vec<Vec<Change>> {
+/// Every order of up to six joints, and every choice of signs.
+fn further(count: usize) -> Vec<Vec<Change>> {
     let mut sets = Vec::new();
     if count <= 8 {
         for signs in 0..1_u32 << count {
@@ -118,35 +131,4 @@ fn orders(count: usize) -> Vec<Vec<usize>> {
         all = all.iter().flat_map(longer).collect();
     }
     all
-}
-
-/// The values of the joints by the numbers of their columns, zeros left out.
-pub(super) fn joints(
-    columns: &[f64],
-    kinds: &[VariableKind],
-    factors: [f64; 2],
-    changes: &[Change],
-) -> Vec<f64> {
-    let order = changes.iter().find_map(|change| match change {
-        Change::Order(order) => Some(order),
-        _ => None,
-    });
-    let column = |i: usize| order.map_or(columns[i], |order| columns[order[i]]);
-    let factor = |kind: VariableKind| factors[usize::from(kind == VariableKind::Prismatic)];
-    let mut q: Vec<f64> = kinds.iter().enumerate().map(|(i, kind)| column(i) * factor(*kind)).collect();
-    for change in changes {
-        if let Change::Reversed(joints) = change {
-            joints.iter().for_each(|i| q[*i] = -q[*i]);
-        }
-    }
-    for i in 0..q.len() {
-        for change in changes {
-            if let Change::Coupled { joint, to, by } = change
-                && *joint == i
-            {
-                q[i] += by * q[*to];
-            }
-        }
-    }
-    q
 }

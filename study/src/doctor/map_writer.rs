@@ -1,37 +1,33 @@
-//! A reading as a map.
+//! Writes an interpretation as a map.
 
 use std::fmt::Write;
 
 use abbe::{Pose, VariableKind};
 use abbe_spec::Spec;
 
-use super::change::Change;
 use super::columns::Columns;
-use super::reading::{Layout, Reading};
-use super::search::Candidate;
-use super::words;
 use crate::data::quaternion;
+use crate::interpretations::{Candidate, Change, Interpretation, PoseFormat, words};
 use crate::number::digits;
 use crate::toml_text::quoted;
 
-/// Digits of a fitted zero: rows tell fewer.
+/// Digits of a fitted zero, which rows determine to fewer.
 const DIGITS: usize = 8;
 
-/// The map, and in words what it cannot hold. Uncertainties are a twentieth of what a reading may leave of positions that spread so
-/// far.
+/// Returns the map, and in words what it cannot hold. Uncertainties are a twentieth of the residual that is allowed.
 pub(super) fn map(
     candidate: &Candidate,
     spec: &Spec,
     columns: &Columns,
     within: f64,
 ) -> (String, Vec<String>) {
-    let Candidate { reading, tool, spread, .. } = candidate;
-    let placement = tool.and_then(|tool| placement(tool, reading.layout, spec));
+    let Candidate { interpretation, tool, spread, .. } = candidate;
+    let placement = tool.and_then(|tool| placement(tool, interpretation.layout, spec));
     let count = spec.variables.len();
     let mut joints = Joints { order: (0..count).collect(), signs: vec![1; count], zeros: vec![0.0; count] };
-    let coupled = reading.changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
+    let coupled = interpretation.changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
     let (mut base, mut of_spec) = ("known", Vec::new());
-    for change in &reading.changes {
+    for change in &interpretation.changes {
         match change {
             Change::Order(columns) => joints.order.clone_from(columns),
             Change::Reversed(reversed) => reversed.iter().for_each(|i| joints.signs[*i] = -1),
@@ -42,7 +38,7 @@ pub(super) fn map(
             change => of_spec.push(words::change(change, spec)),
         }
     }
-    if reading.layout == (Layout::Difference { target_minus_actual: false }) {
+    if interpretation.layout == (PoseFormat::Difference { target_minus_actual: false }) {
         let turn = "differences are actual − target, a map has target − actual: turn their signs in the file";
         of_spec.push(turn.to_owned());
     }
@@ -54,17 +50,17 @@ pub(super) fn map(
     text += "\n[data]\ntitle = \"As abbe doctor reads it\"\n# Not known: state those of the instrument.\n";
     let uncertainty = 0.05 * within;
     let _ = writeln!(text, "uncertainty = \"{} {}\"", digits(uncertainty, 2), spec.length.symbol());
-    if reading.layout.is_oriented() {
+    if interpretation.layout.is_oriented() {
         let _ = writeln!(text, "angle_uncertainty = \"{} rad\"", digits(uncertainty / *spread, 2));
     }
     let _ = write!(text, "base = \"{base}\"\n\n[joints]\n");
-    text += &joints.written(reading, spec, columns);
-    text += &measured(reading, columns);
+    text += &joints.lines(interpretation, spec, columns);
+    text += &measured(interpretation, columns);
     text += &placement.unwrap_or_default();
     (text, of_spec)
 }
 
-/// How columns are joints.
+/// Order, signs and zeros of the columns of joints.
 struct Joints {
     order: Vec<usize>,
     signs: Vec<i32>,
@@ -72,13 +68,13 @@ struct Joints {
 }
 
 impl Joints {
-    fn written(&self, reading: &Reading, spec: &Spec, columns: &Columns) -> String {
+    fn lines(&self, interpretation: &Interpretation, spec: &Spec, columns: &Columns) -> String {
         let mut text = String::new();
         for (i, variable) in spec.variables.iter().enumerate() {
             let unit = match variable.kind {
-                VariableKind::Revolute if reading.joints_in_degrees == Some(true) => "deg",
+                VariableKind::Revolute if interpretation.joints_in_degrees == Some(true) => "deg",
                 VariableKind::Revolute => "rad",
-                VariableKind::Prismatic => reading.slides_in.unwrap_or(spec.length.symbol()),
+                VariableKind::Prismatic => interpretation.slides_in.unwrap_or(spec.length.symbol()),
             };
             let sign = if self.signs[i] < 0 { ", sign = -1" } else { "" };
             let column = quoted(&columns.joint_names[self.order[i]]);
@@ -94,24 +90,24 @@ impl Joints {
 }
 
 /// The table of what was measured.
-fn measured(reading: &Reading, columns: &Columns) -> String {
+fn measured(interpretation: &Interpretation, columns: &Columns) -> String {
     let names = |places: &[usize]| {
         let names: Vec<String> = places.iter().map(|place| quoted(&columns.pose_names[*place])).collect();
         format!("[{}]", names.join(", "))
     };
-    let unit = reading.lengths_in;
+    let unit = interpretation.lengths_in;
     let of_angle = |degrees: bool| if degrees { "deg" } else { "rad" };
     let pose = |position: &[usize], turn: String| {
         format!("\n[pose]\nposition = {}\nunit = \"{unit}\"\n{turn}\n", names(position))
     };
-    match reading.layout {
-        Layout::Position => format!("\n[point]\ncolumns = {}\nunit = \"{unit}\"\n", names(&[0, 1, 2])),
-        Layout::Difference { .. } => format!(
+    match interpretation.layout {
+        PoseFormat::Position => format!("\n[point]\ncolumns = {}\nunit = \"{unit}\"\n", names(&[0, 1, 2])),
+        PoseFormat::Difference { .. } => format!(
             "\n[difference]\ntarget = {}\ndifference = {}\nunit = \"{unit}\"\n",
             names(&[0, 1, 2]),
             names(&[3, 4, 5])
         ),
-        Layout::Euler { axes, fixed, degrees } => {
+        PoseFormat::Euler { axes, fixed, degrees } => {
             let (mut axes, mut places) = (axes, [3, 4, 5]);
             // About fixed axes the last turn stands first in the product.
             if fixed {
@@ -123,17 +119,17 @@ fn measured(reading: &Reading, columns: &Columns) -> String {
             let turn = format!("euler = {{ columns = {columns}, order = \"{order}\", unit = \"{unit}\" }}");
             pose(&[0, 1, 2], turn)
         }
-        Layout::RotationVector { degrees } => {
+        PoseFormat::RotationVector { degrees } => {
             let (columns, unit) = (names(&[3, 4, 5]), of_angle(degrees));
             pose(&[0, 1, 2], format!("rotation_vector = {{ columns = {columns}, unit = \"{unit}\" }}"))
         }
-        Layout::Quaternion { scalar_first } => {
+        PoseFormat::Quaternion { scalar_first } => {
             let order = if scalar_first { "wxyz" } else { "xyzw" };
             let columns = names(&[3, 4, 5, 6]);
             pose(&[0, 1, 2], format!("quaternion = {{ columns = {columns}, order = \"{order}\" }}"))
         }
-        Layout::Matrix { .. } | Layout::Homogeneous { .. } => {
-            let (position, nine) = matrix(reading.layout, columns.pose_names.len());
+        PoseFormat::Matrix { .. } | PoseFormat::Homogeneous { .. } => {
+            let (position, nine) = matrix(interpretation.layout, columns.pose_names.len());
             pose(&position, format!("matrix = {}", names(&nine)))
         }
     }
@@ -151,12 +147,12 @@ fn zero(offset: f64, kind: VariableKind, spec: &Spec) -> String {
 }
 
 /// The table of a tool that is elsewhere, as the one of the spec sees it.
-fn placement(tool: Pose, layout: Layout, spec: &Spec) -> Option<String> {
+fn placement(tool: Pose, layout: PoseFormat, spec: &Spec) -> Option<String> {
     let unit = spec.length.symbol();
     let point = tool.0[3].map(|x| format!("\"{} {unit}\"", digits(x, DIGITS))).join(", ");
     match layout {
-        Layout::Position => Some(format!("\n[placement]\ntargets = [[{point}]]\n")),
-        Layout::Difference { .. } => None,
+        PoseFormat::Position => Some(format!("\n[placement]\ntargets = [[{point}]]\n")),
+        PoseFormat::Difference { .. } => None,
         _ => {
             let [x, y, z, _] = tool.0;
             let turn = quaternion(&[x, y, z]).map(|x| digits(x, DIGITS)).join(", ");
@@ -166,16 +162,16 @@ fn placement(tool: Pose, layout: Layout, spec: &Spec) -> Option<String> {
 }
 
 /// The places of the position, and of the matrix row by row.
-fn matrix(layout: Layout, count: usize) -> (Vec<usize>, Vec<usize>) {
+fn matrix(layout: PoseFormat, count: usize) -> (Vec<usize>, Vec<usize>) {
     let place = |i: usize, j: usize| match (layout, count) {
-        (Layout::Matrix { by_rows: true }, _) => 3 + 3 * i + j,
-        (Layout::Matrix { .. }, _) => 3 + 3 * j + i,
-        (Layout::Homogeneous { by_rows: true }, _) => 4 * i + j,
+        (PoseFormat::Matrix { by_rows: true }, _) => 3 + 3 * i + j,
+        (PoseFormat::Matrix { .. }, _) => 3 + 3 * j + i,
+        (PoseFormat::Homogeneous { by_rows: true }, _) => 4 * i + j,
         (_, 16) => 4 * j + i,
         _ => 3 * j + i,
     };
     let position = match layout {
-        Layout::Matrix { .. } => vec![0, 1, 2],
+        PoseFormat::Matrix { .. } => vec![0, 1, 2],
         _ => (0..3).map(|i| place(i, 3)).collect(),
     };
     (position, (0..9).map(|k| place(k / 3, k % 3)).collect())

@@ -1,8 +1,8 @@
-//! One thing that is other than the spec has it.
+//! One way in which the rows differ from what the spec or the map states.
 
 use serde::Serialize;
 
-/// What is other. Joints count from 0 in the order of the spec; their columns are first put into order, then signs, then
+/// One difference. Joints count from 0 in the order of the spec. Columns are put into order first, then signs are applied, then
 /// couplings, then zeros.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -45,10 +45,21 @@ pub enum Change {
     BaseElsewhere,
     /// The poses are those of another point of the end effector, which is fitted.
     ToolElsewhere,
+    /// Two of the columns x, y and z are exchanged, or one has the wrong sign. Every such case is this one and a rotation of the base.
+    Mirrored,
+    /// The orientations are those of `F_0` as the tool sees it; the positions are as stated.
+    OrientationInverted,
 }
 
 impl Change {
-    /// How many things it is.
+    /// The columns of two of `count` joints are exchanged.
+    pub(crate) fn exchanged(i: usize, j: usize, count: usize) -> Self {
+        let mut order: Vec<usize> = (0..count).collect();
+        order.swap(i, j);
+        Self::Order(order)
+    }
+
+    /// Number of single differences that it counts for.
     pub(super) fn cost(&self) -> usize {
         match self {
             Self::Reversed(joints) => joints.len(),
@@ -58,7 +69,7 @@ impl Change {
         }
     }
 
-    /// How many numbers are fitted to poses, or to positions alone.
+    /// Number of parameters fitted to poses, or to positions alone.
     pub(super) fn fitted(&self, oriented: bool) -> usize {
         match self {
             Self::Zero { .. } => 1,
@@ -74,7 +85,7 @@ impl Change {
         }
     }
 
-    /// The same, but for what is fitted.
+    /// Compares two changes without their fitted values.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Zero { joint, .. }, Self::Zero { joint: other, .. }) => joint == other,

@@ -1,43 +1,50 @@
-//! Readings in the order in which they are believed.
+//! Interpretations in order: the fewest differences first, then the smallest residual.
 
-use super::change::Change;
+use super::interpretation::Interpretation;
 use super::residual::{Residual, squares};
-use super::search::Candidate;
+use super::search::{Candidate, Tolerance};
 
 /// Without noise, residuals of this share of the spread are nothing.
 const ROUNDING: f64 = 1e-9;
 
-/// So many of the others are shown.
+/// Number of the others that are shown.
 const OTHERS: usize = 5;
 
-/// Readings in order.
-pub(super) struct Ranked {
+/// Interpretations in order.
+pub(crate) struct Ranked {
     /// Those that fit and cannot be told apart, the simplest first.
-    pub(super) found: Vec<Candidate>,
+    pub(crate) found: Vec<Candidate>,
     /// The first with less in it, where that leaves little as well, but more than noise does.
-    pub(super) simpler: Option<Candidate>,
+    pub(crate) simpler: Option<Candidate>,
     /// The nearest of the others.
-    pub(super) others: Vec<Candidate>,
+    pub(crate) others: Vec<Candidate>,
 }
 
-pub(super) fn ranked(mut candidates: Vec<Candidate>, within: Option<f64>) -> Ranked {
+/// Ranks candidates; differences are counted from the spec, and from units and format that a map states.
+pub(crate) fn ranked(
+    mut candidates: Vec<Candidate>,
+    tolerance: &Tolerance,
+    stated: Option<&Interpretation>,
+) -> Ranked {
+    let cost = |candidate: &Candidate| candidate.interpretation.cost(stated);
     candidates.sort_by(|a, b| {
         (cost(a), a.residual.both)
             .partial_cmp(&(cost(b), b.residual.both))
             .unwrap_or(std::cmp::Ordering::Equal)
     });
-    let best = best(candidates.iter().filter(|one| one.fits(within)));
+    let best = best(candidates.iter().filter(|one| one.fits(tolerance)));
     // Whoever says what may be left is content with that.
-    let is_content = |one: &Candidate| within.is_some() || one.residual.both <= ROUNDING * one.spread;
+    let is_content =
+        |one: &Candidate| tolerance.within.is_some() || one.residual.both <= ROUNDING * one.spread;
     let fits = |one: &Candidate| {
-        one.fits(within) && (is_content(one) || !best.iter().any(|best| one.residual.is_beyond(best)))
+        one.fits(tolerance) && (is_content(one) || !best.iter().any(|best| one.residual.is_beyond(best)))
     };
     let mut found: Vec<Candidate> = Vec::new();
     let mut others: Vec<Candidate> = Vec::new();
     for candidate in candidates {
         if !fits(&candidate) {
             others.push(candidate);
-        } else if !found.iter().any(|simpler| is_part(simpler, &candidate)) {
+        } else if !found.iter().any(|simpler| simpler.interpretation.is_part_of(&candidate.interpretation)) {
             found.push(candidate);
         }
     }
@@ -48,25 +55,33 @@ pub(super) fn ranked(mut candidates: Vec<Candidate>, within: Option<f64>) -> Ran
             let [positions, _] = squares(&first, &one.predicted, false);
             (positions / rows).sqrt() > one.residual.position.max(ROUNDING * one.spread)
         };
-        let cheapest = found.iter().map(cost).min().unwrap_or_default();
+        let cheapest = found.iter().map(&cost).min().unwrap_or_default();
         found.retain(|one| cost(one) <= cheapest + 1 || !apart(one));
     }
     let is_simpler = |one: &&Candidate| {
-        one.fits(within) && found.first().is_some_and(|first| cost(one) < cost(first) && is_part(one, first))
+        one.fits(tolerance)
+            && found.first().is_some_and(|first| {
+                cost(one) < cost(first) && one.interpretation.is_part_of(&first.interpretation)
+            })
     };
     let simpler = others.iter().find(is_simpler).cloned();
-    others.sort_by(|a, b| a.share(within).total_cmp(&b.share(within)));
+    others.sort_by(|a, b| a.share(tolerance).total_cmp(&b.share(tolerance)));
     // Not the same with more and more changes.
     let mut shown: Vec<Candidate> = Vec::new();
     for candidate in others {
-        if shown.len() < OTHERS && !found.iter().chain(&shown).any(|simpler| is_part(simpler, &candidate)) {
+        if shown.len() < OTHERS
+            && !found
+                .iter()
+                .chain(&shown)
+                .any(|simpler| simpler.interpretation.is_part_of(&candidate.interpretation))
+        {
             shown.push(candidate);
         }
     }
     Ranked { found, simpler, others: shown }
 }
 
-/// Of as many fitted numbers, what leaves least.
+/// The smallest residual by number of fitted parameters.
 fn best<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Vec<Residual> {
     let mut best: Vec<Residual> = Vec::new();
     for Candidate { residual, .. } in candidates {
@@ -77,18 +92,4 @@ fn best<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Vec<Residual> {
         }
     }
     best
-}
-
-fn cost(candidate: &Candidate) -> usize {
-    candidate.reading.changes.iter().map(Change::cost).sum()
-}
-
-/// Whether a reading is another one with something left out.
-fn is_part(simpler: &Candidate, whole: &Candidate) -> bool {
-    let (a, b) = (&simpler.reading, &whole.reading);
-    let same = a.joints_in_degrees == b.joints_in_degrees
-        && a.slides_in == b.slides_in
-        && a.lengths_in == b.lengths_in
-        && a.layout == b.layout;
-    same && a.changes.iter().all(|change| b.changes.iter().any(|other| change.is_like(other)))
 }

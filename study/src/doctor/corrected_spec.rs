@@ -1,4 +1,4 @@
-//! The spec as a reading has it: its text, with nothing changed but what the reading says of it.
+//! Corrects the text of a spec by an interpretation, and leaves everything else in it as it is.
 //!
 //! Numbers of the other convention are under the other key; what is the other way round is its factors inverted, last first; a coupled joint
 //! and zeros behind a coupling are written where the variable stands: with column values c, `q3` becomes `(q3 + q2 + zero)`.
@@ -12,25 +12,25 @@ use abbe_spec::diagnostic::Diagnostics;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::change::Change;
-use super::{Report, words};
+use super::report::Report;
+use crate::interpretations::{Change, words};
 use crate::number::digits;
 use crate::toml_text::quoted;
 
 /// The keys that place a frame or the tool.
 const PLACES: [&str; 5] = ["transform", "matrix", "dh", "mdh", "origin"];
 
-/// Digits of a fitted zero: rows tell fewer.
+/// Digits of a fitted zero, which rows determine to fewer.
 const DIGITS: usize = 8;
 
 /// Where text is replaced, and by what.
 type Edit = (Range<usize>, String);
 
 impl Report {
-    /// The spec, whose text this is, as the first reading has it; none if the reading is not about the spec, or about something that its text
-    /// cannot say. `path` is the name of its file: files of tables must be where they are looked for from there.
+    /// Returns the spec, whose text this is, by the first interpretation; none if that changes nothing of the spec, or something that its
+    /// text cannot say. `path` is the name of its file: files of tables must be where they are looked for from there.
     pub fn corrected(&self, spec: &Spec, text: &str, path: &str) -> Result<Option<String>, Diagnostics> {
-        let changes = self.found.first().map_or(&[][..], |found| &found.reading.changes);
+        let changes = self.found.first().map_or(&[][..], |found| &found.interpretation.changes);
         let Some(text) = changed(changes, spec, text) else { return Ok(None) };
         Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &text)?;
         Ok(Some(text))
@@ -40,7 +40,7 @@ impl Report {
 fn changed(changes: &[Change], spec: &Spec, text: &str) -> Option<String> {
     let coupled = changes.iter().any(|change| matches!(change, Change::Coupled { .. }));
     let mut of_spec: Vec<&Change> = changes.iter().filter(|change| step(change, coupled).is_some()).collect();
-    // As the reading was tried: ends that are exchanged are then turned round.
+    // As the search tries it: ends that are exchanged are then turned round.
     of_spec.sort_by_key(|change| step(change, coupled));
     let (mut new, mut said, mut meant) = (text.to_owned(), String::new(), Vec::new());
     for change in &of_spec {
@@ -60,7 +60,7 @@ fn changed(changes: &[Change], spec: &Spec, text: &str) -> Option<String> {
     (!of_spec.is_empty()).then(|| format!("# The spec as `abbe doctor` reads it:\n{said}{new}"))
 }
 
-/// When a change is written, of those that are of the spec; the others are of columns, and in the map.
+/// The step in which a change is written, of those that concern the spec; the others concern columns, and are in the map.
 fn step(change: &Change, coupled: bool) -> Option<u8> {
     match change {
         Change::Convention => Some(0),
@@ -99,14 +99,14 @@ fn zero(offset: f64, joint: usize, spec: &Spec) -> String {
 
 /// What places a frame or the tool: its key and its value.
 #[derive(Clone, Copy)]
-struct Place<'t> {
+struct Placement<'t> {
     key: &'t str,
     /// From the key on.
     start: usize,
     value: &'t Spanned<DeValue<'t>>,
 }
 
-impl Place<'_> {
+impl Placement<'_> {
     fn span(&self) -> Range<usize> {
         self.start..self.value.span().end
     }
@@ -125,19 +125,19 @@ impl<'t> File<'t> {
         frames.iter().filter_map(|frame| frame.get_ref().as_table()).collect()
     }
 
-    fn place(table: &'t DeTable<'t>) -> Option<Place<'t>> {
+    fn place(table: &'t DeTable<'t>) -> Option<Placement<'t>> {
         table.iter().find_map(|(key, value)| {
             let name: &str = key.get_ref();
-            PLACES.contains(&name).then(|| Place { key: name, start: key.span().start, value })
+            PLACES.contains(&name).then(|| Placement { key: name, start: key.span().start, value })
         })
     }
 
-    fn tool(&self) -> Option<Place<'t>> {
+    fn tool(&self) -> Option<Placement<'t>> {
         Self::place(self.table.get("tool")?.get_ref().as_table()?)
     }
 
     /// The one frame before all that moves.
-    fn base(&self, spec: &Spec) -> Option<Place<'t>> {
+    fn base(&self, spec: &Spec) -> Option<Placement<'t>> {
         let moving = spec.variables_of_transforms();
         let fixed = moving.iter().take_while(|variables| variables.is_empty()).count();
         (fixed == 1).then(|| Self::place(self.frames()[0]))?
@@ -170,17 +170,18 @@ impl<'t> File<'t> {
             .collect()
     }
 
-    fn left_out(place: Place<'_>) -> Edit {
+    fn left_out(place: Placement<'_>) -> Edit {
         (place.span(), "origin = { xyz = [0, 0, 0] }".to_owned())
     }
 
-    fn exchanged(&self, one: Place<'_>, other: Place<'_>) -> [Edit; 2] {
-        let with = |place: Place<'_>, other: Place<'_>| (place.span(), self.text[other.span()].to_owned());
+    fn exchanged(&self, one: Placement<'_>, other: Placement<'_>) -> [Edit; 2] {
+        let with =
+            |place: Placement<'_>, other: Placement<'_>| (place.span(), self.text[other.span()].to_owned());
         [with(one, other), with(other, one)]
     }
 
     /// The factors of a place, last first, each the other way round.
-    fn inverted(&self, place: Place<'_>) -> Option<Edit> {
+    fn inverted(&self, place: Placement<'_>) -> Option<Edit> {
         let factors: Vec<(String, String)> = match (place.key, place.value.get_ref()) {
             ("transform", DeValue::String(product)) => factors(product)?,
             ("dh", DeValue::Table(four)) => self.four(four, ["theta", "d", "a", "alpha"])?,

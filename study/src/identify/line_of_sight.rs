@@ -11,7 +11,7 @@ use crate::mistake;
 /// touch, stands at an indicator, and has readings within their ranges. Those that cannot are left out; `most` are enough.
 ///
 /// Without instruments, or with such as are read anywhere, nothing is changed.
-pub(crate) fn aimed(
+pub(crate) fn readable_configurations(
     setup: &Setup,
     map: &Map,
     mut configurations: Vec<Observation>,
@@ -22,29 +22,30 @@ pub(crate) fn aimed(
         return Ok(configurations);
     };
     let moved: Vec<usize> = map.moved().collect();
-    let aims: Vec<Aim> = all.setups().into_iter().map(|(_, read)| Aim::new(setup, all, &read)).collect();
-    let mut aimed = Vec::new();
+    let sights: Vec<LineOfSight> =
+        all.setups().into_iter().map(|(_, read)| LineOfSight::new(setup, all, &read)).collect();
+    let mut readable = Vec::new();
     for (i, configuration) in configurations.into_iter().enumerate() {
-        if aimed.len() == most {
+        if readable.len() == most {
             break;
         }
         // The next setup when the last one has its row; not in turn, for the bases of Halton's sequence are turns as well, and a
         // setup would see one half of a joint's travel.
-        let turn = (aimed.len() as f64 * std::f64::consts::SQRT_2).fract();
-        let aim = &aims[((turn * aims.len() as f64) as usize).min(aims.len() - 1)];
+        let turn = (readable.len() as f64 * std::f64::consts::SQRT_2).fract();
+        let sight = &sights[((turn * sights.len() as f64) as usize).min(sights.len() - 1)];
         // The golden ratio spreads readings evenly over their ranges.
-        let share = (0.5 + (i / aims.len()) as f64 * 0.618_033_988_749_895).fract();
-        let wanted: Vec<Option<f64>> = aim.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
-        if let Some(q) = touched(&aim.model, &configuration, &[], &wanted, &moved)? {
-            let measured = Measurement::Readings(aim.unread.clone());
-            aimed.push(Observation { q: q.into(), measured, ..configuration });
+        let share = (0.5 + (i / sights.len()) as f64 * 0.618_033_988_749_895).fract();
+        let wanted: Vec<Option<f64>> = sight.wanted.iter().map(|[a, b]| Some(a + share * (b - a))).collect();
+        if let Some(q) = touched(&sight.model, &configuration, &[], &wanted, &moved)? {
+            let measured = Measurement::Readings(sight.unread.clone());
+            readable.push(Observation { q: q.into(), measured, ..configuration });
         }
     }
-    Ok(aimed)
+    Ok(readable)
 }
 
-/// What must hold in a setup.
-struct Aim<'a> {
+/// The conditions under which the instruments of a setup can be read.
+struct LineOfSight<'a> {
     /// The ideal machine, with a reading for each condition.
     model: Model<'a>,
     /// Between what each is to be.
@@ -53,7 +54,7 @@ struct Aim<'a> {
     unread: Vec<Option<f64>>,
 }
 
-impl<'a> Aim<'a> {
+impl<'a> LineOfSight<'a> {
     fn new(setup: &Setup<'a>, all: &Instruments, read: &[usize]) -> Self {
         let mut model = Model { readings: Vec::new(), ..setup.ideal.clone() };
         let mut wanted = Vec::new();
@@ -86,7 +87,7 @@ impl<'a> Aim<'a> {
 }
 
 /// The mistake that no configuration can be measured.
-pub(crate) fn unaimed(map: &str) -> Diagnostics {
+pub(crate) fn nothing_readable(map: &str) -> Diagnostics {
     let help = "is `at` a place that the tool reaches, in F_0? can `range` be met there?";
     mistake::with_help(
         map,

@@ -1,4 +1,4 @@
-//! What is left against the order of the rows, in words.
+//! Drift of the residuals with the order of the rows, in words.
 
 use abbe::LengthUnit;
 use abbe::identify::{Drift, Follows};
@@ -6,12 +6,12 @@ use serde::Serialize;
 
 use crate::number::{self, digits, percent};
 
-/// Of how many runs without drift one is called drifting: this share.
+/// False-alarm rate of the test.
 const FALSE_ALARMS: f64 = 0.01;
 
-/// Whether what is left follows time.
+/// Correlation and drift of the residuals over time.
 #[derive(Clone, Debug, Serialize)]
-pub struct Order {
+pub struct ResidualDrift {
     /// The correlation of what is left with what is left of the next row.
     pub lag_1: f64,
     /// How likely that is in a random order.
@@ -34,7 +34,7 @@ pub struct Order {
     pub sentence: String,
 }
 
-impl Order {
+impl ResidualDrift {
     pub(crate) fn new(drift: Drift, unit: LengthUnit) -> Self {
         let Drift { lag_1, p_of_lag_1, follows, settling, change, p, ends } = drift;
         let follows = match follows {

@@ -1,5 +1,5 @@
-//! The findings in the words of the spec: joints' zeros, parameters and Denavit-Hartenberg numbers in place of errors of
-//! frames, as far as these act alike.
+//! The errors as those of joints: zeros, parameters and Denavit-Hartenberg numbers in place of errors of frames, as far as these act
+//! alike.
 //!
 //! In `A_i E_i` a change δ of a number of `A_i` is `E_i` with `vee(A_i⁻¹ ∂A_i/∂x) δ`, and as well `E_{i-1}` with
 //! `vee(∂A_i/∂x A_i⁻¹) δ`. Where one of these is the same in all configurations, the number is a combination of constant
@@ -11,11 +11,11 @@ use abbe_codegen::chain::{FrameTwist, frame_twists, transform};
 use abbe_codegen::graph::{Frame, Graph, Node};
 use abbe_spec::expr::{Dimension, Motion, Symbol};
 use abbe_spec::{ChainNumber, DhNumber, Spec};
+use serde::Serialize;
 
-use super::report::Meaning;
 use super::setup::Setup;
 use super::solve::Solved;
-use super::terms::{self, Place, Term};
+use super::terms::{self, ErrorSite, Term};
 use crate::number::digits;
 
 /// In how many configurations an error must be the same.
@@ -30,14 +30,29 @@ const CORRELATED: f64 = 0.9;
 /// Beyond how many standard deviations something counts as found.
 const FOUND: f64 = 3.0;
 
-/// What was found, with numbers of the chain in place of some errors of frames: the same machine to first order.
-pub(super) struct InNumbers {
+/// The found errors, with numbers of the chain in place of some errors of frames: the same machine to first order.
+pub(super) struct AsJointErrors {
     /// The numbers.
     pub(super) numbers: Vec<FoundNumber>,
     /// What the other unknowns are beside them, by place among the kept ones: value and standard deviation.
     pub(super) others: Vec<(usize, f64, f64)>,
     /// The covariance of all of them, by place among the kept unknowns.
     pub(super) covariance: Vec<Vec<f64>>,
+}
+
+/// The error of a number of the chain.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointError {
+    /// The error of a frame that it takes the place of, such as `e_r1`.
+    pub in_place_of: String,
+    /// The number: `zero of q2`, `reach`, `a of shoulder`.
+    pub number: String,
+    /// By how much it is off: the length unit, or rad.
+    pub value: f64,
+    /// How well that is known.
+    pub standard_deviation: f64,
+    /// All this as a sentence.
+    pub sentence: String,
 }
 
 /// A number of the chain.
@@ -54,7 +69,7 @@ pub(super) struct FoundNumber {
     pub(super) correlation: f64,
 }
 
-impl InNumbers {
+impl AsJointErrors {
     pub(super) fn new(spec: &Spec, model: &Model, fit: &Fit) -> Self {
         let mut basis = Basis::new(model, fit);
         let mut graph = Graph::with_tables(&spec.tables);
@@ -83,21 +98,21 @@ impl InNumbers {
     ///
     /// A term that changes with a joint is hardly told from a constant where the joint moves a little: of numbers that are
     /// correlated with the magnitude of a source nothing is said.
-    pub(super) fn meanings(&self, spec: &Spec, model: &Model, fit: &Fit) -> Vec<Meaning> {
+    pub(super) fn joint_errors(&self, spec: &Spec, model: &Model, fit: &Fit) -> Vec<JointError> {
         let found = |one: &&FoundNumber| {
             one.value.abs() > FOUND * one.standard_deviation && one.correlation < CORRELATED
         };
-        self.numbers.iter().filter(found).map(|one| one.meaning(spec, model, fit)).collect()
+        self.numbers.iter().filter(found).map(|one| one.joint_error(spec, model, fit)).collect()
     }
 }
 
 /// All numbers of the chain as terms of magnitude 1.
 pub(super) fn number_terms(spec: &Spec) -> Vec<Term> {
-    let term = |(_, number)| Term { place: Place::of_number(number), basis: terms::Basis::One };
+    let term = |(_, number)| Term { place: ErrorSite::of_number(number), basis: terms::Basis::One };
     numbers(spec).into_iter().map(term).collect()
 }
 
-impl InNumbers {
+impl AsJointErrors {
     /// How far apart the points of rows are by this and by the fit, root mean square: of second order. Of many rows some tell
     /// it. The last sources of the manipulator are the [`number_terms`].
     pub(super) fn difference(
@@ -113,7 +128,7 @@ impl InNumbers {
         let other =
             |(place, value, _): &(usize, f64, f64)| (model.unknowns[fit.identifiable.kept[*place]], *value);
         let number = |one: &FoundNumber| {
-            let place = Place::of_number(one.number);
+            let place = ErrorSite::of_number(one.number);
             let index = terms.iter().position(|term| term.place == place);
             (Unknown::Magnitude(first + index.unwrap_or_default()), one.value)
         };
@@ -134,7 +149,7 @@ impl InNumbers {
 }
 
 impl FoundNumber {
-    fn meaning(&self, spec: &Spec, model: &Model, fit: &Fit) -> Meaning {
+    fn joint_error(&self, spec: &Spec, model: &Model, fit: &Fit) -> JointError {
         let Self { name: number, number: of, place, value, standard_deviation, .. } = self.clone();
         let in_place_of = model.name(model.unknowns[fit.identifiable.kept[place]]);
         let (factor, unit) = if is_angle(spec, of) { (1e3, "mrad") } else { (1.0, spec.length.symbol()) };
@@ -149,7 +164,7 @@ impl FoundNumber {
             (_, true) => format!("{number} is {size} less than nominal ({in_place_of})"),
             (_, false) => format!("{number} is {size} more than nominal ({in_place_of})"),
         };
-        Meaning { in_place_of, number, value, standard_deviation, sentence }
+        JointError { in_place_of, number, value, standard_deviation, sentence }
     }
 }
 

@@ -10,12 +10,12 @@ use abbe_spec::{Fitted, Spec};
 
 use super::derived::{Derived, with_inputs};
 use super::found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
-use super::terms::{Basis, Place, Term};
+use super::terms::{Basis, ErrorSite, Term};
 use crate::number::digits;
 
 /// A spec to be written.
 #[derive(Clone, Debug)]
-pub struct WrittenSpec {
+pub struct IdentifiedSpec {
     /// All of it.
     pub text: String,
     /// What was added to the nominal one.
@@ -26,11 +26,16 @@ impl FoundModel {
     /// The nominal spec, whose text this is, with what was found; `path` is the name of its file.
     ///
     /// What is written is a spec, or it is not written: files of tables must be where they are looked for from there.
-    pub fn written(&self, spec: &Spec, text: &str, path: &str) -> Result<WrittenSpec, Diagnostics> {
+    pub fn identified_spec(
+        &self,
+        spec: &Spec,
+        text: &str,
+        path: &str,
+    ) -> Result<IdentifiedSpec, Diagnostics> {
         let base = free_name(spec, "ground");
         let sources = self.sources(spec, &base) + &self.inputs(spec);
         let (kept, changed) = with_magnitudes(&without_fitted(text), spec, &self.magnitudes);
-        let ground = match self.terms.iter().any(|found| matches!(found.term.place, Place::Base(_))) {
+        let ground = match self.terms.iter().any(|found| matches!(found.term.place, ErrorSite::Base(_))) {
             true => format!("[[frame]]\nname = {base:?}\norigin = {{ xyz = [0, 0, 0] }}\n\n"),
             false => String::new(),
         };
@@ -47,7 +52,7 @@ impl FoundModel {
             added = format!("{gravity}{added}{load}");
         }
         Spec::parse_in(Path::new(path).parent().unwrap_or(Path::new("")), path, &new)?;
-        Ok(WrittenSpec { text: new, added })
+        Ok(IdentifiedSpec { text: new, added })
     }
 
     fn sources(&self, spec: &Spec, base: &str) -> String {
@@ -171,7 +176,7 @@ pub(super) fn constant_name(spec: &Spec, frame: &str) -> String {
     source_name(spec, &format!("identified: {frame}"))
 }
 
-impl Place {
+impl ErrorSite {
     /// The unit of an error there: one that a spec understands.
     fn unit(self, spec: &Spec) -> &str {
         let length = spec.length.symbol();
@@ -213,15 +218,15 @@ fn effect(spec: &Spec, term: &Term, magnitude: f64, base: &str) -> String {
         format!("frame = {name:?}\n{error}")
     };
     match term.place {
-        Place::Joint(joint) => format!("joint = {:?}\nerror = {error}", spec.variables[joint].name),
-        Place::Parameter(parameter) => {
+        ErrorSite::Joint(joint) => format!("joint = {:?}\nerror = {error}", spec.variables[joint].name),
+        ErrorSite::Parameter(parameter) => {
             format!("parameter = {:?}\nerror = {error}", spec.parameters[parameter].name)
         }
-        Place::DenavitHartenberg(frame, number) => {
+        ErrorSite::DenavitHartenberg(frame, number) => {
             format!("frame = {:?}\ndh = {{ {} = {error} }}", spec.frames[frame].name, number.name())
         }
-        Place::Frame(frame, component) => of_frame(&spec.frames[frame].name, component),
-        Place::Base(component) => of_frame(base, component),
+        ErrorSite::Frame(frame, component) => of_frame(&spec.frames[frame].name, component),
+        ErrorSite::Base(component) => of_frame(base, component),
     }
 }
 

@@ -1,154 +1,159 @@
-//! Readings one by one and in pairs, and what is left under each.
+//! Tries interpretations one by one, and computes the residual of each.
 
-use std::f64::consts::PI;
-
-use abbe::{Pose, VariableKind};
+use abbe::{Error, Pose, VariableKind};
 use abbe_spec::diagnostic::Diagnostics;
 
 use super::change::Change;
-use super::columns::Columns;
-use super::kinematics::{Kinematics, Parts};
-use super::reading::{Layout, Reading};
+use super::interpretation::Interpretation;
+use super::joints::{JointUnits, Length, configurations, joint_values};
+use super::observed::{Observed, spread};
 use super::registration::registered;
 use super::residual::{Residual, squares};
-use super::sets;
 use super::zeros::{Form, least};
 use crate::{Notes, mistake};
 
 /// The lever of angles, as a share of the spread of the positions.
 const LEVER: f64 = 0.3;
 
-/// A residual beyond this share of the spread of the positions is no fit, if nobody says otherwise, and beyond that never.
-pub(super) const WITHIN: f64 = 0.02;
-const MOST: f64 = 0.1;
+/// A residual beyond this share of the spread of the positions is no fit, whatever tolerance is asked for.
+pub(crate) const MOST: f64 = 0.1;
 
-/// What leaves so many times what may be left is kept.
+/// Interpretations that leave this many times the tolerance are kept.
 const NEAR: f64 = 2.0;
 
-/// Of readings that do not fit, so many are kept.
+/// Number of interpretations that do not fit and are kept.
 const KEPT: usize = 30;
 
-/// A reading and what is left under it.
+/// Base, chain and tool: what stands before everything that moves, what moves, and the tool.
+pub(crate) type Parts = [Pose; 3];
+
+/// The nominal manipulator as the search needs it.
+pub(crate) trait Chain {
+    /// The kinds of the joints.
+    fn kinds(&self) -> &[VariableKind];
+
+    /// The length unit, in metres.
+    fn metres(&self) -> f64;
+
+    /// Evaluates base, chain and tool at `q`; by the other Denavit-Hartenberg convention if that is asked for and there is one.
+    fn parts(&self, q: &[f64], other_convention: bool) -> Result<Parts, Error>;
+}
+
+/// An interpretation and its residual.
 #[derive(Clone, Debug)]
-pub(super) struct Candidate {
-    pub(super) reading: Reading,
-    pub(super) residual: Residual,
+pub(crate) struct Candidate {
+    pub(crate) interpretation: Interpretation,
+    pub(crate) residual: Residual,
     /// The poses that the spec has then.
     pub(super) predicted: Vec<Pose>,
-    /// The tool as the one of the spec sees it, if it is fitted.
-    pub(super) tool: Option<Pose>,
-    /// How far the positions spread that were seen.
-    pub(super) spread: f64,
+    /// The tool in the frame of the one of the spec, if it is fitted.
+    pub(crate) tool: Option<Pose>,
+    /// The spread of the observed positions.
+    pub(crate) spread: f64,
 }
 
 impl Candidate {
-    /// What is left, as a share of what may be left: units that make everything small are no better for it.
-    pub(super) fn share(&self, within: Option<f64>) -> f64 {
-        self.residual.both / limit(within, self.spread)
+    /// The residual as a share of the tolerance: units that make everything small are no better for it.
+    pub(super) fn share(&self, tolerance: &Tolerance) -> f64 {
+        self.residual.both / tolerance.limit(self.spread)
     }
 
-    /// Whether it leaves as little as is asked for, and no more of the angles.
-    pub(super) fn fits(&self, within: Option<f64>) -> bool {
-        self.share(within) <= 1.0
+    /// Tells whether positions and orientations are within the tolerance.
+    pub(super) fn fits(&self, tolerance: &Tolerance) -> bool {
+        self.share(tolerance) <= 1.0
     }
 }
 
-/// What may be left: as is asked for, and a small share of what was seen in any case.
-pub(super) fn limit(within: Option<f64>, spread: f64) -> f64 {
-    within.map_or(WITHIN * spread, |within| within.min(MOST * spread))
+/// The residual up to which an interpretation fits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tolerance {
+    /// The largest residual in the length unit, if it is asked for.
+    pub(crate) within: Option<f64>,
+    /// The largest share of the spread of the positions otherwise.
+    pub(crate) share: f64,
+    /// The share of the tolerance at which the next stage is not tried.
+    pub(crate) enough: f64,
 }
 
-/// What was seen, in one way to read it.
-struct Seen {
-    layout: Layout,
-    unit: &'static str,
-    poses: Vec<Pose>,
-    spread: f64,
+impl Tolerance {
+    /// The largest residual of positions with this spread.
+    pub(crate) fn limit(&self, spread: f64) -> f64 {
+        self.within.map_or(self.share * spread, |within| within.min(MOST * spread))
+    }
 }
 
-/// Units of joints: what makes angles and travels coherent.
-#[derive(Clone, Copy)]
-struct Units {
-    degrees: bool,
-    slides: &'static str,
-    factors: [f64; 2],
+/// Changes of the joints, and the changes of base, tool and poses that are tried with them.
+pub(crate) struct Trial {
+    pub(crate) joints: Vec<Change>,
+    pub(crate) ends: Vec<Vec<Change>>,
 }
 
-/// All that readings are tried on.
-pub(super) struct Search<'a> {
-    kinematics: &'a Kinematics,
-    columns: &'a Columns,
-    seen: Vec<Seen>,
-    units: Vec<Units>,
-    within: Option<f64>,
+/// The rows, and all that is tried on them.
+pub(crate) struct Search<'a> {
+    chain: &'a dyn Chain,
+    /// The columns of joints, row by row.
+    joints: &'a [Vec<f64>],
+    configurations: usize,
+    units: Vec<JointUnits>,
+    observed: Vec<Observed>,
+    tolerance: Tolerance,
 }
-
-const LENGTHS: [(&str, f64); 2] = [("mm", 1e-3), ("m", 1.0)];
 
 impl<'a> Search<'a> {
-    pub(super) fn new(
-        kinematics: &'a Kinematics,
-        columns: &'a Columns,
-        layouts: &[Layout],
-        within: Option<f64>,
+    /// `lengths` are the units of travels that are tried.
+    pub(crate) fn new(
+        chain: &'a dyn Chain,
+        joints: &'a [Vec<f64>],
+        lengths: &[Length],
+        observed: Vec<Observed>,
+        tolerance: Tolerance,
     ) -> Self {
-        let units = units(kinematics, columns);
-        let mut seen = Vec::new();
-        for (unit, metres) in LENGTHS {
-            for layout in layouts {
-                let pose = |row: &Vec<f64>| layout.pose(row, metres / kinematics.metres);
-                if let Some(poses) = columns.pose.iter().map(pose).collect::<Option<Vec<Pose>>>() {
-                    let spread = spread(&poses);
-                    seen.push(Seen { layout: *layout, unit, poses, spread });
-                }
-            }
-        }
-        Self { kinematics, columns, seen, units, within }
+        let units = JointUnits::all(chain.kinds(), chain.metres(), joints, lengths);
+        Self { chain, joints, configurations: configurations(joints), units, observed, tolerance }
     }
 
-    /// All readings that fit, and the nearest of the others.
-    pub(super) fn run(&self, notes: &mut dyn Notes) -> Result<Vec<Candidate>, Diagnostics> {
-        let mut candidates = Vec::new();
-        let (of_joints, of_ends) = (sets::of_joints(self.kinematics), sets::of_ends(self.kinematics));
-        self.try_all(&of_joints, &of_ends, &mut candidates, notes)?;
-        if !candidates.iter().any(|candidate| candidate.fits(self.within)) {
-            let of_ends: Vec<Vec<Change>> = vec![
-                Vec::new(),
-                vec![Change::PoseInverted],
-                vec![Change::BaseElsewhere, Change::ToolElsewhere],
-            ];
-            self.try_all(&sets::further(self.kinematics.kinds.len()), &of_ends, &mut candidates, notes)?;
+    /// Returns the interpretations that fit, and the nearest of the others. A stage is tried if nothing before it fits.
+    pub(crate) fn run(
+        &self,
+        stages: impl IntoIterator<Item = Vec<Trial>>,
+        notes: &mut dyn Notes,
+    ) -> Result<Vec<Candidate>, Diagnostics> {
+        let mut candidates: Vec<Candidate> = Vec::new();
+        for stage in stages {
+            if candidates.iter().any(|one| one.share(&self.tolerance) <= self.tolerance.enough) {
+                break;
+            }
+            self.try_all(&stage, &mut candidates, notes)?;
         }
         Ok(candidates)
     }
 
     fn try_all(
         &self,
-        of_joints: &[Vec<Change>],
-        of_ends: &[Vec<Change>],
+        trials: &[Trial],
         candidates: &mut Vec<Candidate>,
         notes: &mut dyn Notes,
     ) -> Result<(), Diagnostics> {
         let mut cut = f64::INFINITY;
-        for (done, joints) in of_joints.iter().enumerate() {
-            notes.progress(done, of_joints.len());
+        for (done, Trial { joints, ends }) in trials.iter().enumerate() {
+            notes.progress(done, trials.len());
             if notes.stop() {
                 return Err(mistake::with_help("doctor", "it was stopped", "begin again"));
             }
             for units in &self.units {
                 let Some(nodes) = self.nodes(*units, joints) else { continue };
-                for ends in of_ends.iter().filter(|ends| sets::are_tried(joints, ends)) {
-                    self.try_seen(*units, joints, ends, &nodes, cut, candidates);
+                for ends in ends {
+                    self.try_observed(*units, joints, ends, &nodes, cut, candidates);
                 }
             }
             cut = self.keep(candidates);
         }
-        notes.progress(of_joints.len(), of_joints.len());
+        notes.progress(trials.len(), trials.len());
         Ok(())
     }
 
     /// The parts of the chain at every node of the zeros that are free.
-    fn nodes(&self, units: Units, joints: &[Change]) -> Option<Vec<Vec<Parts>>> {
+    fn nodes(&self, units: JointUnits, joints: &[Change]) -> Option<Vec<Vec<Parts>>> {
         let mut offsets = vec![Vec::new()];
         for (joint, form) in self.zeros(joints) {
             let with = |before: &Vec<(usize, f64)>| {
@@ -161,9 +166,9 @@ impl<'a> Search<'a> {
 
     fn zeros(&self, joints: &[Change]) -> Vec<(usize, Form)> {
         let zero = |change: &Change| match change {
-            Change::Zero { joint, .. } => Some(match self.kinematics.kinds[*joint] {
+            Change::Zero { joint, .. } => Some(match self.chain.kinds()[*joint] {
                 VariableKind::Revolute => (*joint, Form::Circle),
-                VariableKind::Prismatic => (*joint, Form::Line(0.1 / self.kinematics.metres)),
+                VariableKind::Prismatic => (*joint, Form::Line(0.1 / self.chain.metres())),
             }),
             _ => None,
         };
@@ -171,19 +176,19 @@ impl<'a> Search<'a> {
     }
 
     /// Row by row; none where the chain has no finite value.
-    fn parts(&self, units: Units, joints: &[Change], offsets: &[(usize, f64)]) -> Option<Vec<Parts>> {
+    fn parts(&self, units: JointUnits, joints: &[Change], offsets: &[(usize, f64)]) -> Option<Vec<Parts>> {
         let other = joints.contains(&Change::Convention);
         let row = |columns: &Vec<f64>| {
-            let mut q = sets::joints(columns, &self.kinematics.kinds, units.factors, joints);
+            let mut q = joint_values(columns, self.chain.kinds(), units.factors, joints);
             offsets.iter().for_each(|(joint, offset)| q[*joint] += offset);
-            self.kinematics.parts(&q, other).ok()
+            self.chain.parts(&q, other).ok()
         };
-        self.columns.joints.iter().map(row).collect()
+        self.joints.iter().map(row).collect()
     }
 
-    fn try_seen(
+    fn try_observed(
         &self,
-        units: Units,
+        units: JointUnits,
         joints: &[Change],
         ends: &[Change],
         nodes: &[Vec<Parts>],
@@ -195,10 +200,10 @@ impl<'a> Search<'a> {
         let zeros = self.zeros(joints);
         let forms: Vec<Form> = zeros.iter().map(|(_, form)| *form).collect();
         let free = [Change::BaseElsewhere, Change::ToolElsewhere].map(|change| ends.contains(&change));
-        let rows = self.columns.joints.len();
-        for seen in &self.seen {
+        let rows = self.joints.len();
+        for seen in &self.observed {
             let (oriented, lever) = (seen.layout.is_oriented(), LEVER * seen.spread);
-            let numbers = self.columns.configurations * if oriented { 6 } else { 3 };
+            let numbers = self.configurations * if oriented { 6 } else { 3 };
             let fitted = joints.iter().chain(ends).map(|change| change.fitted(oriented)).sum::<usize>();
             // So few numbers fit anything.
             if numbers < 2 * fitted {
@@ -208,7 +213,7 @@ impl<'a> Search<'a> {
             if !oriented && ends.contains(&Change::PoseInverted) {
                 continue;
             }
-            let limit = limit(self.within, seen.spread);
+            let limit = self.tolerance.limit(seen.spread);
             let both = |[positions, angles]: [f64; 2]| positions + lever * lever * angles;
             let (changed, predicted, tool) = if !zeros.is_empty() {
                 let values: Vec<f64> =
@@ -247,17 +252,17 @@ impl<'a> Search<'a> {
             };
             let left = squares(&predicted, &seen.poses, oriented);
             let residual = Residual::new(left, rows, oriented, lever, [numbers, fitted]);
-            let turns = self.kinematics.kinds.contains(&VariableKind::Revolute);
-            let slides = self.kinematics.kinds.contains(&VariableKind::Prismatic);
-            let reading = Reading {
+            let turns = self.chain.kinds().contains(&VariableKind::Revolute);
+            let slides = self.chain.kinds().contains(&VariableKind::Prismatic);
+            let interpretation = Interpretation {
                 joints_in_degrees: turns.then_some(units.degrees),
                 slides_in: slides.then_some(units.slides),
                 lengths_in: seen.unit,
                 layout: seen.layout,
-                changes: [&changed[..], ends].concat(),
+                changes: [&changed[..], ends, &seen.changes].concat(),
             };
-            let candidate = Candidate { reading, residual, predicted, tool, spread: seen.spread };
-            let share = candidate.share(self.within);
+            let candidate = Candidate { interpretation, residual, predicted, tool, spread: seen.spread };
+            let share = candidate.share(&self.tolerance);
             // Nor is a unit that makes all that was seen far larger than the machine.
             let is_one = || share <= cut && residual.both <= 2.0 * of_machine;
             if share <= NEAR || is_one() {
@@ -268,7 +273,7 @@ impl<'a> Search<'a> {
 
     /// Keeps those that may fit and the nearest of the others; what is farther than these is not needed.
     fn keep(&self, candidates: &mut Vec<Candidate>) -> f64 {
-        let share = |candidate: &Candidate| candidate.share(self.within);
+        let share = |candidate: &Candidate| candidate.share(&self.tolerance);
         candidates.sort_by(|a, b| share(a).total_cmp(&share(b)));
         let near = candidates.iter().take_while(|candidate| share(candidate) <= NEAR).count();
         candidates.truncate(near + KEPT);
@@ -304,16 +309,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The root mean square distance of positions from their middle.
-fn spread(poses: &[Pose]) -> f64 {
-    let count = poses.len() as f64;
-    let middle: [f64; 3] =
-        std::array::from_fn(|i| poses.iter().map(|pose| pose.0[3][i]).sum::<f64>() / count);
-    let square = |pose: &Pose| (0..3).map(|i| (pose.0[3][i] - middle[i]).powi(2)).sum::<f64>();
-    (poses.iter().map(square).sum::<f64>() / count).sqrt()
-}
-
-/// Whether base or tool can be fitted: the angle of a turn between rows depends on neither, distances between positions not on
+/// Tells whether base or tool can be fitted: the angle of a turn between rows depends on neither, distances between positions not on
 /// the base.
 fn can_be_fitted(predicted: &[Pose], seen: &[Pose], oriented: bool, tool: bool, limit: f64) -> bool {
     let [mut turns, mut distances] = [0.0; 2];
@@ -335,25 +331,4 @@ fn can_be_fitted(predicted: &[Pose], seen: &[Pose], oriented: bool, tool: bool, 
     }
     let rows = seen.len() as f64;
     (turns / rows).sqrt() < 0.15 && (distances / rows).sqrt() < 4.0 * limit
-}
-
-/// Units that joints can be in: angles beyond two turns are no radians.
-fn units(kinematics: &Kinematics, columns: &Columns) -> Vec<Units> {
-    let has = |kind: VariableKind| kinematics.kinds.contains(&kind);
-    let largest = columns.joints.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let only_turns = !has(VariableKind::Prismatic);
-    let angles: &[bool] = match has(VariableKind::Revolute) {
-        true if only_turns && largest > 4.0 * PI => &[true],
-        true => &[true, false],
-        false => &[false],
-    };
-    let slides: &[(&str, f64)] = if only_turns { &LENGTHS[..1] } else { &LENGTHS };
-    let mut all = Vec::new();
-    for degrees in angles {
-        for (unit, metres) in slides {
-            let factors = [if *degrees { PI / 180.0 } else { 1.0 }, metres / kinematics.metres];
-            all.push(Units { degrees: *degrees, slides: unit, factors });
-        }
-    }
-    all
 }

@@ -1,4 +1,4 @@
-//! Test rows outside the ranges that were fitted, and how well the machine is known there.
+//! Test rows outside the ranges that were fitted, and the uncertainty of the machine there.
 
 use abbe::identify::{Failure, Observation};
 use abbe_spec::Fitted;
@@ -8,7 +8,7 @@ use super::solve::Solved;
 
 /// Rows outside the ranges of joints and inputs that were fitted.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Outside {
+pub struct Extrapolation {
     /// How many rows.
     pub rows: usize,
     /// How well the place of the tool is known there: one standard deviation, the mean over these rows. The length unit.
@@ -17,7 +17,7 @@ pub struct Outside {
     pub known_within: f64,
 }
 
-impl Outside {
+impl Extrapolation {
     /// None if there are no such rows. From the covariance of what was found: what the model does not have grows unseen.
     pub(super) fn new(
         solved: &Solved,

@@ -1,4 +1,4 @@
-//! Test rows that are rows of the fit: nothing can be judged by them.
+//! Test rows that were fitted: they cannot judge the fit.
 
 use std::collections::HashSet;
 use std::hash::{Hash, Hasher};
@@ -34,15 +34,15 @@ impl Hash for Numbers<'_> {
     }
 }
 
-/// How many rows of the test are rows of the fit, digit by digit.
-pub(super) fn known_rows(fit: &Data, test: &Data) -> usize {
+/// Counts the test rows that were fitted, digit by digit.
+pub(super) fn train_test_overlap(fit: &Data, test: &Data) -> usize {
     let of_test: HashSet<Numbers<'_>> = test.observations.iter().map(Numbers).collect();
     let of_both = fit.observations.iter().map(Numbers).filter(|row| of_test.contains(row));
     let of_both: HashSet<Numbers<'_>> = of_both.collect();
     test.observations.iter().filter(|row| of_both.contains(&Numbers(row))).count()
 }
 
-/// What is to be said of them, if there are any.
+/// Returns a sentence on them, if there are any.
 pub(super) fn sentence(known: usize, rows: usize) -> Option<String> {
     let (are, them) = if known == 1 { ("is a row", "it") } else { ("are rows", "them") };
     (known > 0).then(|| {
@@ -53,8 +53,8 @@ pub(super) fn sentence(known: usize, rows: usize) -> Option<String> {
 }
 
 impl Report {
-    /// What is to be said of test rows that are rows of the fit, if there are any.
-    pub fn on_known_rows(&self) -> Option<String> {
+    /// Returns a sentence on test rows that were fitted, if there are any.
+    pub fn on_train_test_overlap(&self) -> Option<String> {
         sentence(self.test_rows_of_the_fit, self.test.as_ref()?.rows)
     }
 }

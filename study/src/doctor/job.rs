@@ -1,0 +1,95 @@
+//! The job: reads the rows, searches, and writes the map of the first interpretation.
+
+use abbe_spec::diagnostic::Diagnostics;
+
+use super::columns::Columns;
+use super::kinematics::Kinematics;
+use super::report::{Finding, Report};
+use super::sentence::sentence;
+use super::{alternatives, map_writer};
+use crate::data::Source;
+use crate::interpretations::{
+    Candidate, LENGTHS, Observed, PoseFormat, Ranked, Search, Tolerance, ranked, words,
+};
+use crate::number::digits;
+use crate::{Machine, Notes, mistake};
+
+/// The largest number of rows that are read; of more, as many at equal distances.
+const MOST_ROWS: usize = 40;
+
+/// The share of the spread of the positions up to which an interpretation fits, if no tolerance is asked for.
+const WITHIN: f64 = 0.02;
+
+/// Which interpretation of these rows is that of this machine?
+pub struct Doctor<'a> {
+    /// The machine as its spec has it.
+    pub machine: Machine,
+    /// A column for each joint, then a pose or a position.
+    pub data: Source<'a>,
+    /// The largest residual of a position for an interpretation to fit, in the spec's length unit.
+    pub within: Option<f64>,
+}
+
+impl Doctor<'_> {
+    /// Searches the interpretations.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let columns = Columns::read(self.data, &self.machine.spec, MOST_ROWS, notes)?;
+        let kinematics = Kinematics::new(&self.machine.spec)
+            .map_err(|error| mistake::whole(&self.machine.origin, &error))?;
+        let layouts = PoseFormat::all(columns.pose.first().map_or(0, Vec::len));
+        if layouts.is_empty() {
+            let count = columns.pose.first().map_or(0, Vec::len);
+            let message = format!("beside the joints there are {count} columns of numbers");
+            let help = "a position has 3; a pose 6 with angles, 7 with a quaternion, 12 with a matrix, 16 as 4×4; leave out the others";
+            return Err(mistake::with_help(self.data.name(), message, help));
+        }
+        let tolerance = Tolerance { within: self.within, share: WITHIN, enough: 1.0 };
+        let metres = self.machine.spec.length.in_metres();
+        let observed = Observed::all(&columns.pose, &layouts, &LENGTHS, &[None], metres);
+        let search = Search::new(&kinematics, &columns.joints, &LENGTHS, observed, tolerance);
+        let candidates = search.run(alternatives::stages(&kinematics), notes)?;
+        let Ranked { found, simpler, others } = ranked(candidates, &tolerance, None);
+        let spec = &self.machine.spec;
+        let best = found.first().or(others.first());
+        let within = best.map_or(self.within.unwrap_or_default(), |best| tolerance.limit(best.spread));
+        if let Some(asked) = self.within.filter(|asked| *asked > within) {
+            let unit = spec.length.symbol();
+            notes.warn(&format!(
+                "{} {unit} are more than a tenth of how far the positions spread, which any reading may leave: {} {unit} are taken",
+                digits(asked, 3),
+                digits(within, 3)
+            ));
+        }
+        let finding = |candidate: &Candidate| Finding {
+            words: words::interpretation(&candidate.interpretation, spec),
+            interpretation: candidate.interpretation.clone(),
+            residual: candidate.residual.position,
+            angle: candidate.residual.angle,
+            both: candidate.residual.both,
+        };
+        let (map, of_spec) = match found.first() {
+            Some(first) => {
+                let (map, of_spec) = map_writer::map(first, spec, &columns, within);
+                (Some(map), of_spec)
+            }
+            None => (None, Vec::new()),
+        };
+        let found: Vec<Finding> = found.iter().map(finding).collect();
+        let others: Vec<Finding> = others.iter().map(finding).collect();
+        Ok(Report {
+            name: spec.name.clone(),
+            length: spec.length.symbol(),
+            rows: columns.joints.len(),
+            fits: !found.is_empty(),
+            simpler: simpler.as_ref().map(finding),
+            joints: columns.joint_names,
+            seen: columns.pose_names,
+            within,
+            sentence: sentence(&found, &others, spec, within),
+            found,
+            others,
+            map,
+            of_spec,
+        })
+    }
+}

@@ -1,0 +1,72 @@
+//! The job: numbers, single errors, charts, and what has changed.
+
+use abbe_interpreter::Interpreter;
+use abbe_spec::diagnostic::Diagnostics;
+
+use super::charts::{Chart, Limit, charts};
+use super::checks::Checks;
+use super::finding::finding;
+use super::numbers::Numbers;
+use super::report::{Alarm, Report};
+use super::settings::Settings;
+use super::single_errors::SingleErrors;
+use crate::data::Map;
+use crate::{Machine, Notes, finite};
+
+/// Is this machine still what it was?
+pub struct Monitor {
+    /// The machine as its spec has it: with the errors that were identified, if they were.
+    pub machine: Machine,
+    /// What the columns of the data are.
+    pub map: Map,
+    /// The checks.
+    pub checks: Checks,
+    /// How it is watched.
+    pub settings: Settings,
+}
+
+impl Monitor {
+    /// Watches from the first check to the last.
+    pub fn run(&self, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, map, checks, settings } = self;
+        let spec = &machine.spec;
+        let interpreter = Interpreter::new(spec.clone());
+        let checks = &checks.completed(map, &interpreter, spec);
+        let (numbers, model) = Numbers::new(&interpreter, map, checks, notes)?;
+        let errors = SingleErrors::new(spec, &model, &numbers);
+        let limit = Limit::new(settings, errors.charts.len() + 1);
+        let (charts, left) = charts(&errors, &numbers, &limit);
+        let date = |check: usize| checks.calendar.show(checks.list[check].time);
+        let alarm = alarm(&charts, &left, date);
+        let found = alarm.as_ref().and_then(|_| finding(&errors, &numbers, checks, settings.tolerance));
+        let report = Report {
+            name: spec.name.clone(),
+            length: spec.length.symbol(),
+            title: map.title.clone(),
+            calendar: checks.calendar,
+            times: checks.list.iter().map(|check| check.time).collect(),
+            dates: (0..checks.list.len()).map(date).collect(),
+            configurations: numbers.configurations,
+            left_out: numbers.left_out,
+            numbers: numbers.free(),
+            fixed_station: numbers.fixed_station,
+            limit,
+            charts,
+            left,
+            unseen: errors.unseen,
+            finding: found,
+            alarm,
+            tolerance: settings.tolerance,
+            files: checks.list.iter().map(|check| check.data.summary()).collect(),
+        };
+        finite("abbe monitor", report)
+    }
+}
+
+fn alarm(charts: &[Chart], left: &Chart, date: impl Fn(usize) -> String) -> Option<Alarm> {
+    let all = || charts.iter().chain([left]);
+    let check = all().filter_map(|chart| chart.alarm).min()?;
+    let here = all().filter(|chart| chart.alarm == Some(check));
+    let farthest = here.max_by(|a, b| a.average[check].abs().total_cmp(&b.average[check].abs()))?;
+    Some(Alarm { check, date: date(check), chart: farthest.name.clone() })
+}
