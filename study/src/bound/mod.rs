@@ -1,10 +1,13 @@
 //! How large the errors of the tool point are at most: over a box of joints, parameters and inputs, with a proof.
 //!
-//! `domain` is the box in which everything is sought, `least` how far the joints move the tool at least, and how stiff the machine is at least; `norms` are those of the position's errors alone, for an analysis.
+//! `domain` is the box in which everything is sought, `remainder` what first order and a step of compensation leave, `least` how far
+//! the joints move the tool at least, and how stiff the machine is at least; `norms` are those of the position's errors alone, for an
+//! analysis.
 
 mod domain;
 mod least;
 mod norms;
+mod remainder;
 mod report;
 
 use std::path::PathBuf;
