@@ -18,12 +18,12 @@
 //! ```
 //! # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
-//! use abbe::analysis::{Admissible, Asked, error_budget, random_joint_samples};
+//! use abbe::analysis::{Admissible, BudgetOptions, error_budget, random_joint_samples};
 //! use pps::{DESCRIPTION, Pps};
 //!
 //! let moved = [0, 1, 2, 3]; // the three slides and the spin; the other joints stay at home
 //! let workspace = random_joint_samples(&Pps, &moved, 10_000, 1)?;
-//! let budget = error_budget(&Pps, &workspace, Asked::default(), &mut ())?;
+//! let budget = error_budget(&Pps, &workspace, BudgetOptions::default(), &mut ())?;
 //! for errors in &budget.sources {
 //!     println!("{}: {:.4} mm", DESCRIPTION.sources[errors.source].name, errors.plain_max.norm);
 //! }
@@ -55,9 +55,9 @@ mod tests;
 
 pub use abbe_core::lanes::Sweepable;
 pub use budget::{
-    Admissible, Asked, Budget, BudgetPart, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures, Gap,
-    OrientationErrors, RemainingErrors, Residual, SourceErrors, Sphere, Survey, Watch, covariance,
-    error_budget, variance,
+    Admissible, Budget, BudgetOptions, BudgetSweep, CHI_SQUARED_95, Combined, Ellipsoid, Extreme, Figures,
+    Gap, OrientationErrors, PartialBudget, RemainingErrors, Residual, SourceErrors, Sphere, Watch,
+    covariance, error_budget, variance,
 };
 pub use identifiable::{
     Identifiability, Measurement, Parts, RANK_THRESHOLD, identifiable, identifiable_in_parts,

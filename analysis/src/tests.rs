@@ -47,7 +47,7 @@ fn workspace_is_the_inverse_in_closed_form() {
 fn budget_is_the_papers() {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
     let (mut rows, mut largest) = (0, 0.0);
-    let budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut |row: &Row| {
+    let budget = error_budget(&OneByOne(Pps), &workspace, BudgetOptions::default(), &mut |row: &Row| {
         assert_eq!(row.index, rows);
         rows += 1;
         largest = f64::max(largest, sampling::norm(Measurand::Position.rows(&row.repeatable)));
@@ -138,7 +138,7 @@ fn a_6r_arm_reaches_what_it_can() {
 #[test]
 fn empty_workspace_has_no_errors() {
     let workspace = joint_samples(&Pps, &[], 0).unwrap();
-    let budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut ()).unwrap();
+    let budget = error_budget(&OneByOne(Pps), &workspace, BudgetOptions::default(), &mut ()).unwrap();
     assert_eq!((budget.combined, budget.configurations), (Combined::default(), 0));
     assert!(budget.sources.iter().all(|source| source.half_peak_to_peak == Figures::default()));
     assert_eq!(identifiable(&Pps, &[], Measurement::Pose, true).unwrap().rank, 0);
@@ -146,7 +146,7 @@ fn empty_workspace_has_no_errors() {
     let refused = listed(&Pps, vec![Configuration { q: vec![0.0; 5], s: vec![0.0; 3], u: Vec::new() }]);
     assert!(matches!(refused, Err(abbe_core::Error::Count { expected: 6, found: 5, .. })));
     // Another manipulator's workspace.
-    let refused = error_budget(&OneByOne(Puma), &workspace, Asked::default(), &mut ()).unwrap_err();
+    let refused = error_budget(&OneByOne(Puma), &workspace, BudgetOptions::default(), &mut ()).unwrap_err();
     assert_eq!(refused.configuration, None);
 }
 

@@ -395,11 +395,10 @@ pub(crate) fn analysis(report: analyze::Report, notes: Vec<String>) -> PyResult<
 /// The ledger and the uncertainty budgets as tables.
 fn budget(report: &analyze::Report) -> String {
     let ledgers = [Some(analyze::ledger(report)), analyze::turns(report)];
-    let stated = report
-        .stated
-        .iter()
-        .flat_map(|stated| [analyze::contributions(report, stated), analyze::totals(report, stated)]);
-    ledgers.into_iter().flatten().chain(stated).map(|listing| abbe_report::listed(&listing)).collect()
+    let budgets = report
+        .uncertainty_budgets()
+        .flat_map(|budget| [analyze::contributions(report, budget), analyze::totals(report, budget)]);
+    ledgers.into_iter().flatten().chain(budgets).map(|listing| abbe_report::listed(&listing)).collect()
 }
 
 /// Says which rows cannot be used, as the command does.

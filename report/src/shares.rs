@@ -22,7 +22,7 @@ pub(super) struct Share {
 pub(super) fn shares(figure: &Named, report: &Report) -> Vec<Share> {
     let errors = figure.axis(report);
     let sources = report.budget.errors(figure.asked.measurand).0.iter();
-    let name = |source: usize| report.source(source).name.clone();
+    let name = |source: usize| report.sources[source].name.clone();
     let largest = sources.map(|alone| (name(alone.source), errors.show(alone.plain_max.norm)));
     let mut largest = largest.collect::<Vec<_>>();
     largest.sort_by(|a, b| b.1.total_cmp(&a.1));

@@ -33,8 +33,8 @@
 //! let report = Analyze::new(machine, study).run(&mut ())?;
 //! assert_eq!(report.budget.configurations, 999);
 //! let [first, ..] = &report.budget.tighten_first()[..] else { panic!("there are sources") };
-//! println!("radius {:.3} mm; tighten first: {}", report.budget.combined.radius.value, report.source(*first).name);
-//! # assert_eq!(report.source(*first).name, "assembly");
+//! println!("radius {:.3} mm; tighten first: {}", report.budget.combined.radius.value, report.sources[*first].name);
+//! # assert_eq!(report.sources[*first].name, "assembly");
 //! # Ok::<(), abbe_spec::diagnostic::Diagnostics>(())
 //! ```
 //!

@@ -161,7 +161,7 @@ pub fn trimmed(value: f64, decimals: usize) -> String {
 }
 
 /// Named numbers, in JSON an object in this order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Named(pub Vec<(String, f64)>);
 
 impl Serialize for Named {

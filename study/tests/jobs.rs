@@ -40,9 +40,9 @@ fn the_papers_radius_without_a_process() {
     let mut job = Analyze::new(machine, study);
     job.figures = true;
     let report = job.run(&mut ()).unwrap();
-    let (published, agreement) = report.published(&Subject::Combined(CombinedFigure::Both)).unwrap();
+    let published = report.published(&Subject::Combined(CombinedFigure::Both)).unwrap();
     assert!(published.figures[3].is_some());
-    assert!(matches!(agreement, Agreement::Met | Agreement::Missed { .. }));
+    assert!(matches!(published.agreement, Agreement::Met | Agreement::Missed { .. }));
     assert_eq!(report.figures.as_ref().unwrap().figures.len(), report.study.figures.len());
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!(json["combined"]["radius"], report.budget.combined.radius.value);

@@ -4,7 +4,7 @@ use abbe::analysis::{Compliance, Measurand, errors_at, normal_compliance};
 use abbe_spec::Spec;
 use abbe_spec::document::Document;
 use abbe_study::analyze::figures::Gathered;
-use abbe_study::analyze::{Analyze, Report, Verdict, contributions};
+use abbe_study::analyze::{Analyze, Report, ToleranceVerdict, Verdict, contributions};
 use abbe_study::{Machine, Study};
 
 /// A slide with a repeatable error of 0.1 mm along x, and four random ones of this size and distribution in the same direction.
@@ -42,23 +42,31 @@ fn report(distribution: &str, size: &str, tolerance: &str) -> Report {
     Analyze::new(machine, study).run(&mut ()).unwrap()
 }
 
+/// The verdict on the only tolerance.
+fn verdict(report: &Report) -> &ToleranceVerdict {
+    let [verdict] = report.verdicts.as_ref().unwrap().all().collect::<Vec<_>>()[..] else {
+        panic!("one tolerance")
+    };
+    verdict
+}
+
 /// One repeatable and four uniform errors of T/5: the equal share at which the tolerance is met for certain.
 #[test]
 fn bounded_errors_are_judged_for_certain() {
     let met = report("uniform", "0.1 mm", "\"0.5001 mm\"");
     assert_eq!(met.verdict(), Some(Verdict::Met));
     assert_eq!(met.verdict_line().unwrap(), "Verdict: met");
-    assert!((met.judged[0].largest.unwrap() - 0.5).abs() < 1e-12);
-    assert_eq!(met.judged[0].compliance.probability, 1.0);
-    let admissible = met.admissible.as_ref().unwrap();
-    assert_eq!(admissible.equal_probability, 1.0);
-    assert!((admissible.share.unwrap() - 0.10002).abs() < 1e-12);
+    assert!((verdict(&met).largest.unwrap() - 0.5).abs() < 1e-12);
+    assert_eq!(verdict(&met).compliance.probability, 1.0);
+    let allowance = met.allowance.as_ref().unwrap();
+    assert_eq!(allowance.equal_share_probability, 1.0);
+    assert!((allowance.equal_share.unwrap() - 0.10002).abs() < 1e-12);
     assert!(met.conclusions().iter().any(|said| said.contains("it is met for certain")));
 
     // The extremes are beyond it, and few draws.
     let likely = report("uniform", "0.1 mm", "\"0.4 mm\"");
     assert_eq!(likely.verdict(), Some(Verdict::MetWithProbability));
-    let compliance = likely.judged[0].compliance;
+    let compliance = verdict(&likely).compliance;
     // The sum of four uniform errors is within 3 of 4 widths but for twice 1/4!/16.
     let exact = 1.0 - 1.0 / 384.0;
     assert!(
@@ -77,11 +85,11 @@ fn normal_errors_have_a_probability() {
     let report = report("normal", "0.1 mm", "\"0.5 mm\"");
     // Φ(2) − Φ(−3).
     let exact = 0.977_249_868_051_820_8 - 0.001_349_898_031_630_094_6;
-    let compliance = report.judged[0].compliance;
+    let compliance = verdict(&report).compliance;
     assert!(compliance.draws.is_none() && (compliance.probability - exact).abs() < 1e-9);
     assert_eq!(report.verdict(), Some(Verdict::MetWithProbability));
     assert_eq!(report.verdict_line().unwrap(), "Verdict: met with probability 97.59 %");
-    assert!(report.judged[0].largest.is_none());
+    assert!(verdict(&report).largest.is_none());
     let allowed = report.conclusions().join(" ");
     // 0.9973⁴, rounded down.
     assert!(
@@ -117,7 +125,7 @@ fn orientation_has_a_tolerance_of_its_own() {
     study.tolerance = None;
     study.orientation_tolerance = Some(1e-4);
     let report = Analyze::new(machine, study).run(&mut ()).unwrap();
-    let [judged] = &report.judged[..] else { panic!("one tolerance") };
+    let judged = verdict(&report);
     assert_eq!((judged.measurand, judged.verdict), (Measurand::Orientation, Verdict::NotMet));
     let json = serde_json::to_value(&report).unwrap();
     assert_eq!(json["verdict"]["orientation"]["verdict"], "not-met");
@@ -209,7 +217,7 @@ fn the_value_of_a_joint_is_its_angle() {
         |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() / expected - 1.0).abs() < 1e-9;
     assert!(close(&source["value"], 3e-4) && close(&source["sensitivity"][3], 100.0), "{source}");
     assert!(close(&source["standard_uncertainty"][3], 0.03 / 6_f64.sqrt()));
-    let table = contributions(&report, &report.stated[0]);
+    let table = contributions(&report, report.uncertainty.as_ref().unwrap());
     assert_eq!(table.rows[0][1..5], ["0.3 mrad", "triangular", "√6", "0.1 mm/mrad"]);
 }
 
@@ -245,21 +253,21 @@ fn a_magnitude_is_not_known_exactly() {
     let samples = "tolerance = \"0.0892 mm\"\n[workspace.joints]\nsamples = 5\n";
     let magnitude = "magnitude = { value = 0.5, standard_deviation = 0.2 }\n";
     let report = analyzed(&format!("{SLIDE}{magnitude}"), samples);
-    let names = report.sources().iter().map(|source| source.name.clone()).collect::<Vec<_>>();
+    let names = report.sources.iter().map(|source| source.name.clone()).collect::<Vec<_>>();
     assert_eq!(names, ["scale", "scale (its magnitude)"]);
-    let statement = &report.stated[0].statement;
-    assert!((statement.standard[0] - 0.02).abs() < 1e-15 && (statement.bias[0] - 0.05).abs() < 1e-15);
-    let table = contributions(&report, &report.stated[0]);
+    let budget = report.uncertainty.as_ref().unwrap();
+    assert!((budget.standard_uncertainty[0] - 0.02).abs() < 1e-15 && (budget.bias[0] - 0.05).abs() < 1e-15);
+    let table = contributions(&report, report.uncertainty.as_ref().unwrap());
     assert_eq!(table.rows[0][..5], ["scale (its magnitude)", "0.2", "normal", "1", "0.1 mm"]);
     // Φ((0.0892 − 0.05)/0.02) = Φ(1.96); the other end is far away. Nothing is certain any more.
-    let judged = &report.judged[0];
+    let judged = verdict(&report);
     assert!((judged.compliance.probability - 0.975_002_1).abs() < 1e-6, "{judged:?}");
     assert!(judged.largest.is_none() && (report.budget.combined.random_radius.value - 0.06).abs() < 1e-15);
     // Without it the source is what it was, and if it is switched off nothing is left of it.
     let plain = analyzed(SLIDE, samples);
-    assert_eq!((plain.sources().len(), plain.stated.len()), (1, 0));
+    assert_eq!((plain.sources.len(), plain.uncertainty_budgets().count()), (1, 0));
     let off = analyzed(&format!("{SLIDE}{magnitude}"), &format!("disable = [\"scale\"]\n{samples}"));
-    assert!(off.sources().is_empty());
+    assert!(off.sources.is_empty());
 }
 
 /// Nine degrees of freedom: Student's t in k, in the table, in the verdict.
@@ -269,11 +277,11 @@ fn few_measurements_are_said() {
                      frame = \"slide\"\ne_y = \"0.01 mm\"\n";
     let text = SLIDE.replace("0.1 mm", "0 mm") + estimated;
     let report = analyzed(&text, "tolerance = \"0.022621572 mm\"\n[workspace.joints]\nsamples = 5\n");
-    let (stated, judged) = (&report.stated[0], &report.judged[0]);
-    assert!((stated.statement.expanded()[3] - 0.022_621_572).abs() < 1e-9);
-    assert_eq!(contributions(&report, stated).rows[0][6], "9");
-    assert_eq!(abbe_study::analyze::totals(&report, stated).rows[3][2], "9");
-    let said = abbe_study::analyze::sentences(&report, stated).join(" ");
+    let (budget, judged) = (report.uncertainty.as_ref().unwrap(), verdict(&report));
+    assert!((budget.expanded_uncertainty[3] - 0.022_621_572).abs() < 1e-9);
+    assert_eq!(contributions(&report, budget).rows[0][6], "9");
+    assert_eq!(abbe_study::analyze::totals(&report, budget).rows[3][2], "9");
+    let said = abbe_study::analyze::sentences(&report, budget).join(" ");
     assert!(said.contains("Student's t") && said.contains("(2.262 × 0.01 mm)"), "{said}");
     assert!(!said.contains("taken as infinite"), "{said}");
     let Compliance { probability, error, draws } = judged.compliance;
@@ -335,7 +343,7 @@ fn the_least_likely_configuration_is_found() {
             normal_compliance(&errors, Measurand::Position, tolerance).probability
         };
         let least = (0..workspace.len()).map(likely).fold(1.0, f64::min);
-        let judged = &report.judged[0];
+        let judged = verdict(&report);
         assert!(judged.compliance.probability < least + 1e-3, "{seed}: {judged:?}, {least}");
         elsewhere += usize::from(likely(report.budget.combined.radius.configuration.unwrap()) > least + 5e-3);
         assert!(report.verdict_sentences()[0].contains("the least of"), "{:?}", report.verdict_sentences());

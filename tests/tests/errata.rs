@@ -1,7 +1,7 @@
 //! The errata of the paper's text, each shown to be one.
 
 use abbe::Component;
-use abbe::analysis::{Asked, Axis, Presentation, error_budget, presented_volume};
+use abbe::analysis::{Axis, BudgetOptions, Presentation, error_budget, presented_volume};
 use abbe_codegen::graph::Graph;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
@@ -104,7 +104,7 @@ fn the_printed_signs_cannot_give_the_printed_figure() {
         },
     )
     .unwrap();
-    let budget = error_budget(&robot, &workspace, Asked::default(), &mut ()).unwrap();
+    let budget = error_budget(&robot, &workspace, BudgetOptions::default(), &mut ()).unwrap();
     assert_eq!((budget.configurations, budget.unreachable.count), (999, 0));
     let z = budget.sources[0].half_peak_to_peak.z;
     println!("Z with the printed signs: {z:.4} mm half peak-to-peak");

@@ -2,7 +2,7 @@
 
 use abbe::Manipulator;
 use abbe::analysis::{
-    Admissible, Asked, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo,
+    Admissible, BudgetOptions, Configuration, MonteCarlo, error_budget, joint_samples, monte_carlo,
 };
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
@@ -135,7 +135,7 @@ fn zero_and_one_sided_sources_have_clear_results() {
     "#);
     let robot = Interpreter::new(spec.clone());
     let workspace = joint_samples(&robot, &[0, 1], 500).unwrap();
-    let budget = error_budget(&robot, &workspace, Asked::default(), &mut ()).unwrap();
+    let budget = error_budget(&robot, &workspace, BudgetOptions::default(), &mut ()).unwrap();
     let [nothing, one_sided] = &budget.sources[..] else { panic!("two sources") };
     assert_eq!((nothing.plain_max.norm, nothing.rms), (0.0, 0.0));
     // It never goes below nothing, so half of what it varies by is half of the largest.

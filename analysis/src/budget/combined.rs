@@ -72,7 +72,7 @@ pub struct Combined {
 const ALIKE: f64 = 1e-9;
 
 impl Combined {
-    /// Takes in what follows, but for the spheres, which [`Gathered`] has.
+    /// Takes in what follows, but for the spheres, which [`PartialCombined`] has.
     fn merge(&mut self, other: &Self) {
         for (here, other) in [
             (&mut self.repeatable_radius, &other.repeatable_radius),
@@ -103,12 +103,12 @@ impl Combined {
 /// What was gathered over some configurations: [`Combined`] without the last steps.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Gathered {
+pub(super) struct PartialCombined {
     combined: Combined,
     outline: Outline,
 }
 
-impl Gathered {
+impl PartialCombined {
     /// Of no configurations, beginning with the ellipsoid of some.
     pub(super) fn new(ellipsoid: Ellipsoid) -> Self {
         let combined = Combined { ellipsoid, ..Combined::default() };
@@ -240,7 +240,7 @@ impl<R: Register> Lane<R> {
     }
 
     /// What was gathered, with the indices of the places; and the sums of squares of the three norms.
-    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Gathered, [f64; 3]) {
+    pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (PartialCombined, [f64; 3]) {
         let extreme = |peak: Peak<R>, f: fn(f64) -> f64| {
             let (value, configuration) =
                 peak.finish().map(|(value, place)| (f(value), Some(index(place)))).unwrap_or_default();
@@ -261,6 +261,6 @@ impl<R: Register> Lane<R> {
             ellipsoid: self.ellipsoid,
             ..Combined::default()
         };
-        (Gathered { combined, outline: self.outline.finish() }, self.squares.map(peak::sum))
+        (PartialCombined { combined, outline: self.outline.finish() }, self.squares.map(peak::sum))
     }
 }

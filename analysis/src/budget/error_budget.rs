@@ -1,9 +1,8 @@
-//! The error budget of a workspace: every source alone and all together, in one sweep.
+//! The error budget of a workspace, its options, and who looks on.
 
-use super::{Combined, RemainingErrors, Residual, SourceErrors, Survey};
-use crate::sweep::{Row, Unevaluated};
-use crate::{Measurand, UnreachableSummary, Workspace};
-use abbe_core::lanes::Sweepable;
+use super::{Combined, RemainingErrors, Residual, SourceErrors};
+use crate::sweep::Row;
+use crate::{Measurand, UnreachableSummary};
 
 /// What the sources of a manipulator do over a workspace, to first order.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,18 +38,16 @@ impl Budget {
             }
         }
     }
-}
 
-impl Budget {
     /// Where the tolerance of a measurand is least likely met, [`least_likely`](Self::least_likely) of it.
     pub fn least_likely_of(&self, measurand: Measurand) -> &[usize] {
         &self.least_likely[measurand as usize]
     }
 }
 
-/// What a budget is asked besides.
+/// Options of a budget.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Asked<'a> {
+pub struct BudgetOptions<'a> {
     /// What compensation leaves of each source, none of random ones; nothing if there is no compensation.
     pub residuals: Option<&'a [Option<Residual>]>,
     /// How large the norms of the errors of position (length unit) and orientation (rad) may be, if that is said.
@@ -93,19 +90,4 @@ impl<F: FnMut(&Row)> Watch for F {
     fn row(&mut self, row: &Row) {
         self(row);
     }
-}
-
-/// What the sources do over a workspace, section 5 of the paper.
-///
-/// Nothing is stored, blocks are evaluated in parallel (feature `parallel`), and on one instruction set the result is the same to the last bit for
-/// any number of threads, and however a [`Survey`] of it is divided. Errors as for [`sweep`](crate::sweep).
-pub fn error_budget(
-    manipulator: &dyn Sweepable,
-    workspace: &dyn Workspace,
-    asked: Asked<'_>,
-    watch: &mut dyn Watch,
-) -> Result<Budget, Unevaluated> {
-    let survey = Survey::new(manipulator, workspace, asked)?;
-    let all = survey.part(0..survey.chunks(), watch)?;
-    Ok(survey.finish(all))
 }

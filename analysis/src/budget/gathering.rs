@@ -1,7 +1,7 @@
 //! What is gathered of one measurand: position, or orientation.
 
 use super::aligned_sums::AlignedSums;
-use super::combined::{self, Gathered};
+use super::combined::{self, PartialCombined};
 use super::gains::{self, Gains};
 use super::least_likely::{self, LeastLikely};
 use super::outline::{self, Outline, View};
@@ -78,7 +78,7 @@ pub(super) struct Beginning {
 pub(super) struct Gathering {
     tallies: Vec<Tally>,
     outlines: Vec<Outline>,
-    gathered: Gathered,
+    combined: PartialCombined,
     /// Of the norm of each source, then of the three norms of all together.
     squares: AlignedSums,
     gains: Gains,
@@ -91,7 +91,7 @@ impl Gathering {
         Self {
             tallies: vec![Tally::new(); sources],
             outlines: vec![Outline::default(); sources],
-            gathered: Gathered::new(Ellipsoid::default()),
+            combined: PartialCombined::new(Ellipsoid::default()),
             squares: AlignedSums::default(),
             gains: Gains::new(sources),
             least_likely: LeastLikely::default(),
@@ -106,7 +106,7 @@ impl Gathering {
         for (outline, other) in self.outlines.iter_mut().zip(&other.outlines) {
             outline.merge(other);
         }
-        self.gathered.merge(&other.gathered);
+        self.combined.merge(&other.combined);
         self.squares.append(other.squares);
         self.gains.merge(&other.gains);
         self.least_likely.merge(&other.least_likely);
@@ -130,14 +130,14 @@ impl Gathering {
         });
         let sources = sources.collect();
         let together = core::array::from_fn(|i| together[i]);
-        let combined = self.gathered.finish(count, together, &beginning.view, &beginning.points);
+        let combined = self.combined.finish(count, together, &beginning.view, &beginning.points);
         let gains = self.gains.gains(combined.radius.value);
         (sources, combined, gains, self.least_likely.finish())
     }
 
     /// Whether it is of so many sources.
     pub(super) fn is_of(&self, sources: usize) -> bool {
-        let sound = self.outlines.iter().chain([self.gathered.outline()]).all(Outline::is_sound);
+        let sound = self.outlines.iter().chain([self.combined.outline()]).all(Outline::is_sound);
         sound
             && self.tallies.len() == sources
             && self.outlines.len() == sources
@@ -214,12 +214,12 @@ impl<R: Register> Lane<R> {
         let outlines = outlines.map(|outline| outline.map(outline::Lane::finish).unwrap_or_default());
         let singles = self.singles.into_iter().map(|single| single.finish(index));
         let (tallies, mut squares): (Vec<_>, Vec<_>) = singles.unzip();
-        let (gathered, together) = self.all.finish(index);
+        let (combined, together) = self.all.finish(index);
         squares.extend(together);
         Gathering {
             tallies,
             outlines: outlines.collect(),
-            gathered,
+            combined,
             squares: AlignedSums::of(chunk, squares),
             gains: self.shrunk.finish(),
             least_likely: self.least_likely.map(least_likely::Lane::finish).unwrap_or_default(),

@@ -5,6 +5,7 @@
 
 mod admissible;
 mod aligned_sums;
+mod budget_sweep;
 mod combined;
 mod ellipsoid;
 mod enclosing_sphere;
@@ -13,17 +14,18 @@ mod gains;
 mod gathering;
 mod least_likely;
 mod outline;
-mod part;
+mod partial_budget;
 mod peak;
 mod remaining_errors;
 mod source_errors;
 mod sums;
 
 pub use admissible::Admissible;
+pub use budget_sweep::{BudgetSweep, error_budget};
 pub use combined::{Combined, Extreme};
 pub use ellipsoid::{CHI_SQUARED_95, Ellipsoid, covariance, variance};
 pub use enclosing_sphere::Sphere;
-pub use error_budget::{Asked, Budget, OrientationErrors, Watch, error_budget};
-pub use part::{BudgetPart, Gap, Survey};
+pub use error_budget::{Budget, BudgetOptions, OrientationErrors, Watch};
+pub use partial_budget::{Gap, PartialBudget};
 pub use remaining_errors::{RemainingErrors, Residual};
 pub use source_errors::{Figures, SourceErrors};

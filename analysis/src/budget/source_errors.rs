@@ -8,6 +8,7 @@ use abbe_core::{Class, Scalar};
 /// A figure per axis, and of the norm. Of positions along the axes of `F_0` in the length unit, of orientations rows 4–6 in
 /// rad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Figures {
     /// Along x.
     pub x: f64,

@@ -12,9 +12,13 @@ const DRAWS: usize = 4096;
 
 /// What is drawn at one configuration: all sources together, repeatable ones as they are, of random ones one
 /// magnitude for all effects. Position errors in `F_0`, length unit.
+///
+/// With the feature `serde` it serializes as in the report of `abbe analyze`, where both places share the number of draws.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MonteCarlo {
     /// How many draws.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub draws: usize,
     /// The 50, 95 and 99 % quantiles of the norm of the whole error.
     pub quantiles: [Quantile; 3],
@@ -25,11 +29,14 @@ pub struct MonteCarlo {
     /// The covariance of the draws.
     pub covariance: [[f64; 3]; 3],
     /// The standard error of each of its entries, `√(Var(d_i d_j) / N)`.
+    #[cfg_attr(feature = "serde", serde(rename = "covariance_standard_error"))]
     pub standard_error: [[f64; 3]; 3],
     /// The same covariance to first order, `J_e Σ J_eᵀ`.
+    #[cfg_attr(feature = "serde", serde(rename = "first_order_covariance"))]
     pub first_order: [[f64; 3]; 3],
     /// The share of the draws within the first-order 95 % ellipsoid about the error without random sources; none
     /// where that is flat. It is 0.95 for normal sources, for others not.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub inside_ellipsoid: Option<f64>,
 }
 
@@ -92,7 +99,8 @@ pub fn monte_carlo(
         draws,
         quantiles: [0.5, 0.95, 0.99].map(|probability| Quantile::from_sorted(&norms, probability)),
         largest: norms.last().copied().unwrap_or_default(),
-        mean: core::array::from_fn(|i| without_random[i] + mean[i]),
+        // Never −0.
+        mean: core::array::from_fn(|i| without_random[i] + mean[i] + 0.0),
         covariance,
         standard_error,
         first_order,
@@ -147,7 +155,8 @@ impl Sums {
         let count = self.count.max(1) as f64;
         let mean = self.d.map(|sum| sum / count);
         let matrix = |entry: &dyn Fn(usize, usize) -> f64| {
-            core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)))
+            // Never −0.
+            core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j) + 0.0))
         };
         let covariance = matrix(&|i, j| {
             let entry = self.products[i][j] / count - mean[i] * mean[j];

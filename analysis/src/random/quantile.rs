@@ -2,6 +2,7 @@
 
 /// A quantile of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Quantile {
     /// Which share of what is drawn is at most this large.
     pub probability: f64,

@@ -11,7 +11,8 @@ fn every_number_of_threads_gives_the_same_to_the_last_bit() {
         pool.install(|| {
             let mut rows = Vec::new();
             let mut visit = |row: &Row| rows.push((row.index, row.repeatable, row.random));
-            let budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut visit).unwrap();
+            let budget =
+                error_budget(&OneByOne(Pps), &workspace, BudgetOptions::default(), &mut visit).unwrap();
             let drawn = monte_carlo(&OneByOne(Pps), workspace.home(), 10_000, 5).unwrap();
             (budget, rows, drawn)
         })
@@ -73,9 +74,10 @@ fn what_cannot_be_reached_is_counted_by_reason() {
     let mut configurations = vec![at(-1.0, 0.0); 1500];
     configurations.extend(vec![at(0.0, 561.0); 2000]);
     let nowhere = listed(&Pps, configurations.clone()).unwrap();
-    let budget =
-        error_budget(&OneByOne(Pps), &nowhere, Asked::default(), &mut |_: &Row| panic!("nothing is reached"))
-            .unwrap();
+    let budget = error_budget(&OneByOne(Pps), &nowhere, BudgetOptions::default(), &mut |_: &Row| {
+        panic!("nothing is reached")
+    })
+    .unwrap();
     assert_eq!((budget.configurations, budget.unreachable.count), (0, 3500));
     assert_eq!(budget.unreachable.first.len(), 1000);
     let kinds = budget.unreachable.reasons.iter().map(|(reason, count)| match reason {
@@ -87,9 +89,10 @@ fn what_cannot_be_reached_is_counted_by_reason() {
     configurations.push(at(5.0, 5.0));
     let somewhere = listed(&Pps, configurations).unwrap();
     let mut visited = Vec::new();
-    let budget =
-        error_budget(&OneByOne(Pps), &somewhere, Asked::default(), &mut |row: &Row| visited.push(row.index))
-            .unwrap();
+    let budget = error_budget(&OneByOne(Pps), &somewhere, BudgetOptions::default(), &mut |row: &Row| {
+        visited.push(row.index)
+    })
+    .unwrap();
     assert_eq!((budget.configurations, visited), (1, vec![3500]));
     assert_eq!(budget.sources[0].worst, Some(3500));
     // One point: its errors are all there is, and the smallest sphere around them is a point.

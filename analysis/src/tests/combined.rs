@@ -14,7 +14,7 @@ type Errors = (Configuration, Vec<Vector3<f64>>);
 fn papers() -> (Budget, Vec<Errors>) {
     let workspace = presented_volume(&Pps, &presentation()).unwrap();
     let mut rows = Vec::new();
-    let budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut |row: &Row| {
+    let budget = error_budget(&OneByOne(Pps), &workspace, BudgetOptions::default(), &mut |row: &Row| {
         let sources = row.sources.iter().map(|source| Vector3::from_row_slice(&source[..3]));
         rows.push((row.configuration.clone(), sources.collect()));
     });
@@ -127,7 +127,7 @@ fn a_tolerance_is_met_at_the_scales_it_allows() {
 #[test]
 fn nothing_limits_a_source_that_does_nothing() {
     let workspace = joint_samples(&Pps, &[], 1).unwrap();
-    let mut budget = error_budget(&OneByOne(Pps), &workspace, Asked::default(), &mut ()).unwrap();
+    let mut budget = error_budget(&OneByOne(Pps), &workspace, BudgetOptions::default(), &mut ()).unwrap();
     for errors in &mut budget.sources {
         errors.plain_max = Figures::default();
     }
@@ -147,7 +147,7 @@ fn compensation_leaves_what_it_is_said_to() {
         let budget = error_budget(
             &OneByOne(Pps),
             &workspace,
-            Asked { residuals: Some(&residuals), ..Asked::default() },
+            BudgetOptions { residuals: Some(&residuals), ..BudgetOptions::default() },
             &mut (),
         )
         .unwrap();

@@ -1,11 +1,10 @@
 //! How likely a tolerance is met.
 
-use super::errors_at::{ErrorsAt, RandomError, covariance};
+use super::errors_at::{ErrorsAt, RandomError, covariance, is_normal};
 use crate::Measurand;
 use crate::normal::{NormalVector, PROBABILITY_ERROR};
 use crate::sampling::{norm, stream};
 use crate::sweep::in_order;
-use abbe_core::Distribution;
 
 /// How many draws are made where there is no other way.
 pub const DRAWS: usize = 200_000;
@@ -15,6 +14,7 @@ const BLOCK: usize = 8192;
 /// The probability that the norm of the error is within a limit at one configuration: the repeatable sources are as they
 /// are, the random ones drawn, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Compliance {
     /// The probability.
     pub probability: f64,
@@ -35,11 +35,6 @@ pub fn compliance(errors: &ErrorsAt, measurand: Measurand, limit: f64, seed: u64
 /// added, and far quicker.
 pub fn normal_compliance(errors: &ErrorsAt, measurand: Measurand, limit: f64) -> Compliance {
     integrated(errors.bias(measurand), &errors.random(measurand), limit)
-}
-
-/// Whether the sum of such errors is a normal vector.
-pub(super) fn is_normal(random: &[RandomError]) -> bool {
-    random.iter().all(|error| error.distribution == Distribution::Normal && !error.is_estimated())
 }
 
 fn integrated(bias: [f64; 3], random: &[RandomError], limit: f64) -> Compliance {

@@ -3,7 +3,6 @@
 use rand::{Rng, RngExt};
 use rand_distr::StudentT;
 
-use super::compliance::is_normal;
 use crate::sampling::draw;
 use crate::sweep::sweep;
 use crate::workspace::One;
@@ -100,6 +99,11 @@ impl RandomError {
     pub(super) fn standard(&self) -> [f64; 3] {
         self.magnitude.map(|a| a / self.distribution.divisor())
     }
+}
+
+/// Whether the sum of such errors is a normal vector: every standard deviation is known.
+pub(super) fn is_normal(random: &[RandomError]) -> bool {
+    random.iter().all(|error| error.distribution == Distribution::Normal && !error.is_estimated())
 }
 
 /// `Σ_k u_k u_kᵀ`.

@@ -4,10 +4,10 @@ use std::io::Write;
 use std::path::Path;
 
 use abbe::VariableKind;
-use abbe::analysis::{Configuration, Row};
+use abbe::analysis::{Configuration, Figures, Row};
 use abbe_spec::Spec;
 use abbe_spec::cell::harmless;
-use abbe_study::analyze::{Analyze, Drawn, Report, figures_of, reason};
+use abbe_study::analyze::{Analyze, Drawn, Report, reason};
 use abbe_study::number::class;
 use abbe_study::study_file::{CombinedFigure, Metric};
 use csv::{Writer, WriterBuilder};
@@ -142,11 +142,12 @@ fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Resul
     let heading = ["source", "class", "metric"].map(str::to_owned).into_iter().chain(axes);
     writer.write_record(heading.chain(["worst configuration".to_owned()]).collect::<Vec<_>>())?;
     let index = |worst: Option<usize>| worst.map(|worst| worst.to_string()).unwrap_or_default();
-    for errors in &report.budget.sources {
-        let (name, class) = (harmless(report.name(errors)), class(errors.class).0);
+    for source in &report.sources {
+        let (name, class) = (harmless(&source.name), class(source.class).0);
         for (metric_name, metric) in Metric::ALL {
-            let [x, y, z, norm] = figures_of(errors, metric).map(|figure| number(&figure));
-            let worst = index(errors.worst);
+            let Figures { x, y, z, norm } = source.figures(metric);
+            let [x, y, z, norm] = [x, y, z, norm].map(|figure| number(&figure));
+            let worst = index(source.configuration);
             writer.write_record([&name, class, metric_name, &x, &y, &z, &norm, &worst])?;
         }
     }
@@ -156,7 +157,7 @@ fn write_sources(writer: &mut Writer<impl Write>, report: &Report) -> csv::Resul
         combined.random_radius,
         combined.radius,
     ]) {
-        let (axes, norm) = report.combined(figure);
+        let (axes, norm) = report.combined_figure(figure);
         let [x, y, z] = axes.map(|axis| axis.as_ref().map(number).unwrap_or_default());
         let (norm, worst) = (number(&norm), index(worst.configuration));
         writer.write_record(["all together", "", name, &x, &y, &z, &norm, &worst])?;

@@ -32,13 +32,13 @@ pub(super) fn turns(report: &Report) -> String {
 
 /// The budgets of the GUM.
 pub(super) fn uncertainty(report: &Report) -> String {
-    let budgets = report.stated.iter().map(|stated| {
-        let (_, unit) = analyze::unit::of(report, stated.statement.measurand);
+    let budgets = report.uncertainty_budgets().map(|budget| {
+        let (_, unit) = analyze::unit::of(report, budget.measurand);
         let body = format!(
             "{}{}{}",
-            ledger::listed(&analyze::contributions(report, stated)),
-            ledger::listed(&analyze::totals(report, stated)),
-            paragraphs(&analyze::sentences(report, stated)),
+            ledger::listed(&analyze::contributions(report, budget)),
+            ledger::listed(&analyze::totals(report, budget)),
+            paragraphs(&analyze::sentences(report, budget)),
         );
         section(&format!("Uncertainty budget ({unit})"), &body)
     });
@@ -70,7 +70,7 @@ pub(super) fn monte_carlo(report: &Report) -> String {
             "<p>{} draws at each place, seed {}: quantiles of the norm of the whole error with their standard errors, the largest, \
              and standard deviations.</p>\n<table class=\"ledger\"><thead><tr><th class=\"words\">at</th><th>50 %</th><th>95 %</th>\
              <th>99 %</th><th>largest</th><th>σ x</th><th>σ y</th><th>σ z</th></tr></thead>\n<tbody>{rows}</tbody></table>\n",
-            number::short(drawn.worst.draws as f64),
+            number::short(drawn.draws as f64),
             drawn.seed,
         ),
     )

@@ -1,10 +1,10 @@
 //! The tables of the report: every source alone, all together, and what is printed beside them.
 
-use abbe::analysis::{Configuration, Figures, SourceErrors};
+use abbe::analysis::Figures;
 use abbe::{Class, Distribution};
 
 use abbe_study::Listing;
-use abbe_study::analyze::{Agreement, Report};
+use abbe_study::analyze::{Agreement, Comparison, Report, SourceReport};
 use abbe_study::number::{fixed, percent, short, unbroken};
 use abbe_study::study_file::{self, CombinedFigure, Metric};
 
@@ -15,11 +15,10 @@ pub(super) fn sources(report: &Report) -> String {
     let unit = report.spec.length.symbol();
     let share = report.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
     let mut rows = String::new();
-    let mut sources = report.budget.sources.iter().collect::<Vec<_>>();
+    let mut sources = report.sources.iter().collect::<Vec<_>>();
     sources.sort_by(|a, b| b.plain_max.norm.total_cmp(&a.plain_max.norm));
-    for (rank, errors) in sources.into_iter().enumerate() {
-        let worst = report.configuration(errors.worst).filter(|_| errors.plain_max.norm > 0.0);
-        rows += &source(rank + 1, errors, worst, report);
+    for (rank, one) in sources.into_iter().enumerate() {
+        rows += &source(rank + 1, one, report);
     }
     format!(
         "<table class=\"ledger\"><thead><tr><th>rank</th><th class=\"words\">source</th>\
@@ -29,14 +28,10 @@ pub(super) fn sources(report: &Report) -> String {
     )
 }
 
-fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, report: &Report) -> String {
-    let source = report.source(errors.source);
+fn source(rank: usize, source: &SourceReport, report: &Report) -> String {
+    let worst = report.configuration(source.configuration).filter(|_| source.plain_max.norm > 0.0);
     let metrics = Metric::ALL.map(|(name, metric)| {
-        let figures = match metric {
-            Metric::PlainMaximum => errors.plain_max,
-            Metric::HalfPeakToPeak => errors.half_peak_to_peak,
-            Metric::RelativeToHome => errors.relative_to_home,
-        };
+        let figures = source.figures(metric);
         (name, figures, report.published(&study_file::Subject::Source(source.name.clone(), metric)))
     });
     let lines = metrics.iter().map(|(_, _, published)| 1 + usize::from(published.is_some())).sum::<usize>();
@@ -47,8 +42,7 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, rep
     let mut rows = String::new();
     for (i, (name, figures, published)) in metrics.iter().enumerate() {
         let head = if i == 0 {
-            let (name, at, class) =
-                (escaped(&source.name), escaped(&report.spec.place(source)), class(errors.class));
+            let (name, at, class) = (escaped(&source.name), escaped(&source.at), class(source.class));
             let worst =
                 worst.map(|worst| format!("<br>worst at {}", escaped(&unbroken(&report.label(worst)))));
             let worst = worst.unwrap_or_default();
@@ -66,61 +60,46 @@ fn source(rank: usize, errors: &SourceErrors, worst: Option<&Configuration>, rep
             share(figures),
             no_verdict(report)
         );
-        if let Some((published, agreement)) = published {
-            let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
-            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
-            let skipped = report.study.tolerance.map_or("", |_| "<td></td>");
-            rows += &format!(
-                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
-                attributed(report, &published.reference),
-                verdict(*agreement, report)
-            );
-        }
+        rows += &published.map(|published| comparison(published, report)).unwrap_or_default();
     }
     format!("<tbody>{rows}</tbody>\n")
+}
+
+/// The row of a published figure.
+fn comparison(published: &Comparison, report: &Report) -> String {
+    let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
+    let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
+    let skipped = report.study.tolerance.map_or("", |_| "<td></td>");
+    format!(
+        "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
+        attributed(report, &published.reference),
+        verdict(published.agreement, report)
+    )
 }
 
 /// All sources together.
 pub(super) fn combined(report: &Report) -> String {
     let unit = report.spec.length.symbol();
-    let combined = &report.budget.combined;
+    let combined = &report.combined;
     let share = report.study.tolerance.map_or("", |_| "<th>of tolerance</th>");
     let mut rows = String::new();
-    for (figure, name, axes, norm) in [
-        (
-            CombinedFigure::Repeatable,
-            "repeatable: sum, with signs",
-            combined.repeatable.map(Some),
-            combined.repeatable_radius.value,
-        ),
-        (
-            CombinedFigure::Random,
-            "random: root sum of squares of bounds",
-            combined.random.map(Some),
-            combined.random_radius.value,
-        ),
-        (CombinedFigure::Both, "radius: both norms, added", [None; 3], combined.radius.value),
+    for (figure, name) in [
+        (CombinedFigure::Repeatable, "repeatable: sum, with signs"),
+        (CombinedFigure::Random, "random: root sum of squares of bounds"),
+        (CombinedFigure::Both, "radius: both norms, added"),
     ] {
+        let ([x, y, z], norm) = report.combined_figure(figure);
         let cell = |figure: Option<f64>| figure.map_or_else(String::new, |figure| error(figure, report));
-        let [x, y, z] = axes;
         let cells = [x, y, z, Some(norm)].map(|figure| format!("<td>{}</td>", cell(figure))).concat();
         let of = report.study.tolerance.map(|tolerance| format!("<td>{}</td>", percent(norm, tolerance)));
         let of = of.unwrap_or_default();
         rows += &format!("<tr><td class=\"words\">{name}</td>{cells}{of}{}</tr>\n", no_verdict(report));
-        if let Some((published, agreement)) = report.published(&study_file::Subject::Combined(figure)) {
-            let cells = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
-            let cells = cells.map(|cell| format!("<td>{cell}</td>")).concat();
-            let skipped = report.study.tolerance.map_or("", |_| "<td></td>");
-            rows += &format!(
-                "<tr class=\"published\"><td class=\"words metric\">{}</td>{cells}{skipped}{}</tr>\n",
-                attributed(report, &published.reference),
-                verdict(agreement, report)
-            );
-        }
+        let published = report.published(&study_file::Subject::Combined(figure));
+        rows += &published.map(|published| comparison(published, report)).unwrap_or_default();
     }
     for (name, axes, norm) in [
-        ("random: standard deviation", combined.standard_deviation, combined.standard_radius.value),
-        ("worst case: absolute values, added", combined.worst_case, combined.worst_case_radius.value),
+        ("random: standard deviation", combined.standard_deviation, combined.standard_radius),
+        ("worst case: absolute values, added", combined.worst_case, combined.worst_case_radius),
     ] {
         let [x, y, z] = axes;
         let cells = [x, y, z, norm].map(|figure| format!("<td>{}</td>", error(figure, report))).concat();

@@ -3,7 +3,7 @@
 use plotly::Plot;
 
 use abbe::analysis::Measurand;
-use abbe_study::analyze::{self, Report};
+use abbe_study::analyze::{self, AfterCompensation, Report};
 
 use super::{covered, escaped, facts, ledger, plots};
 use crate::figure::Named;
@@ -89,22 +89,21 @@ fn heading(report: &Report) -> String {
 /// The few figures that matter most.
 fn summary(report: &Report) -> String {
     let unit = report.spec.length.symbol();
-    let combined = &report.budget.combined;
+    let radii = &report.combined.radii;
     let decimals = report.decimals().min(4);
     let show = |value| format!("{} {unit}", trimmed(value, decimals));
     let of = |value| {
         report.study.tolerance.map(|tolerance| format!("{} of the tolerance", percent(value, tolerance)))
     };
     let mut cards = vec![
-        ("Radius of all errors".to_owned(), show(combined.radius.value), of(combined.radius.value)),
+        ("Radius of all errors".to_owned(), show(radii.radius), of(radii.radius)),
         (
             "Random errors alone".to_owned(),
-            format!("± {}", show(combined.random_radius.value)),
-            of(combined.random_radius.value),
+            format!("± {}", show(radii.random_radius)),
+            of(radii.random_radius),
         ),
     ];
-    if let Some(compensated) = &report.study.compensated {
-        let total = compensated.residual + combined.random_radius.value;
+    if let Some(AfterCompensation { total, .. }) = report.after_compensation {
         cards.push(("After compensation".to_owned(), format!("± {}", show(total)), of(total)));
     }
     if let Some(tolerance) = report.study.tolerance {
@@ -116,7 +115,7 @@ fn summary(report: &Report) -> String {
     } else {
         format!("{} unreachable: {}", unreachable.count, analyze::summary(unreachable, &report.spec))
     };
-    cards.push(("Configurations".to_owned(), report.budget.configurations.to_string(), Some(unreached)));
+    cards.push(("Configurations".to_owned(), report.configurations.to_string(), Some(unreached)));
     let cards = cards.into_iter().map(|(name, value, note)| {
         let note = escaped(&note.unwrap_or_default());
         format!("<div class=\"card\"><span>{name}</span><b>{value}</b><small>{note}</small></div>\n")

@@ -19,14 +19,14 @@ impl Report {
     /// Sampled and certified norms, of every kind of sources that there are.
     pub fn sampled(&self) -> Vec<Sampled<'_>> {
         let Some(Norms { repeatable, random, radius, .. }) = &self.certified else { return Vec::new() };
-        let combined = &self.budget.combined;
+        let radii = &self.combined.radii;
         let kinds = [
-            ("the repeatable sources", combined.repeatable_radius, repeatable),
-            ("the random sources", combined.random_radius, random),
-            ("all sources together", combined.radius, radius),
+            ("the repeatable sources", radii.repeatable_radius, repeatable),
+            ("the random sources", radii.random_radius, random),
+            ("all sources together", radii.radius, radius),
         ];
         let known = kinds.into_iter().filter_map(|(sources, sampled, largest)| {
-            Some(Sampled { sources, sampled: sampled.value, largest: largest.as_ref()? })
+            Some(Sampled { sources, sampled, largest: largest.as_ref()? })
         });
         known.collect()
     }

@@ -3,7 +3,7 @@
 use abbe::analysis::{Measurand, RemainingErrors};
 
 use super::at_most;
-use super::report::Report;
+use super::report::{AfterCompensation, Report};
 use super::unit;
 use crate::number::{self, percent, short};
 
@@ -16,7 +16,7 @@ impl Report {
             Some(spheres(self)),
             ellipsoid(self),
             published_residual(self),
-            self.budget.compensation.as_ref().map(|compensation| residual(self, compensation)),
+            self.compensation.as_ref().map(|compensation| residual(self, compensation)),
             at_most::sentence(self),
             Some(first_order(self)),
         ];
@@ -43,16 +43,16 @@ impl Report {
 }
 
 fn allowed(report: &Report, measurand: Measurand) -> Option<String> {
-    let admissible = report.admissible(measurand)?;
-    let how = match admissible.equal_probability {
+    let allowance = report.allowance(measurand)?;
+    let how = match allowance.equal_share_probability {
         1.0 => "for certain".to_owned(),
         probability => format!("with a probability of at least {}", number::at_least(probability)),
     };
     Some(format!(
         "With all sources × {} the largest error is {}, the tolerance; with each at an equal share of {} it is met {how}.",
-        number::digits(admissible.together?, 3),
+        number::digits(allowance.together?, 3),
         unit::shown(report, measurand, report.tolerance(measurand)?),
-        unit::shown(report, measurand, admissible.share?)
+        unit::shown(report, measurand, allowance.equal_share?)
     ))
 }
 
@@ -87,12 +87,11 @@ fn ellipsoid(report: &Report) -> Option<String> {
 }
 
 fn published_residual(report: &Report) -> Option<String> {
-    let published = report.study.compensated.as_ref()?;
-    let random = report.budget.combined.random_radius.value;
-    let total = published.residual + random;
+    let AfterCompensation { residual, random, total, published } = report.after_compensation.as_ref()?;
+    let (residual, random, total) = (*residual, *random, *total);
     Some(format!(
         "After compensation: {} repeatable residual + {} random = {}{}; {} prints {} + {} = {} ({}).",
-        report.show(published.residual),
+        report.show(residual),
         report.show(random),
         report.show(total),
         report.of_tolerance(total),
@@ -121,7 +120,7 @@ fn first_order(report: &Report) -> String {
         true => "repeatable sources",
         false => "random sources at their bounds",
     };
-    let spread = match first_order.checked < report.budget.configurations {
+    let spread = match first_order.checked < report.configurations {
         true => ", spread evenly over all",
         false => "",
     };

@@ -2,6 +2,7 @@
 
 use abbe::analysis::{Configuration, Row, Subset, Sweepable, Unevaluated, Workspace, sweep};
 use abbe::{Class, Error, deviation, drawn_pose};
+use serde::Serialize;
 
 /// The most configurations at which the exact chain is run.
 const CHECKED: usize = 2000;
@@ -10,11 +11,13 @@ const CHECKED: usize = 2000;
 /// spread evenly over it.
 ///
 /// Compared are the repeatable sources; if there are none, the random ones at their bounds, all with the same sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FirstOrder {
     /// At how many configurations it was compared.
+    #[serde(rename = "configurations")]
     pub checked: usize,
     /// The largest difference of the tool point, in the length unit.
+    #[serde(rename = "largest_difference")]
     pub largest: f64,
 }
 

@@ -3,29 +3,24 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use abbe::analysis::{Asked, Budget, Row, Subset, Survey, Unevaluated, Workspace};
+use abbe::analysis::{BudgetOptions, BudgetSweep, Row};
 use abbe_spec::diagnostic::Diagnostics;
 
-use super::parts::Shard;
-use super::prepared::{Gathered, Prepared};
+use super::parts::shard::Shard;
 use super::report::Report;
-use super::unreachable;
+use super::sweep::{Sweep, SweepData, not_evaluated};
 use crate::changes::Changes;
-use crate::extrapolated::extrapolated;
 use crate::machine::Machine;
+use crate::mistake;
 use crate::notes::Notes;
 use crate::reads::Reads;
 use crate::study_file::Study;
-use crate::{mistake, number};
-
-/// At how many configurations it is looked whether errors are extrapolated.
-const EXTRAPOLATED: usize = 2000;
 
 /// What does every source do?
 #[derive(Clone)]
 pub struct Analyze {
-    pub(super) machine: Machine,
-    pub(super) study: Study,
+    machine: Machine,
+    study: Study,
     /// How often all errors are drawn at the worst configuration and at home, if they are to be drawn.
     pub monte_carlo: Option<usize>,
     /// The seed of everything random: the draws, and the study's random samples. That of the study if not given.
@@ -93,9 +88,9 @@ impl Analyze {
         rows: Option<&mut dyn FnMut(&Row)>,
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
-        self.prepared(notes, |prepared, notes| {
-            let gathered = prepared.gather(0..prepared.survey.chunks(), rows, notes)?;
-            prepared.report(gathered, notes)
+        self.with_sweep(notes, |sweep, notes| {
+            let all = sweep.run(0..sweep.budget.chunks(), rows, notes)?;
+            sweep.report(all, notes)
         })
     }
 
@@ -104,23 +99,23 @@ impl Analyze {
         &self,
         chunks: impl FnOnce(usize) -> Range<usize>,
         notes: &mut dyn Notes,
-    ) -> Result<Gathered, Diagnostics> {
-        self.prepared(notes, |prepared, notes| prepared.gather(chunks(prepared.survey.chunks()), None, notes))
+    ) -> Result<SweepData, Diagnostics> {
+        self.with_sweep(notes, |sweep, notes| sweep.run(chunks(sweep.budget.chunks()), None, notes))
     }
 
     /// The report of what was gathered, shard after shard.
     pub(super) fn finish(
         &self,
-        parts: Vec<(String, Shard, Gathered)>,
+        parts: Vec<(String, Shard, SweepData)>,
         notes: &mut dyn Notes,
     ) -> Result<Report, Diagnostics> {
-        self.prepared(notes, |prepared, notes| {
-            let mut all: Option<Gathered> = None;
+        self.with_sweep(notes, |sweep, notes| {
+            let mut all: Option<SweepData> = None;
             for (name, shard, part) in parts {
-                let fits = part.budget.chunks() == shard.chunks(prepared.survey.chunks())
-                    && prepared.survey.fits(&part.budget);
+                let fits = part.budget.chunks() == shard.chunks(sweep.budget.chunks())
+                    && sweep.budget.fits(&part.budget);
                 let put = match &mut all {
-                    Some(all) => fits && prepared.append(all, part),
+                    Some(all) => fits && sweep.append(all, part),
                     None => {
                         all = Some(part);
                         fits
@@ -132,64 +127,38 @@ impl Analyze {
                 }
             }
             match all {
-                Some(all) => prepared.report(all, notes),
-                None => prepared.report(prepared.gather(0..0, None, notes)?, notes),
+                Some(all) => sweep.report(all, notes),
+                None => sweep.report(sweep.run(0..0, None, notes)?, notes),
             }
         })
     }
 
-    fn prepared<T>(
+    fn with_sweep<T>(
         &self,
         notes: &mut dyn Notes,
-        work: impl FnOnce(&Prepared<'_>, &mut dyn Notes) -> Result<T, Diagnostics>,
+        work: impl FnOnce(&Sweep<'_>, &mut dyn Notes) -> Result<T, Diagnostics>,
     ) -> Result<T, Diagnostics> {
-        let Self { machine, study, .. } = self;
+        let Self { machine, study, monte_carlo, seed, figures, .. } = self;
         let manipulator = &*machine.evaluator(!self.interpret);
         let description = manipulator.description();
-        let workspace = study.region.workspace(manipulator, self.seed);
+        let workspace = study.region.workspace(manipulator, *seed);
         let workspace = &*workspace.map_err(|error| mistake::whole(&machine.origin, &error))?;
         notes.progress(0, workspace.len());
         let residuals = study.compensation.as_ref().map(|left| left.of(description));
         let tolerances = [study.tolerance, study.orientation_tolerance];
-        let asked = Asked { residuals: residuals.as_deref(), tolerances };
-        let survey = Survey::new(manipulator, workspace, asked);
-        let survey = survey.map_err(|refused| self.not_evaluated(workspace, &refused, description))?;
-        work(&Prepared { job: self, manipulator, workspace, tolerances, survey }, notes)
-    }
-
-    /// Looks at some configurations of a large workspace.
-    pub(super) fn warn_of_extrapolation(&self, workspace: &dyn Workspace, notes: &mut dyn Notes) {
-        if self.machine.spec.fitted.is_empty() {
-            return;
-        }
-        let seen = Subset { workspace, count: EXTRAPOLATED }.reached();
-        let places = seen.iter().map(|place| (&place.q[..], &place.u[..]));
-        let manipulator = self.machine.evaluator(true);
-        extrapolated(&self.machine.spec, &*manipulator, "configurations", places, notes);
-    }
-
-    pub(super) fn require_reached(&self, budget: &Budget) -> Result<(), Diagnostics> {
-        if budget.configurations > 0 {
-            return Ok(());
-        }
-        let reasons = unreachable::summary(&budget.unreachable, &self.machine.spec);
-        let message = format!("no configuration of the workspace can be reached: {reasons}");
-        let help = "move or shrink the workspace of the study, or widen the limits of the joints";
-        Err(mistake::with_help(&self.machine.origin, message, help))
-    }
-
-    pub(super) fn not_evaluated(
-        &self,
-        workspace: &dyn Workspace,
-        refused: &Unevaluated,
-        description: &abbe::Description,
-    ) -> Diagnostics {
-        let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
-            Some(configuration) => {
-                number::configuration(&configuration, workspace.home(), &self.machine.spec)
-            }
-            None => "home".to_owned(),
+        let options = BudgetOptions { residuals: residuals.as_deref(), tolerances };
+        let budget = BudgetSweep::new(manipulator, workspace, options)
+            .map_err(|refused| not_evaluated(machine, workspace, &refused, description))?;
+        let sweep = Sweep {
+            machine,
+            study,
+            monte_carlo: *monte_carlo,
+            seed: seed.unwrap_or(0),
+            figures: *figures,
+            manipulator,
+            workspace,
+            budget,
         };
-        mistake::not_evaluated(&self.machine.origin, &at, &refused.error, description)
+        work(&sweep, notes)
     }
 }

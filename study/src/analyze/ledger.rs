@@ -1,49 +1,11 @@
-//! The ledger: the sources in rows, their sums in the last ones.
+//! The ledger as tables: the sources in rows, their sums in the last ones.
 
-use abbe::analysis::{Extreme, Figures, Measurand, SourceErrors};
+use abbe::analysis::{Extreme, Figures, Measurand};
 
-use super::report::Report;
+use super::report::{Ledger, LedgerEntry, Report, SourceAllowance};
 use super::unit;
 use crate::listing::Listing;
 use crate::number::{self, fixed, percent, unbroken};
-
-/// One row: a source, or a sum over the sources. Norms of the position error, in the length unit.
-pub struct Entry<'a> {
-    /// What it is called.
-    pub name: &'a str,
-    /// Of a source: its class, and its rank by the largest error, 1 for the largest.
-    pub source: Option<(&'static str, usize)>,
-    /// The largest, and where.
-    pub largest: Extreme,
-    /// The root mean square over the configurations; the worst case has none.
-    pub rms: Option<f64>,
-}
-
-/// The sources, the largest first.
-pub(super) fn sources(report: &Report) -> Vec<Entry<'_>> {
-    let entry = |(alone, rank): (&SourceErrors, usize)| Entry {
-        name: &report.source(alone.source).name,
-        source: Some((number::class(alone.class).0, rank)),
-        largest: Extreme { value: alone.plain_max.norm, configuration: alone.worst },
-        rms: Some(alone.rms),
-    };
-    let mut entries = report.budget.sources.iter().zip(report.budget.ranks()).map(entry).collect::<Vec<_>>();
-    entries.sort_by_key(|entry| entry.source.map(|(_, rank)| rank));
-    entries
-}
-
-/// What they are together.
-pub(super) fn sums(report: &Report) -> [Entry<'static>; 4] {
-    let combined = &report.budget.combined;
-    let [repeatable, random, both] = combined.rms.map(Some);
-    [
-        ("repeatable, with signs", combined.repeatable_radius, repeatable),
-        ("random, root sum of squares", combined.random_radius, random),
-        ("all together", combined.radius, both),
-        ("worst case, all norms added", combined.worst_case_radius, None),
-    ]
-    .map(|(name, largest, rms)| Entry { name, source: None, largest, rms })
-}
 
 /// The ledger as a table.
 pub fn ledger(report: &Report) -> Listing {
@@ -53,21 +15,22 @@ pub fn ledger(report: &Report) -> Listing {
         header.insert(3, "of tolerance");
     }
     let mut rows = Vec::new();
-    for Entry { name, source, largest, rms } in sources(report).into_iter().chain(sums(report)) {
+    let Ledger { sources, sums } = &report.ledger;
+    for LedgerEntry { name, max, rms, rank, configuration, .. } in sources.iter().chain(sums) {
         let at = report
-            .configuration(largest.configuration)
-            .filter(|_| largest.value > 0.0)
+            .configuration(*configuration)
+            .filter(|_| *max > 0.0)
             .map(|worst| unbroken(&report.label(worst)));
         let show = |value| fixed(value, report.decimals());
         let mut cells = vec![
-            name.to_owned(),
-            show(largest.value),
+            name.clone(),
+            show(*max),
             rms.map(show).unwrap_or_default(),
-            source.map(|(_, rank)| rank.to_string()).unwrap_or_default(),
+            rank.map(|rank| rank.to_string()).unwrap_or_default(),
             at.unwrap_or_default(),
         ];
         if let Some(tolerance) = tolerance {
-            cells.insert(3, percent(largest.value, tolerance));
+            cells.insert(3, percent(*max, tolerance));
         }
         rows.push(cells);
     }
@@ -107,7 +70,7 @@ pub fn turns(report: &Report) -> Option<Listing> {
     let alone = order.into_iter().map(|(_, alone)| {
         let Figures { x, y, z, norm } = alone.plain_max;
         let norm = Extreme { value: norm, configuration: alone.worst };
-        row(&report.source(alone.source).name, [x, y, z].map(Some), norm, Some(alone.rms))
+        row(&report.sources[alone.source].name, [x, y, z].map(Some), norm, Some(alone.rms))
     });
     let [repeatable, random, both] = combined.rms.map(Some);
     let together = [
@@ -122,21 +85,15 @@ pub fn turns(report: &Report) -> Option<Listing> {
 
 /// What a tolerance of the study allows each source, and what is gained by making it smaller.
 pub fn allowed(report: &Report, measurand: Measurand) -> Option<Listing> {
-    let admissible = report.admissible(measurand)?;
-    let (_, _, gains) = report.budget.errors(measurand);
     let (factor, _) = unit::of(report, measurand);
     let times = |scale: Option<f64>| {
         scale.map_or("any".to_owned(), |scale| format!("× {}", number::digits(scale, 3)))
     };
-    let row = |source: usize| {
-        vec![
-            report.source(source).name.clone(),
-            times(admissible.alone[source]),
-            times(admissible.equal[source]),
-            fixed(factor * gains[source], report.decimals_of(measurand) + 1),
-        ]
+    let row = |SourceAllowance { name, alone, equal, gain_per_percent }: &SourceAllowance| {
+        let gain = fixed(factor * gain_per_percent, report.decimals_of(measurand) + 1);
+        vec![name.clone(), times(*alone), times(*equal), gain]
     };
-    let rows = report.budget.tighten_first_for(measurand).into_iter().map(row).collect();
+    let rows = report.allowance(measurand)?.sources.iter().map(row).collect();
     Some(Listing {
         header: vec!["source", "alone at most", "equal shares", "gain per percent"],
         rows,

@@ -1,28 +1,25 @@
 //! The uncertainty budget as the GUM states it, in tables and sentences.
 
 use abbe::Distribution;
-use abbe::analysis::{COVERAGE, Contribution, Measurand, Statement, student_95};
+use abbe::analysis::{COVERAGE, Measurand, student_95};
 
-use super::report::Report;
-use super::source_value::{Kind, SourceValue};
-use super::stated::Stated;
+use super::report::{Quantity, Report, SourceUncertainty, UncertaintyBudget};
 use super::unit;
 use crate::listing::Listing;
 use crate::number;
 
 /// Every random source, the largest share first; with its degrees of freedom if any are finite.
-pub fn contributions(report: &Report, stated: &Stated) -> Listing {
-    let measurand = stated.statement.measurand;
-    let estimated = is_estimated(&stated.statement);
-    let row = |one: &Contribution| {
-        let source = SourceValue::new(report, one);
+pub fn contributions(report: &Report, budget: &UncertaintyBudget) -> Listing {
+    let measurand = budget.measurand;
+    let estimated = budget.is_estimated();
+    let row = |one: &SourceUncertainty| {
         let mut row = vec![
-            report.source(one.source).name.clone(),
-            value(report, source),
+            one.source.clone(),
+            value(report, one),
             one.distribution.name().to_owned(),
             divisor(one.distribution).to_owned(),
-            sensitivity(report, measurand, source, one),
-            unit::fixed(report, measurand, one.standard[3]),
+            sensitivity(report, measurand, one),
+            unit::fixed(report, measurand, one.standard_uncertainty[3]),
             format!("{:.1} %", 100.0 * one.share),
         ];
         if estimated {
@@ -35,29 +32,27 @@ pub fn contributions(report: &Report, stated: &Stated) -> Listing {
         header.insert(6, "ν");
     }
     let numbers = 3..header.len();
-    Listing { header, rows: stated.statement.contributions.iter().map(row).collect(), numbers }
+    Listing { header, rows: budget.sources.iter().map(row).collect(), numbers }
 }
 
 /// Bias, u, k and U along the rows and of the norm; with the effective degrees of freedom if any are finite.
-pub fn totals(report: &Report, stated: &Stated) -> Listing {
-    let Statement { measurand, bias, standard, degrees_of_freedom: effective, coverage_factors, .. } =
-        &stated.statement;
-    let estimated = is_estimated(&stated.statement);
-    let expanded = stated.statement.expanded();
+pub fn totals(report: &Report, budget: &UncertaintyBudget) -> Listing {
+    let UncertaintyBudget { measurand, bias, expanded_uncertainty: expanded, .. } = budget;
+    let estimated = budget.is_estimated();
     let names = unit::rows(report, *measurand).into_iter().chain(["norm"]);
     let row = |(i, name): (usize, &str)| {
         let show = |value: f64| unit::fixed(report, *measurand, value);
         let sum = bias[i].abs() + expanded[i];
         let mut row = vec![
             name.to_owned(),
-            show(standard[i]),
-            format!("{:.3}", coverage_factors[i]),
+            show(budget.standard_uncertainty[i]),
+            format!("{:.3}", budget.coverage_factor[i]),
             show(expanded[i]),
             show(bias[i]),
             show(sum),
         ];
         if estimated {
-            row.insert(2, degrees_of_freedom(effective[i]));
+            row.insert(2, degrees_of_freedom(budget.effective_degrees_of_freedom[i]));
         }
         row
     };
@@ -70,13 +65,13 @@ pub fn totals(report: &Report, stated: &Stated) -> Listing {
 }
 
 /// What the budget covers.
-pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
-    let Statement { measurand, coverage, .. } = &stated.statement;
+pub fn sentences(report: &Report, budget: &UncertaintyBudget) -> Vec<String> {
+    let UncertaintyBudget { measurand, coverage, .. } = budget;
     let (_, combined, _) = report.budget.errors(*measurand);
-    let estimated = is_estimated(&stated.statement);
+    let estimated = budget.is_estimated();
     let show = |value| unit::shown(report, *measurand, value);
     let at = report
-        .configuration(stated.configuration)
+        .configuration(budget.configuration)
         .map(|worst| number::unbroken(&report.label(worst)))
         .unwrap_or_default();
     let holds = match coverage.draws {
@@ -128,7 +123,7 @@ pub fn sentences(report: &Report, stated: &Stated) -> Vec<String> {
 /// long as there are three degrees of freedom or more, and effective ones are no fewer than those of any source.
 fn elsewhere(report: &Report, measurand: Measurand, largest: f64) -> Option<String> {
     let fewest =
-        report.sources().iter().map(|source| source.degrees_of_freedom).fold(f64::INFINITY, f64::min);
+        report.spec.enabled_sources().map(|source| source.degrees_of_freedom).fold(f64::INFINITY, f64::min);
     let factor = (fewest >= 3.0).then(|| student_95(fewest))?;
     let show = |value| unit::shown(report, measurand, value);
     Some(format!(
@@ -139,33 +134,29 @@ fn elsewhere(report: &Report, measurand: Measurand, largest: f64) -> Option<Stri
     ))
 }
 
-/// Whether any standard uncertainty has a finite number of degrees of freedom.
-fn is_estimated(statement: &Statement) -> bool {
-    statement.contributions.iter().any(|one| one.degrees_of_freedom.is_finite())
-}
-
 fn degrees_of_freedom(number: f64) -> String {
     if number.is_finite() { number::digits(number, 3) } else { "∞".to_owned() }
 }
 
-fn value(report: &Report, SourceValue { value, kind }: SourceValue) -> String {
-    match kind {
-        Kind::Multiple => "1".to_owned(),
-        Kind::Length => format!("{} {}", number::digits(value, 3), report.spec.length.symbol()),
-        Kind::Angle => format!("{} mrad", number::digits(1e3 * value, 3)),
-        Kind::Of(unit) => format!("{} {unit}", number::digits(value, 3)).trim_end().to_owned(),
+fn value(report: &Report, one: &SourceUncertainty) -> String {
+    let value = one.value.unwrap_or(1.0);
+    match &one.quantity {
+        Quantity::Multiple => "1".to_owned(),
+        Quantity::Length => format!("{} {}", number::digits(value, 3), report.spec.length.symbol()),
+        Quantity::Angle => format!("{} mrad", number::digits(1e3 * value, 3)),
+        Quantity::Parameter(unit) => format!("{} {unit}", number::digits(value, 3)).trim_end().to_owned(),
     }
 }
 
-fn sensitivity(report: &Report, measurand: Measurand, source: SourceValue, one: &Contribution) -> String {
+fn sensitivity(report: &Report, measurand: Measurand, one: &SourceUncertainty) -> String {
     let (factor, result) = unit::of(report, measurand);
-    let (per, unit) = match source.kind {
-        Kind::Multiple | Kind::Of("") => (1.0, None),
-        Kind::Length => (1.0, Some(report.spec.length.symbol())),
-        Kind::Angle => (1e-3, Some("mrad")),
-        Kind::Of(unit) => (1.0, Some(unit)),
+    let (per, unit) = match &one.quantity {
+        Quantity::Multiple => (1.0, None),
+        Quantity::Length => (1.0, Some(report.spec.length.symbol())),
+        Quantity::Angle => (1e-3, Some("mrad")),
+        Quantity::Parameter(unit) => (1.0, Some(unit.as_str()).filter(|unit| !unit.is_empty())),
     };
-    let number = number::digits(source.sensitivity(one)[3] * factor * per, 4);
+    let number = number::digits(one.sensitivity[3] * factor * per, 4);
     match unit {
         Some(unit) if unit == result => number,
         Some(unit) => format!("{number} {result}/{unit}"),

@@ -1,6 +1,5 @@
 //! Positions and orientations as people read them: the spec's length unit, and mrad.
 
-use abbe::Orientation;
 use abbe::analysis::Measurand;
 
 use super::report::Report;
@@ -16,10 +15,9 @@ pub fn of(report: &Report, measurand: Measurand) -> (f64, &'static str) {
 
 /// The names of the three rows.
 pub fn rows(report: &Report, measurand: Measurand) -> [&'static str; 3] {
-    match (measurand, report.spec.orientation) {
-        (Measurand::Position, _) => ["x", "y", "z"],
-        (Measurand::Orientation, Orientation::RotationVector) => ["about x", "about y", "about z"],
-        (Measurand::Orientation, Orientation::EulerYzx) => ["spin", "roll", "pitch"],
+    match measurand {
+        Measurand::Position => ["x", "y", "z"],
+        Measurand::Orientation => report.orientation.rows,
     }
 }
 

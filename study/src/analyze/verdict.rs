@@ -2,27 +2,19 @@
 
 use abbe::analysis::{Compliance, Measurand};
 
-use super::judged::{Judged, Verdict};
-use super::report::Report;
+use super::report::{Report, ToleranceVerdict, Verdict, Verdicts};
 use super::unit;
 use crate::number;
 
 impl Report {
-    /// The verdict on all tolerances of the study, the worst of them; none if it has no tolerance.
-    pub fn verdict(&self) -> Option<Verdict> {
-        let rank = |verdict: &Verdict| *verdict as u8;
-        self.judged.iter().map(|judged| judged.verdict).max_by_key(rank)
-    }
-
     /// `Verdict: not met`.
     pub fn verdict_line(&self) -> Option<String> {
-        let verdict = self.verdict()?;
-        let least = self
-            .judged
-            .iter()
-            .map(|judged| judged.compliance)
+        let verdicts = self.verdicts.as_ref()?;
+        let least = verdicts
+            .all()
+            .map(|verdict| verdict.compliance)
             .min_by(|a, b| a.probability.total_cmp(&b.probability));
-        Some(match verdict {
+        Some(match verdicts.verdict {
             Verdict::Met => "Verdict: met".to_owned(),
             Verdict::MetWithProbability => format!("Verdict: met with probability {}", probability(least?)),
             Verdict::NotMet => "Verdict: not met".to_owned(),
@@ -31,10 +23,10 @@ impl Report {
 
     /// A sentence on each tolerance.
     pub fn verdict_sentences(&self) -> Vec<String> {
-        self.judged.iter().map(|judged| self.judgement(judged)).collect()
+        self.verdicts.iter().flat_map(Verdicts::all).map(|judged| self.judgement(judged)).collect()
     }
 
-    fn judgement(&self, judged: &Judged) -> String {
+    fn judgement(&self, judged: &ToleranceVerdict) -> String {
         let show = |value| unit::shown(self, judged.measurand, value);
         let name = match judged.measurand {
             Measurand::Position => "Position",
@@ -46,12 +38,12 @@ impl Report {
                 "{name}: met for certain. All random sources are bounded, and together with the repeatable ones they make at most \
                  {} of {tolerance} at each of the {} configurations, to first order.",
                 show(largest),
-                self.budget.configurations,
+                self.configurations,
             );
         }
         let at = self.configuration(judged.configuration);
         let at = at.map(|worst| number::unbroken(&self.label(worst))).unwrap_or_default();
-        let all = self.budget.configurations;
+        let all = self.configurations;
         let least = match judged.configurations {
             1 if all == 1 => "the only configuration".to_owned(),
             some if some < all => {

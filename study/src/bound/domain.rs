@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use abbe_bound::{Bound, Effort, Limits, MOST_MOVING, Moving, Progress};
 use abbe_codegen::chain::{Apart, Magnitude};
 use abbe_codegen::graph::{Graph, Node};
+use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Symbol;
@@ -51,17 +51,18 @@ impl Domain {
         start: Option<&[f64]>,
         effort: &Effort,
         watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Bound {
+    ) -> abbe_bound::Bound {
+        let still = |symbol| home(symbol, &self.spec);
         let mut names = self.names();
         for (name, start) in names.iter_mut().zip(start.unwrap_or_default()) {
             name.start = *start;
         }
-        abbe_bound::largest(graph, magnitude, &names, |symbol| self.home(symbol), effort, watch)
+        abbe_bound::largest(graph, magnitude, &names, still, effort, watch)
     }
 
     /// What norms cannot exceed because of their parts.
     pub(super) fn limits(&self, graph: &mut Graph, apart: &Apart) -> Limits {
-        abbe_bound::limits(graph, apart, &self.names(), |symbol| self.home(symbol))
+        abbe_bound::limits(graph, apart, &self.names(), |symbol| home(symbol, &self.spec))
     }
 
     /// Whether fewer of the names that move move the first node than the second.
@@ -83,7 +84,7 @@ impl Domain {
         for (span, value) in spans.iter().zip(values) {
             let name = name(span.symbol, spec);
             at.insert(name.to_owned(), *value);
-            if *value != self.home(span.symbol) {
+            if *value != home(span.symbol, spec) {
                 place.push(format!("{name} = {}", number::of_symbol(*value, span.symbol, spec)));
             }
         }
@@ -99,21 +100,20 @@ impl Domain {
         let names = self.spans.iter().map(|Span { symbol, range }| Moving {
             symbol: *symbol,
             range: *range,
-            home: self.home(*symbol),
-            start: self.home(*symbol),
+            home: home(*symbol, &self.spec),
+            start: home(*symbol, &self.spec),
         });
         names.collect()
     }
+}
 
-    /// Where something stands that does not move.
-    pub(super) fn home(&self, symbol: Symbol) -> f64 {
-        let Self { spec, .. } = self;
-        match symbol {
-            Symbol::Variable(i) => spec.variables[i].home,
-            Symbol::Parameter(i) => spec.parameters[i].value,
-            Symbol::Input(i) => spec.inputs[i].value,
-            // No error of the spec's own sources depends on anything else.
-            _ => f64::NAN,
-        }
+/// Where something stands that does not move.
+pub(super) fn home(symbol: Symbol, spec: &Spec) -> f64 {
+    match symbol {
+        Symbol::Variable(i) => spec.variables[i].home,
+        Symbol::Parameter(i) => spec.parameters[i].value,
+        Symbol::Input(i) => spec.inputs[i].value,
+        // No error of the spec's own sources depends on anything else.
+        _ => f64::NAN,
     }
 }

@@ -1,41 +1,43 @@
 //! Least values: how far the joints move the tool at least, and how stiff the machine is at least.
 
-use abbe_bound::{Effort, Extreme, Progress, Singular, singular_value};
 use abbe_codegen::chain;
+use abbe_bound::{Effort, Extreme, Progress, Singular, singular_value};
 
-use super::domain::Domain;
+use super::domain::{Domain, home};
 use super::report::{Dexterity, Least};
 
-/// That of the tool point, and of the tool; none of fewer than three joints.
-pub(super) fn dexterity(
-    domain: &Domain,
-    effort: &Effort,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Option<Dexterity> {
-    let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&domain.spec)?;
-    let mut least = |rows: &Vec<_>| {
-        let still = |symbol| domain.home(symbol);
-        let least = singular_value(Extreme::Least, &graph, rows, &domain.names(), still, effort, watch);
-        least_of(domain, &least)
-    };
-    Some(Dexterity { point: least(&point), pose: pose.as_ref().map(least) })
-}
+impl Domain {
+    /// That of the tool point, and of the tool; none of fewer than three joints.
+    pub(super) fn dexterity(
+        &self,
+        effort: &Effort,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Option<Dexterity> {
+        let chain::Dexterity { graph, point, pose } = chain::Dexterity::new(&self.spec)?;
+        let mut least = |rows: &Vec<_>| {
+            let still = |symbol| home(symbol, &self.spec);
+            let least = singular_value(Extreme::Least, &graph, rows, &self.names(), still, effort, watch);
+            self.least(&least)
+        };
+        Some(Dexterity { point: least(&point), pose: pose.as_ref().map(least) })
+    }
 
-/// Of the tool point, N/m: the inverse of how far a force of 1 N moves it at most; none if no force moves it.
-pub(super) fn stiffness(
-    domain: &Domain,
-    effort: &Effort,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Option<Least> {
-    let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&domain.spec)?;
-    let still = |symbol| domain.home(symbol);
-    let largest = singular_value(Extreme::Largest, &graph, &rows, &domain.names(), still, effort, watch);
-    let certified = (1.0 / largest.certified).next_down().max(0.0);
-    Some(least_of(domain, &Singular { certified, found: largest.found.map(f64::recip), ..largest }))
-}
+    /// Of the tool point, N/m: the inverse of how far a force of 1 N moves it at most; none if no force moves it.
+    pub(super) fn stiffness(
+        &self,
+        effort: &Effort,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Option<Least> {
+        let chain::ToolCompliance { graph, rows } = chain::ToolCompliance::new(&self.spec)?;
+        let still = |symbol| home(symbol, &self.spec);
+        let largest = singular_value(Extreme::Largest, &graph, &rows, &self.names(), still, effort, watch);
+        let certified = (1.0 / largest.certified).next_down().max(0.0);
+        Some(self.least(&Singular { certified, found: largest.found.map(f64::recip), ..largest }))
+    }
 
-fn least_of(domain: &Domain, least: &Singular) -> Least {
-    let (at, place) = domain.place(&least.at);
-    let Singular { certified, found, boxes, complete, .. } = *least;
-    Least { certified, found: found.filter(|found| found.is_finite()), at, boxes, complete, place }
+    fn least(&self, least: &Singular) -> Least {
+        let (at, place) = self.place(&least.at);
+        let Singular { certified, found, boxes, complete, .. } = *least;
+        Least { certified, found: found.filter(|found| found.is_finite()), at, boxes, complete, place }
+    }
 }

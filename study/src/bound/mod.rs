@@ -1,21 +1,22 @@
 //! How large the errors of the tool point are at most: over a box of joints, parameters and inputs, with a proof.
 //!
-//! `domain` is the box in which everything is sought, `second_order` what first order leaves out, `least` how far the joints move the tool at
-//! least and how stiff the machine is at least; `norms` are those of the position's errors alone, for an analysis.
+//! `domain` is the box in which everything is sought, `remainder` what first order and a step of compensation leave, `least` how far
+//! the joints move the tool at least, and how stiff the machine is at least; `norms` are those of the position's errors alone, for an
+//! analysis.
 
 mod domain;
 mod least;
 mod norms;
+mod remainder;
 mod report;
-mod second_order;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use abbe::Orientation;
-use abbe_bound::{Bound as Proved, Effort, Progress};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
 use abbe_codegen::graph::Graph;
+use abbe_bound::{Bound as Proved, Effort, Progress};
 use abbe_spec::diagnostic::Diagnostics;
 
 use crate::changes::Changes;
@@ -89,16 +90,14 @@ impl Bound {
             Classes { random: true, .. } => random.clone(),
             _ => repeatable.clone(),
         };
-        let remainder =
-            sought.one(notes, |domain, watch| second_order::remainder(domain, &self.effort, watch))?;
+        let remainder = sought.one(notes, |_, watch| domain.remainder(&self.effort, watch))?;
         let before = [&repeatable.norm, &repeatable.orientation];
         let before = before.map(|largest| largest.certified.unwrap_or(f64::INFINITY));
-        let after_one_step = sought
-            .one(notes, |domain, watch| second_order::after_step(domain, &self.effort, before, watch))?;
+        let after_one_step = sought.one(notes, |_, watch| domain.after_step(&self.effort, before, watch))?;
         let (mut dexterity, mut stiffness) = (None, None);
         if self.least {
-            dexterity = sought.one(notes, |domain, watch| least::dexterity(domain, &self.effort, watch))?;
-            stiffness = sought.one(notes, |domain, watch| least::stiffness(domain, &self.effort, watch))?;
+            dexterity = sought.one(notes, |_, watch| domain.dexterity(&self.effort, watch))?;
+            stiffness = sought.one(notes, |_, watch| domain.stiffness(&self.effort, watch))?;
         }
         let errors = [repeatable, random, radius];
         let others = Others { remainder, after_one_step, dexterity, stiffness };

@@ -5,6 +5,7 @@ use abbe_spec::diagnostic::Diagnostic;
 use abbe_spec::document::{Document, Item, Section};
 use abbe_spec::expr::Dimension;
 use abbe_spec::value::find_name;
+use serde::Serialize;
 
 use super::keys;
 use crate::workspace::{constant, positive_length};
@@ -69,7 +70,7 @@ pub struct Published {
 }
 
 /// What is left after compensation, as printed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct PublishedResidual {
     /// What compensation leaves of the repeatable errors.
     pub residual: f64,
@@ -78,6 +79,7 @@ pub struct PublishedResidual {
     /// Both, added.
     pub total: f64,
     /// Where they stand.
+    #[serde(skip)]
     pub reference: String,
 }
 

@@ -1,6 +1,6 @@
 //! An error budget over random configurations of every shipped manipulator.
 
-use abbe::analysis::{Asked, error_budget, random_joint_samples};
+use abbe::analysis::{BudgetOptions, error_budget, random_joint_samples};
 use abbe_manipulators::SHIPPED;
 use criterion::{Criterion, Throughput};
 
@@ -17,7 +17,7 @@ pub(crate) fn bench(criterion: &mut Criterion) {
         let moved: Vec<usize> = (0..description.variables.len()).collect();
         let workspace = random_joint_samples(shipped.compiled, &moved, COUNT, 1).expect("its own variables");
         on_one_and_two(&mut group, shipped.name, || {
-            error_budget(shipped.compiled, &workspace, Asked::default(), &mut ())
+            error_budget(shipped.compiled, &workspace, BudgetOptions::default(), &mut ())
         });
     }
     group.finish();

@@ -9,7 +9,7 @@ pub(super) fn table(report: &Report, drawn: &Drawn) -> String {
         "{} draws at each place, seed {}. Above: quantiles and the largest of the norm of the whole error; the share of \
          the draws inside the first-order 95 % ellipsoid, which is 95 % if all random sources are normal. Below: \
          standard deviations.",
-        number::short(drawn.worst.draws as f64),
+        number::short(drawn.draws as f64),
         drawn.seed,
     );
     format!("{}\n{}{}\n", norms(report, drawn), deviations(report, drawn), wrapped(&text, 0))

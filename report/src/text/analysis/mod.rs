@@ -4,7 +4,7 @@ mod drawn;
 mod tables;
 
 use abbe::analysis::Measurand;
-use abbe_study::analyze::{self, Report, Stated};
+use abbe_study::analyze::{self, Report, UncertaintyBudget};
 use abbe_study::number::{self, unbroken};
 
 use super::table::{listed, wrapped};
@@ -13,7 +13,7 @@ use super::table::{listed, wrapped};
 pub fn analysis(report: &Report) -> String {
     let unit = report.spec.length.symbol();
     let mut parts = vec![answer(report), heading(report)];
-    if report.budget.sources.is_empty() {
+    if report.sources.is_empty() {
         parts.push("This spec has no error source that is switched on: there is nothing to add up.\n".into());
     } else {
         parts.push(format!("Ledger: norms of the errors ({unit})\n{}", listed(&analyze::ledger(report))));
@@ -59,16 +59,16 @@ fn answer(report: &Report) -> String {
 /// The budgets of the GUM; what holds for several is said once.
 fn budgets(report: &Report) -> Vec<String> {
     let mut said: Vec<String> = Vec::new();
-    let budget = |stated: &Stated| {
-        let (_, unit) = analyze::unit::of(report, stated.statement.measurand);
-        let sources = listed(&analyze::contributions(report, stated));
-        let totals = listed(&analyze::totals(report, stated));
-        let mut sentences = analyze::sentences(report, stated);
+    let budget = |budget: &UncertaintyBudget| {
+        let (_, unit) = analyze::unit::of(report, budget.measurand);
+        let sources = listed(&analyze::contributions(report, budget));
+        let totals = listed(&analyze::totals(report, budget));
+        let mut sentences = analyze::sentences(report, budget);
         sentences.retain(|sentence| !said.contains(sentence));
         said.extend_from_slice(&sentences);
         format!("Uncertainty budget ({unit})\n{sources}\n{totals}\n{}", paragraphs(&sentences))
     };
-    report.stated.iter().map(budget).collect()
+    report.uncertainty_budgets().map(budget).collect()
 }
 
 fn paragraphs(sentences: &[String]) -> String {

@@ -1,6 +1,7 @@
 //! The tables of an analysis.
 
-use abbe_study::analyze::{Report, figures_of};
+use abbe::analysis::Figures;
+use abbe_study::analyze::Report;
 use abbe_study::number::{self, fixed, short};
 use abbe_study::study_file::{CombinedFigure, Metric, Subject};
 
@@ -9,17 +10,16 @@ use super::super::table::Table;
 /// Three metrics of every source, and under each what is published on it.
 pub(super) fn sources(report: &Report) -> String {
     let mut table = Table::new(&["source", "metric", "x", "y", "z", "norm", ""]);
-    for errors in &report.budget.sources {
+    for source in &report.sources {
         let mut lines = Lines::default();
         for (name, metric) in Metric::ALL {
-            let figures = figures_of(errors, metric);
-            lines.figures(report, name, figures.map(Some));
-            lines.published(report, &Subject::Source(report.name(errors).to_owned(), metric));
+            let Figures { x, y, z, norm } = source.figures(metric);
+            lines.figures(report, name, [x, y, z, norm].map(Some));
+            lines.published(report, &Subject::Source(source.name.clone(), metric));
         }
-        let (class, distribution) = number::class(errors.class);
+        let (class, distribution) = number::class(source.class);
         let class = distribution.map_or(class.to_owned(), |distribution| format!("{class}, {distribution}"));
-        let at = report.spec.place(report.source(errors.source));
-        lines.cells[0] = vec![report.name(errors).to_owned(), class, at];
+        lines.cells[0] = vec![source.name.clone(), class, source.at.clone()];
         table.row(lines.joined());
     }
     table.right(&[2, 3, 4, 5]).unwrapped(&[1, 6]).to_string()
@@ -33,20 +33,20 @@ pub(super) fn combined(report: &Report) -> String {
         (CombinedFigure::Both, "radius: both norms, added"),
     ];
     for (figure, name) in names {
-        let ([x, y, z], norm) = report.combined(figure);
+        let ([x, y, z], norm) = report.combined_figure(figure);
         let mut lines = Lines::default();
         lines.figures(report, name, [x, y, z, Some(norm)]);
         lines.published(report, &Subject::Combined(figure));
         table.row(lines.joined().split_off(1));
     }
-    let all = &report.budget.combined;
+    let all = &report.combined;
     for (name, axes, norm) in [
         ("random: standard deviation", all.standard_deviation, all.standard_radius),
         ("worst case: absolute values, added", all.worst_case, all.worst_case_radius),
     ] {
         let mut lines = Lines::default();
         let [x, y, z] = axes.map(Some);
-        lines.figures(report, name, [x, y, z, Some(norm.value)]);
+        lines.figures(report, name, [x, y, z, Some(norm)]);
         table.row(lines.joined().split_off(1));
     }
     table.right(&[1, 2, 3, 4]).unwrapped(&[0, 5]).to_string()
@@ -74,9 +74,9 @@ impl Lines {
 
     /// What is published on something, if anything is.
     fn published(&mut self, report: &Report, subject: &Subject) {
-        let Some((published, agreement)) = report.published(subject) else { return };
+        let Some(published) = report.published(subject) else { return };
         let [x, y, z, norm] = published.figures.map(|figure| figure.map_or("–".to_owned(), short));
-        self.push([format!("  {}", report.publisher()), x, y, z, norm, agreement.text(report)]);
+        self.push([format!("  {}", report.publisher()), x, y, z, norm, published.agreement.text(report)]);
     }
 
     fn joined(self) -> Vec<String> {

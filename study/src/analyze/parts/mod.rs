@@ -8,7 +8,7 @@ mod file;
 mod merge;
 mod part;
 mod question;
-mod shard;
+pub(super) mod shard;
 
 pub use merge::merge;
 pub use part::Part;

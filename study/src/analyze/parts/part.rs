@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::question::Question;
 use super::shard::Shard;
-use crate::analyze::prepared::Gathered;
+use crate::analyze::sweep::SweepData;
 use crate::notes::Notes;
 
 /// What was gathered over a share of a workspace, with the question that it is part of an answer to.
@@ -19,7 +19,7 @@ pub struct Part {
     pub(super) identity: String,
     pub(super) question: Question,
     pub(super) shard: Shard,
-    pub(super) gathered: Gathered,
+    pub(super) gathered: SweepData,
 }
 
 /// On what the last bits of all numbers depend.

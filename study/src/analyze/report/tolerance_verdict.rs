@@ -3,7 +3,43 @@
 use abbe::analysis::{Budget, Compliance, ErrorsAt, Measurand, compliance, normal_compliance};
 use serde::Serialize;
 
-use super::prepared::SEED;
+use super::error_sites::ErrorSites;
+use crate::number::Named;
+
+/// The draws of verdicts and budgets are always the same: they are to be as good as integrals.
+pub(in crate::analyze) const SEED: u64 = 0;
+
+/// Verdicts on the tolerances of a study.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verdicts {
+    /// The worst of them.
+    pub verdict: Verdict,
+    /// Probability with which a tolerance must be met.
+    pub probability_asked: f64,
+    /// On the position error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position: Option<ToleranceVerdict>,
+    /// On the orientation error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<ToleranceVerdict>,
+}
+
+impl Verdicts {
+    /// Returns none if there is no tolerance.
+    pub(in crate::analyze) fn new(
+        probability_asked: f64,
+        [position, orientation]: [Option<ToleranceVerdict>; 2],
+    ) -> Option<Self> {
+        let verdict =
+            position.iter().chain(&orientation).map(|one| one.verdict).max_by_key(|one| *one as u8)?;
+        Some(Self { verdict, probability_asked, position, orientation })
+    }
+
+    /// Returns the verdicts that there are, that on position first.
+    pub fn all(&self) -> impl Iterator<Item = &ToleranceVerdict> {
+        self.position.iter().chain(&self.orientation)
+    }
+}
 
 /// Whether a tolerance is met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -27,48 +63,55 @@ const DRAWN: usize = 4;
 /// The probability is the least of those at the configurations that were looked at: the one with the largest radius (the
 /// norm of the repeatable errors and that of the random bounds, added), and those where an approximation has the tolerance
 /// least likely met, [`Budget::least_likely`]. Repeatable sources are as they are, random ones drawn, to first order.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Judged {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ToleranceVerdict {
     /// What it is about.
+    #[serde(skip)]
     pub measurand: Measurand,
+    /// Whether the tolerance is met.
+    pub verdict: Verdict,
     /// How large the norm of the error may be.
     pub tolerance: f64,
-    /// Whether it is.
-    pub verdict: Verdict,
-    /// What no draw exceeds, if all random sources are bounded: all bounds added, each in the worst direction.
-    pub largest: Option<f64>,
     /// How likely the tolerance is met: 1 if for certain.
+    #[serde(flatten)]
     pub compliance: Compliance,
-    /// Index of the configuration where that is; with the largest radius, if it is met for certain.
-    pub configuration: Option<usize>,
+    /// What no draw exceeds, all bounds added, each in the worst direction; none if a random source is not bounded.
+    pub largest: Option<f64>,
+    /// Configuration with that probability; with the largest radius, if the tolerance is met for certain.
+    pub at: Named,
     /// At how many configurations the probability was evaluated.
     pub configurations: usize,
+    /// Index of the configuration.
+    #[serde(skip)]
+    pub configuration: Option<usize>,
 }
 
-impl Judged {
+impl ToleranceVerdict {
     /// Judges the errors of a budget; `errors_at` are those at a configuration.
-    pub(super) fn new<'a, E>(
+    pub(in crate::analyze) fn new<'a, E>(
         budget: &Budget,
+        sites: &ErrorSites,
         measurand: Measurand,
-        (tolerance, asked): (f64, f64),
+        (tolerance, probability): (f64, f64),
         errors_at: impl Fn(Option<usize>) -> Result<ErrorsAt<'a>, E>,
     ) -> Result<Self, E> {
         let (sources, combined, _) = budget.errors(measurand);
         let bounded = sources.iter().all(|errors| errors.class.is_bounded() || errors.plain_max.norm == 0.0);
         let largest = bounded.then_some(combined.bounded_radius.value);
         let radius = combined.radius.configuration;
+        let judged = |verdict, compliance, configuration, configurations| Self {
+            measurand,
+            verdict,
+            tolerance,
+            compliance,
+            largest,
+            at: sites.variables(configuration),
+            configurations,
+            configuration,
+        };
         if largest.is_some_and(|largest| largest <= tolerance) {
-            let (verdict, configurations) = (Verdict::Met, 0);
-            let compliance = Compliance { probability: 1.0, error: 0.0, draws: None };
-            return Ok(Self {
-                measurand,
-                tolerance,
-                verdict,
-                largest,
-                compliance,
-                configuration: radius,
-                configurations,
-            });
+            let certain = Compliance { probability: 1.0, error: 0.0, draws: None };
+            return Ok(judged(Verdict::Met, certain, radius, 0));
         }
         let listed = budget.least_likely_of(measurand).iter().map(|index| Some(*index));
         let mut places = Vec::new();
@@ -91,8 +134,8 @@ impl Judged {
                 (compliance, configuration) = (here, *index);
             }
         }
-        let met = compliance.probability >= asked;
+        let met = compliance.probability >= probability;
         let verdict = if met { Verdict::MetWithProbability } else { Verdict::NotMet };
-        Ok(Self { measurand, tolerance, verdict, largest, compliance, configuration, configurations })
+        Ok(judged(verdict, compliance, configuration, configurations))
     }
 }

@@ -1,15 +1,14 @@
 //! Budgets in parts: a workspace is divided into chunks, and what was gathered of some merges with that of others.
 
-use core::fmt;
 use core::ops::{ControlFlow, Range};
 
-use super::gathering::{self, Beginning, Gathering, Scattered};
-use super::{Asked, Budget, OrientationErrors, RemainingErrors, Residual, Watch, remaining_errors};
+use super::gathering::{self, Beginning, Scattered};
+use super::partial_budget::PartialBudget;
+use super::{Budget, BudgetOptions, OrientationErrors, Residual, Watch, remaining_errors};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::workspace::One;
-use crate::{Measurand, Subset, UnreachableSummary, Workspace};
-use abbe_core::lanes::Sweepable;
-use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register};
+use crate::{Measurand, Subset, Workspace};
+use abbe_core::lanes::{InstructionSet, Kernel, Lanes, Register, Sweepable};
 use abbe_core::{Class, Scalar};
 
 /// How many configurations the error sphere and ellipsoid begin with.
@@ -17,6 +16,21 @@ const SCATTERED: usize = 512;
 /// Into how many chunks a workspace is cut at least, and the most blocks of one.
 const CHUNKS: usize = 64;
 const LARGEST_CHUNK: usize = 64;
+
+/// What the sources do over a workspace, section 5 of the paper.
+///
+/// Nothing is stored, blocks are evaluated in parallel (feature `parallel`), and on one instruction set the result is the same to the last bit for
+/// any number of threads, and however a [`BudgetSweep`] of it is divided. Errors as for [`sweep`](crate::sweep).
+pub fn error_budget(
+    manipulator: &dyn Sweepable,
+    workspace: &dyn Workspace,
+    options: BudgetOptions<'_>,
+    watch: &mut dyn Watch,
+) -> Result<Budget, Unevaluated> {
+    let sweep = BudgetSweep::new(manipulator, workspace, options)?;
+    let all = sweep.part(0..sweep.chunks(), watch)?;
+    Ok(sweep.finish(all))
+}
 
 /// An error budget that is made in parts, on one machine or on several.
 ///
@@ -27,17 +41,17 @@ const LARGEST_CHUNK: usize = 64;
 /// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/pps.rs"));
 /// # fn main() -> Result<(), Box<dyn core::error::Error>> {
 /// # use pps::Pps;
-/// use abbe::analysis::{Asked, Survey, error_budget, joint_samples};
+/// use abbe::analysis::{BudgetOptions, BudgetSweep, error_budget, joint_samples};
 ///
 /// let workspace = joint_samples(&Pps, &[0, 1, 2, 3], 10_000)?;
-/// let survey = Survey::new(&Pps, &workspace, Asked::default())?;
-/// let mut part = survey.part(0..20, &mut ())?;
-/// part.append(survey.part(20..survey.chunks(), &mut ())?)?;
-/// assert_eq!(survey.finish(part), error_budget(&Pps, &workspace, Asked::default(), &mut ())?);
+/// let sweep = BudgetSweep::new(&Pps, &workspace, BudgetOptions::default())?;
+/// let mut part = sweep.part(0..20, &mut ())?;
+/// part.append(sweep.part(20..sweep.chunks(), &mut ())?)?;
+/// assert_eq!(sweep.finish(part), error_budget(&Pps, &workspace, BudgetOptions::default(), &mut ())?);
 /// # Ok(())
 /// # }
 /// ```
-pub struct Survey<'a> {
+pub struct BudgetSweep<'a> {
     manipulator: &'a dyn Sweepable,
     workspace: &'a dyn Workspace,
     classes: Vec<Class>,
@@ -48,41 +62,12 @@ pub struct Survey<'a> {
     chunk: usize,
 }
 
-/// What was gathered over some consecutive chunks of a [`Survey`].
-#[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct BudgetPart {
-    chunks: Range<usize>,
-    position: Gathering,
-    orientation: Gathering,
-    compensation: Option<RemainingErrors>,
-    configurations: usize,
-    unreachable: UnreachableSummary,
-}
-
-/// A part that does not begin where the one before it ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Gap {
-    /// The first chunk that is missing, or there twice.
-    pub expected: usize,
-    /// The chunk that comes instead.
-    pub found: usize,
-}
-
-impl fmt::Display for Gap {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "chunk {} should come next, but it is chunk {}", self.expected, self.found)
-    }
-}
-
-impl core::error::Error for Gap {}
-
-impl<'a> Survey<'a> {
+impl<'a> BudgetSweep<'a> {
     /// Looks at some configurations from everywhere, from which all parts begin. Errors as for [`sweep`].
     pub fn new(
         manipulator: &'a dyn Sweepable,
         workspace: &'a dyn Workspace,
-        asked: Asked<'a>,
+        options: BudgetOptions<'a>,
     ) -> Result<Self, Unevaluated> {
         ready(manipulator, workspace)?;
         let mut home = Vec::new();
@@ -99,10 +84,10 @@ impl<'a> Survey<'a> {
         Ok(Self {
             manipulator,
             workspace,
-            position: first.finish(&classes, &home, asked.tolerances[0]),
-            orientation: second.finish(&classes, &home, asked.tolerances[1]),
+            position: first.finish(&classes, &home, options.tolerances[0]),
+            orientation: second.finish(&classes, &home, options.tolerances[1]),
             classes,
-            residuals: asked.residuals,
+            residuals: options.residuals,
             chunk: (workspace.len() / (CHUNKS * BLOCK)).clamp(1, LARGEST_CHUNK) * BLOCK,
         })
     }
@@ -120,13 +105,13 @@ impl<'a> Survey<'a> {
     }
 
     /// Evaluates some chunks, and no more than those that are done when the watcher ends it. Errors as for [`sweep`].
-    pub fn part(&self, chunks: Range<usize>, watch: &mut dyn Watch) -> Result<BudgetPart, Unevaluated> {
+    pub fn part(&self, chunks: Range<usize>, watch: &mut dyn Watch) -> Result<PartialBudget, Unevaluated> {
         let chunks = chunks.start..chunks.end.min(self.chunks()).max(chunks.start);
-        let mut total = self.nothing(chunks.start);
+        let mut total = self.none(chunks.start);
         let (rows, mut here) = (watch.rows(), self.workspace.home().clone());
         in_order_until(
             chunks.len(),
-            |i| InstructionSet::best().run(Chunk { survey: self, number: chunks.start + i, rows }),
+            |i| InstructionSet::best().run(Chunk { sweep: self, number: chunks.start + i, rows }),
             |(part, blocks)| {
                 blocks.iter().for_each(|block| block.visit(&mut here, &mut |row| watch.row(row)));
                 let done = self.configurations(&part.chunks).end;
@@ -140,8 +125,8 @@ impl<'a> Survey<'a> {
         Ok(total)
     }
 
-    /// Whether a part, which may come from elsewhere, can be one of this survey.
-    pub fn fits(&self, part: &BudgetPart) -> bool {
+    /// Whether a part, which may come from elsewhere, can be one of this sweep.
+    pub fn fits(&self, part: &PartialBudget) -> bool {
         let sources = self.classes.len();
         part.chunks.start <= part.chunks.end
             && part.chunks.end <= self.chunks()
@@ -151,7 +136,7 @@ impl<'a> Survey<'a> {
     }
 
     /// The budget of what was gathered.
-    pub fn finish(&self, part: BudgetPart) -> Budget {
+    pub fn finish(&self, part: PartialBudget) -> Budget {
         let count = part.configurations;
         let (sources, combined, gains, least_likely) = part.position.finish(&self.position, count);
         let (turned, turns, turn_gains, turn_least_likely) =
@@ -168,75 +153,30 @@ impl<'a> Survey<'a> {
         }
     }
 
-    /// Of no chunks, where one begins.
-    fn nothing(&self, chunk: usize) -> BudgetPart {
-        BudgetPart {
-            chunks: chunk..chunk,
-            position: Gathering::new(self.classes.len()),
-            orientation: Gathering::new(self.classes.len()),
-            compensation: self.residuals.map(|_| RemainingErrors::none()),
-            configurations: 0,
-            unreachable: UnreachableSummary::default(),
-        }
-    }
-}
-
-impl BudgetPart {
-    /// The chunks that it is of.
-    pub fn chunks(&self) -> Range<usize> {
-        self.chunks.clone()
-    }
-
-    /// How many configurations were reached and evaluated.
-    pub fn configurations(&self) -> usize {
-        self.configurations
-    }
-
-    /// How many could not be reached.
-    pub fn unreachable(&self) -> usize {
-        self.unreachable.count
-    }
-
-    /// Takes in the part that follows, of the same survey. [`Gap`] if it begins elsewhere.
-    pub fn append(&mut self, next: Self) -> Result<(), Gap> {
-        if next.chunks.start != self.chunks.end {
-            return Err(Gap { expected: self.chunks.end, found: next.chunks.start });
-        }
-        self.put(next);
-        Ok(())
-    }
-
-    fn put(&mut self, next: Self) {
-        self.position.append(next.position);
-        self.orientation.append(next.orientation);
-        if let (Some(here), Some(next)) = (&mut self.compensation, &next.compensation) {
-            here.merge(next);
-        }
-        self.configurations += next.configurations;
-        self.unreachable.append(next.unreachable);
-        self.chunks.end = next.chunks.end;
+    fn none(&self, chunk: usize) -> PartialBudget {
+        PartialBudget::none(chunk, self.classes.len(), self.residuals.is_some())
     }
 }
 
 /// Some blocks of configurations, one after the other.
 struct Chunk<'s, 'a> {
-    survey: &'s Survey<'a>,
+    sweep: &'s BudgetSweep<'a>,
     number: usize,
     rows: bool,
 }
 
 impl<'a> Kernel for Chunk<'_, 'a> {
     /// What was gathered, and the blocks themselves, if they are to be shown.
-    type Output = Result<(BudgetPart, Vec<Block<'a>>), Unevaluated>;
+    type Output = Result<(PartialBudget, Vec<Block<'a>>), Unevaluated>;
 
     #[inline(always)]
     fn run<R: Register>(self) -> Self::Output {
-        let Survey { manipulator, workspace, ref classes, residuals, .. } = *self.survey;
-        let (mut part, mut blocks) = (self.survey.nothing(self.number), Vec::new());
+        let BudgetSweep { manipulator, workspace, ref classes, residuals, .. } = *self.sweep;
+        let (mut part, mut blocks) = (self.sweep.none(self.number), Vec::new());
         part.chunks.end += 1;
-        let range = self.survey.configurations(&part.chunks);
-        let mut position = gathering::Lane::<R>::new(&self.survey.position);
-        let mut orientation = gathering::Lane::<R>::new(&self.survey.orientation);
+        let range = self.sweep.configurations(&part.chunks);
+        let mut position = gathering::Lane::<R>::new(&self.sweep.position);
+        let mut orientation = gathering::Lane::<R>::new(&self.sweep.orientation);
         let mut compensated = remaining_errors::Lane::<R>::new();
         let mut indices = Vec::with_capacity(range.len());
         let mut block = Block::new(manipulator, workspace, BLOCK.min(range.len()));

@@ -1,0 +1,105 @@
+//! Our figures beside published ones.
+
+use abbe::analysis::{Combined, Figures};
+use serde::{Serialize, Serializer};
+
+use super::source_report::SourceReport;
+use crate::study_file::{CombinedFigure, Metric, Published, Subject};
+
+/// A published figure: of a source in a metric, or of all together.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    /// Name of the source, or `combined`.
+    pub figure: String,
+    /// Name of the metric, or of the combined figure.
+    pub metric: &'static str,
+    /// Along x, y, z and of the norm, as far as they are printed.
+    #[serde(flatten, serialize_with = "by_axis")]
+    pub figures: [Option<f64>; 4],
+    /// Largest difference that counts as equal: half a unit of the last printed digit.
+    pub within: f64,
+    /// Whether it is met.
+    #[serde(rename = "met", serialize_with = "is_met")]
+    pub agreement: Agreement,
+    /// Where it is printed.
+    pub reference: String,
+    /// What it is about.
+    #[serde(skip)]
+    pub subject: Subject,
+}
+
+/// Whether a published figure is met.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Agreement {
+    /// To its last digit.
+    Met,
+    /// Not, by this difference at most, which is this share of the published figure.
+    Missed {
+        /// In the length unit.
+        difference: f64,
+        /// None where the published figure is 0.
+        share: Option<f64>,
+    },
+}
+
+impl Agreement {
+    /// Compares those of x, y, z and norm that are published.
+    fn new(found: [f64; 4], published: &Published) -> Self {
+        let pairs = found.into_iter().zip(published.figures);
+        let misses =
+            pairs.filter_map(|(found, published)| published.map(|published| (found - published, published)));
+        match misses.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) {
+            // Printed figures are decimal, ours are binary: half of the last digit may be off by a rounding.
+            Some((difference, printed)) if difference.abs() > published.within * (1.0 + 1e-9) => {
+                let share = (printed != 0.0).then(|| difference / printed);
+                Self::Missed { difference, share }
+            }
+            _ => Self::Met,
+        }
+    }
+}
+
+impl Comparison {
+    /// Compares with all published figures; those of sources that are switched off are left out.
+    pub(in crate::analyze) fn all(
+        published: &[Published],
+        sources: &[SourceReport],
+        combined: &Combined,
+    ) -> Vec<Self> {
+        let alone = sources.iter().flat_map(|source| {
+            Metric::ALL.map(|(name, metric)| {
+                let Figures { x, y, z, norm } = source.figures(metric);
+                (source.name.as_str(), name, Subject::Source(source.name.clone(), metric), [x, y, z, norm])
+            })
+        });
+        let together = CombinedFigure::ALL.map(|(name, figure)| {
+            let norm = match figure {
+                CombinedFigure::Repeatable => combined.repeatable_radius,
+                CombinedFigure::Random => combined.random_radius,
+                CombinedFigure::Both => combined.radius,
+            };
+            ("combined", name, Subject::Combined(figure), [0.0, 0.0, 0.0, norm.value])
+        });
+        let compared = alone.chain(together).filter_map(|(figure, metric, subject, found)| {
+            let published = published.iter().find(|published| published.subject == subject)?;
+            Some(Self {
+                figure: figure.to_owned(),
+                metric,
+                figures: published.figures,
+                within: published.within,
+                agreement: Agreement::new(found, published),
+                reference: published.reference.clone(),
+                subject,
+            })
+        });
+        compared.collect()
+    }
+}
+
+fn by_axis<S: Serializer>(figures: &[Option<f64>; 4], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(["x", "y", "z", "norm"].into_iter().zip(figures))
+}
+
+fn is_met<S: Serializer>(agreement: &Agreement, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_bool(*agreement == Agreement::Met)
+}

@@ -1,0 +1,297 @@
+//! The sweep over the workspace: what is gathered chunk by chunk, and the report of all of it.
+
+use std::ops::Range;
+
+use abbe::Description;
+use abbe::analysis::{
+    Budget, BudgetSweep, Configuration, Measurand, PartialBudget, Row, Statement, Subset, Sweepable,
+    Unevaluated, Watch, Workspace, errors_at, monte_carlo,
+};
+use abbe_spec::diagnostic::Diagnostics;
+use serde::{Deserialize, Serialize};
+
+use super::figures::{Data, Figures, Gathering};
+use super::first_order::FirstOrder;
+use super::report::{
+    AfterCompensation, CombinedReport, Comparison, Drawn, DrawnErrors, ErrorAllowance, ErrorSites, Ledger,
+    OrientationReport, Report, SEED, SourceReport, ToleranceVerdict, UncertaintyBudget, Verdicts,
+};
+use super::unreachable;
+use crate::bound::Norms;
+use crate::extrapolated::extrapolated;
+use crate::finite::finite;
+use crate::machine::Machine;
+use crate::notes::Notes;
+use crate::study_file::Study;
+use crate::{mistake, number};
+
+/// At how many configurations it is looked whether errors are extrapolated.
+const EXTRAPOLATED: usize = 2000;
+
+/// What was gathered over some chunks of a workspace.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SweepData {
+    /// Of the sources.
+    pub(super) budget: PartialBudget,
+    /// For the figures, if they are asked for.
+    figures: Option<Vec<Data>>,
+}
+
+/// The sweep over the workspace of a study.
+pub(super) struct Sweep<'a> {
+    pub(super) machine: &'a Machine,
+    pub(super) study: &'a Study,
+    pub(super) monte_carlo: Option<usize>,
+    pub(super) seed: u64,
+    /// Whether to gather what the figures of the study show.
+    pub(super) figures: bool,
+    pub(super) manipulator: &'a dyn Sweepable,
+    pub(super) workspace: &'a dyn Workspace,
+    pub(super) budget: BudgetSweep<'a>,
+}
+
+impl Sweep<'_> {
+    /// Sweeps some chunks of the workspace.
+    pub(super) fn run(
+        &self,
+        chunks: Range<usize>,
+        rows: Option<&mut dyn FnMut(&Row)>,
+        notes: &mut dyn Notes,
+    ) -> Result<SweepData, Diagnostics> {
+        let range = self.budget.configurations(&chunks);
+        let gathering = self.figures.then(|| Gathering::new(self.study, self.manipulator.description()));
+        notes.progress(0, range.len());
+        let mut watching = Watching { rows, gathering, notes, range: range.clone() };
+        let budget = self.budget.part(chunks, &mut watching);
+        let Watching { gathering, notes, .. } = watching;
+        notes.progress(range.len(), range.len());
+        let budget = budget.map_err(|refused| self.not_evaluated(&refused))?;
+        // Of a sweep that was stopped there is a part.
+        notes.go_on()?;
+        Ok(SweepData { budget, figures: gathering.map(Gathering::data) })
+    }
+
+    /// Takes in what follows; says whether it does, and is of the same figures.
+    pub(super) fn append(&self, all: &mut SweepData, next: SweepData) -> bool {
+        let figures = match (all.figures.take(), next.figures) {
+            (None, None) => Some(None),
+            (Some(here), Some(next)) => {
+                let mut gathering = Gathering::new(self.study, self.manipulator.description());
+                (gathering.append(here) && gathering.append(next)).then(|| Some(gathering.data()))
+            }
+            _ => None,
+        };
+        let Some(figures) = figures else { return false };
+        all.figures = figures;
+        all.budget.append(next.budget).is_ok()
+    }
+
+    /// The report of all that was gathered.
+    pub(super) fn report(&self, data: SweepData, notes: &mut dyn Notes) -> Result<Report, Diagnostics> {
+        let Self { machine, study, manipulator, workspace, .. } = *self;
+        let spec = &machine.spec;
+        let budget = self.budget.finish(data.budget);
+        self.require_reached(&budget)?;
+        notes.go_on()?;
+
+        let first_order = FirstOrder::over(manipulator, workspace);
+        let first_order = first_order.map_err(|refused| self.not_evaluated(&refused))?;
+        let moving_inputs = study.region.moving_inputs();
+        let sites = ErrorSites::new(&budget, workspace, spec, &study.region.varying(spec), &moving_inputs);
+        let verdicts = self.verdicts(&budget, &sites)?;
+        let uncertainty = self.uncertainty(&budget, &sites, Measurand::Position)?;
+        let turned = self.uncertainty(&budget, &sites, Measurand::Orientation)?;
+        let monte_carlo = self.drawn(&budget, &sites, notes)?;
+        let certified = Norms::over(machine, study, notes);
+        notes.go_on()?;
+        let figures = data.figures.map(|data| self.drawings(data)).transpose()?;
+        let sources = SourceReport::all(&budget, spec, &sites);
+        let tolerance = study.tolerance;
+        let report = Report {
+            manipulator: spec.name.clone(),
+            configurations: budget.configurations,
+            unreachable: budget.unreachable.count,
+            combined: CombinedReport::new(&budget.combined, &sites),
+            title: study.title.clone(),
+            workspace: study.region.describe(spec),
+            length: spec.length.symbol(),
+            position_tolerance: tolerance,
+            verdicts,
+            uncertainty,
+            orientation: OrientationReport::new(&budget, spec, &sites, study.orientation_tolerance, turned),
+            comparisons: Comparison::all(&study.published, &sources, &budget.combined),
+            after_compensation: study.compensated.as_ref().map(|left| AfterCompensation::new(left, &budget)),
+            first_order,
+            certified,
+            unreachable_reasons: unreachable::reasons(&budget.unreachable, spec),
+            not_reproducible: study.not_reproducible.clone(),
+            ledger: Ledger::new(&budget, &sources, tolerance),
+            allowance: tolerance
+                .map(|tolerance| ErrorAllowance::new(&budget, spec, Measurand::Position, tolerance)),
+            compensation: budget.compensation,
+            monte_carlo,
+            sources,
+            spec: spec.clone(),
+            study: study.clone(),
+            home: workspace.home().clone(),
+            moving_inputs,
+            budget,
+            figures,
+            sites,
+        };
+        self.warn_of_first_order(first_order, notes);
+        self.warn_of_extrapolation(notes);
+        finite(&machine.origin, report)
+    }
+
+    fn verdicts(&self, budget: &Budget, sites: &ErrorSites) -> Result<Option<Verdicts>, Diagnostics> {
+        let Study { tolerance, orientation_tolerance, probability, .. } = *self.study;
+        let verdict = |measurand, tolerance: Option<f64>| {
+            let errors_at =
+                |index| self.at(index, |configuration| errors_at(self.manipulator, configuration));
+            let judged = tolerance.map(|tolerance| {
+                ToleranceVerdict::new(budget, sites, measurand, (tolerance, probability), errors_at)
+            });
+            judged.transpose()
+        };
+        let position = verdict(Measurand::Position, tolerance)?;
+        let orientation = verdict(Measurand::Orientation, orientation_tolerance)?;
+        Ok(Verdicts::new(probability, [position, orientation]))
+    }
+
+    /// The budget where the standard uncertainty is largest; none if there is no random error.
+    fn uncertainty(
+        &self,
+        budget: &Budget,
+        sites: &ErrorSites,
+        measurand: Measurand,
+    ) -> Result<Option<UncertaintyBudget>, Diagnostics> {
+        let largest = budget.errors(measurand).1.standard_radius;
+        if largest.value == 0.0 {
+            return Ok(None);
+        }
+        let errors =
+            self.at(largest.configuration, |configuration| errors_at(self.manipulator, configuration))?;
+        let statement = Statement::new(&errors, measurand, SEED);
+        Ok(Some(UncertaintyBudget::new(&statement, largest.configuration, &self.machine.spec, sites)))
+    }
+
+    /// What is drawn where the radius of all errors is largest and at home, if it is asked for.
+    fn drawn(
+        &self,
+        budget: &Budget,
+        sites: &ErrorSites,
+        notes: &mut dyn Notes,
+    ) -> Result<Option<Drawn>, Diagnostics> {
+        let Some(draws) = self.monte_carlo else { return Ok(None) };
+        let draw = |index| {
+            let errors = self
+                .at(index, |configuration| monte_carlo(self.manipulator, configuration, draws, self.seed))?;
+            Ok::<_, Diagnostics>(DrawnErrors::new(sites.get(index).unwrap_or(&sites.home), errors))
+        };
+        notes.progress(0, 2 * draws);
+        let worst = draw(budget.combined.radius.configuration)?;
+        notes.progress(draws, 2 * draws);
+        notes.go_on()?;
+        let home = draw(None)?;
+        notes.progress(2 * draws, 2 * draws);
+        Ok(Some(Drawn { draws, seed: self.seed, worst, home }))
+    }
+
+    fn drawings(&self, data: Vec<Data>) -> Result<Figures, Diagnostics> {
+        let Self { machine, study, manipulator, workspace, .. } = *self;
+        let mut gathering = Gathering::new(study, manipulator.description());
+        if !gathering.append(data) {
+            let message = "the figures are not those of the study";
+            return Err(mistake::with_help(&machine.origin, message, "make all parts again"));
+        }
+        gathering.finish(manipulator, workspace.home(), &machine.spec)
+    }
+
+    /// Evaluates something at a configuration of the workspace; at home without an index.
+    fn at<T>(
+        &self,
+        index: Option<usize>,
+        evaluate: impl FnOnce(&Configuration) -> Result<T, abbe::Error>,
+    ) -> Result<T, Diagnostics> {
+        let configuration = index.and_then(|index| self.workspace.configuration(index).ok());
+        evaluate(configuration.as_ref().unwrap_or_else(|| self.workspace.home()))
+            .map_err(|error| self.not_evaluated(&Unevaluated { configuration: index, error }))
+    }
+
+    fn require_reached(&self, budget: &Budget) -> Result<(), Diagnostics> {
+        if budget.configurations > 0 {
+            return Ok(());
+        }
+        let reasons = unreachable::summary(&budget.unreachable, &self.machine.spec);
+        let message = format!("no configuration of the workspace can be reached: {reasons}");
+        let help = "move or shrink the workspace of the study, or widen the limits of the joints";
+        Err(mistake::with_help(&self.machine.origin, message, help))
+    }
+
+    /// Warns if first order is not good enough for the tolerance.
+    fn warn_of_first_order(&self, FirstOrder { largest: neglected, .. }: FirstOrder, notes: &mut dyn Notes) {
+        let length = |value| number::length(value, self.machine.spec.length);
+        if let Some(tolerance) = self.study.tolerance.filter(|tolerance| neglected > tolerance / 10.0) {
+            notes.warn(&format!(
+                "first order is off by up to {}, more than a tenth of the tolerance of {}; look at --monte-carlo",
+                length(neglected),
+                length(tolerance),
+            ));
+        }
+    }
+
+    /// Looks at some configurations of a large workspace.
+    fn warn_of_extrapolation(&self, notes: &mut dyn Notes) {
+        let Self { machine, workspace, .. } = *self;
+        if machine.spec.fitted.is_empty() {
+            return;
+        }
+        let reached = Subset { workspace, count: EXTRAPOLATED }.reached();
+        let places = reached.iter().map(|place| (&place.q[..], &place.u[..]));
+        extrapolated(&machine.spec, &*machine.evaluator(true), "configurations", places, notes);
+    }
+
+    fn not_evaluated(&self, refused: &Unevaluated) -> Diagnostics {
+        not_evaluated(self.machine, self.workspace, refused, self.manipulator.description())
+    }
+}
+
+/// The mistake that a configuration has no finite errors.
+pub(super) fn not_evaluated(
+    machine: &Machine,
+    workspace: &dyn Workspace,
+    refused: &Unevaluated,
+    description: &Description,
+) -> Diagnostics {
+    let at = match refused.configuration.and_then(|index| workspace.configuration(index).ok()) {
+        Some(configuration) => number::configuration(&configuration, workspace.home(), &machine.spec),
+        None => "home".to_owned(),
+    };
+    mistake::not_evaluated(&machine.origin, &at, &refused.error, description)
+}
+
+/// Who is shown every configuration, if anybody is, and how far the sweep is.
+struct Watching<'r, 'n, 'g> {
+    rows: Option<&'r mut dyn FnMut(&Row)>,
+    gathering: Option<Gathering<'g>>,
+    notes: &'n mut dyn Notes,
+    /// The configurations that are looked at.
+    range: Range<usize>,
+}
+
+impl Watch for Watching<'_, '_, '_> {
+    fn rows(&self) -> bool {
+        self.rows.is_some() || self.gathering.is_some()
+    }
+
+    fn row(&mut self, row: &Row) {
+        self.rows.iter_mut().for_each(|show| show(row));
+        self.gathering.iter_mut().for_each(|gathering| gathering.add(row));
+    }
+
+    fn done(&mut self, before: usize) -> bool {
+        self.notes.progress(before - self.range.start, self.range.len());
+        !self.notes.stop()
+    }
+}
