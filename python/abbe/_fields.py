@@ -1,7 +1,6 @@
 """Fields of reports, by name."""
 
 import html as markup
-import importlib.util
 import json
 from types import SimpleNamespace
 
@@ -23,27 +22,22 @@ class Fields(SimpleNamespace):
 
 
 class Figure:
-    """A figure: its title, `.svg`, and `.plots`, dicts of data and layout for Plotly, which stand side by side."""
+    """A figure: its title, `.svg`, and `.scene`, what is drawn as plain dicts and lists."""
 
-    def __init__(self, title, svg, plots):
+    def __init__(self, title, svg, scene):
         self.title = title
         self.svg = svg
-        self._plots = plots
+        self._scene = scene
 
     @property
-    def plots(self):
-        plots = map(json.loads, self._plots)
-        return [{"data": plot["data"], "layout": plot["layout"]} for plot in plots]
+    def scene(self):
+        return json.loads(self._scene)
 
     def __eq__(self, other):
-        return isinstance(other, Figure) and (self.title, self.svg, self._plots) == (other.title, other.svg, other._plots)
+        return isinstance(other, Figure) and (self.svg, self._scene) == (other.svg, other._scene)
 
-    def _repr_mimebundle_(self, include=None, exclude=None):
-        bundle = {"image/svg+xml": self.svg, "text/plain": repr(self)}
-        # A notebook shows one plot at a place. Without plotly it has nothing to show it with.
-        if len(self._plots) == 1 and importlib.util.find_spec("plotly"):
-            bundle["application/vnd.plotly.v1+json"] = self.plots[0]
-        return bundle
+    def _repr_svg_(self):
+        return self.svg
 
     def __repr__(self):
         return f"<abbe figure: {self.title}>"

@@ -387,7 +387,7 @@ pub(crate) fn analysis(report: analyze::Report, notes: Vec<String>) -> PyResult<
     let drawn = Arc::clone(&report);
     let found = found.with_figures(move || abbe_report::figures(&drawn));
     Ok(found.with_pages(move || {
-        let files = abbe_report::analysis(&report)?;
+        let files = abbe_report::analysis(&report);
         Ok(files.into_iter().map(|file| (file.name, file.text)).collect())
     }))
 }

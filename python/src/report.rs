@@ -33,7 +33,7 @@ pub(crate) struct Report {
     html: Option<String>,
     notes: Vec<String>,
     pages: Option<Make<Pages>>,
-    figures: Option<Make<Vec<Picture>>>,
+    figures: Option<Box<dyn Fn() -> Vec<Picture> + Send + Sync>>,
     rows: Option<data::Table>,
     /// Which of its pages is a spec.
     spec: Option<String>,
@@ -75,7 +75,7 @@ impl Report {
     /// With figures.
     pub(crate) fn with_figures(
         self,
-        figures: impl Fn() -> Result<Vec<Picture>, Diagnostics> + Send + Sync + 'static,
+        figures: impl Fn() -> Vec<Picture> + Send + Sync + 'static,
     ) -> Self {
         Self { figures: Some(Box::new(figures)), ..self }
     }
@@ -154,20 +154,21 @@ impl Report {
         }
     }
 
-    /// The figures by their names: notebooks show them, `.svg` is the picture, `.plots` what Plotly draws.
+    /// The figures by their names: notebooks show them, `.svg` is the picture, `.scene` what is drawn as plain data.
     fn figures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
         let Some(make) = &self.figures else { return Ok(found) };
-        let pictures = guarded(|| py.detach(make).map_err(|mistakes| spec_error(py, &mistakes)))?;
+        let pictures = guarded(|| Ok(py.detach(make)))?;
         let figure = py.import("abbe._fields")?.getattr("Figure")?;
-        for Picture { name, title, svg, plots } in pictures {
-            found.set_item(name, figure.call1((title, svg, plots))?)?;
+        for Picture { name, scene, svg } in pictures {
+            let data = serde_json::to_string(&scene).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+            found.set_item(name, figure.call1((scene.title, svg, data))?)?;
         }
         Ok(found)
     }
 
-    /// One figure. `.svg` is its text; `.plots` are dicts of `data` and `layout`, one for each plot that stands side by side, as
-    /// ``plotly.graph_objects.Figure(**plot)`` takes them. Notebooks show what can be turned where plotly is installed.
+    /// One figure, which notebooks show. `.svg` is its text; `.scene` is what is drawn as plain data: its panels, each with axes and
+    /// marks (lines, points, bands, bars, surfaces), all numbers in the units of the axes.
     fn figure<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let figures = self.figures(py)?;
         figures.get_item(name)?.ok_or_else(|| {

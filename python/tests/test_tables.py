@@ -3,7 +3,6 @@
 import csv
 import gc
 import importlib.util
-import json
 
 import numpy as np
 import pytest
@@ -198,21 +197,15 @@ def test_figures():
     report = pps.analyze()
     pareto = report.figure("pareto")
     assert pareto.svg.startswith("<svg") and pareto.title == "Share of each source"
-    [plot] = pareto.plots
-    bars = plot["data"][0]
+    [panel] = pareto.scene["panels"]
+    bars = panel["marks"][0]
     largest = dict(zip(report.table("ledger.sources").to_dict()["name"], report.table("ledger.sources").to_dict()["max"], strict=True))
-    shares = [100 * largest[name] / sum(largest.values()) for name in bars["x"]]
-    assert bars["type"] == "bar" and len(shares) == 7 and np.allclose(bars["y"], shares)
+    names = [name.splitlines()[0] for name in panel["x"]["scale"]["names"]]
+    shares = [100 * largest[name] / sum(largest.values()) for name in names]
+    assert bars["shape"] == "bars" and len(shares) == 7 and np.allclose([bar[1][1] for bar in bars["bars"]], shares)
     for name, figure in report.figures().items():
-        assert figure.plots and all(set(plot) == {"data", "layout"} and plot["data"] for plot in figure.plots), name
-        bundle = figure._repr_mimebundle_()
-        assert bundle["image/svg+xml"] == figure.svg
-        assert ("application/vnd.plotly.v1+json" in bundle) == bool(len(figure.plots) == 1 and importlib.util.find_spec("plotly"))
-        json.dumps(bundle)
-
-
-def test_plotly_takes_the_figures():
-    go = reader("plotly.graph_objects")
-    for figure in pps.analyze().figures().values():
-        for plot in figure.plots:
-            assert len(go.Figure(**plot).data) == len(plot["data"])
+        scene = figure.scene
+        assert scene["title"] == figure.title and scene["panels"] and all(panel["marks"] for panel in scene["panels"]), name
+        assert figure._repr_svg_() == figure.svg
+        shapes = {mark["shape"] for panel in scene["panels"] for mark in panel["marks"]}
+        assert shapes <= {"lines", "points", "crosses", "band", "bars", "surface", "texts"}, name

@@ -1,16 +1,15 @@
-//! Pictures and pages of what `abbe-study` reports: SVG files, and HTML files that need no network.
+//! Figures, pages and texts of what `abbe-study` reports: SVG files, and HTML files that need no network.
 //!
-//! Everything comes back as texts with the names of their files; nothing here writes. [`analysis`] is the report of an
-//! analysis: `axis` says how its numbers are shown, `svg` draws the figures one by one, `html` writes the page, with the
-//! same figures to rotate and to point at; [`figures`] gives them one by one. [`measurement()`], [`identification()`],
-//! [`compensation()`] and [`monitoring()`] are the pages about measurements. [`text`] is what a terminal shows.
+//! Everything comes back as texts with the names of their files; nothing here writes. `figures` builds a [`scene::Scene`] for each
+//! figure of a report, `svg` draws it, and `html` writes the pages that hold it: [`analysis`], [`measurement()`],
+//! [`identification()`], [`compensation()`] and [`monitoring()`]. [`figures()`] returns the figures of an analysis one by one.
+//! [`text`] is what a terminal shows.
 
-mod axis;
-mod figure;
+mod figures;
 mod html;
+mod markup;
 mod pictures;
-mod shares;
-mod spheres;
+pub mod scene;
 mod svg;
 pub mod text;
 

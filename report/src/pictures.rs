@@ -1,14 +1,11 @@
 //! The files of an analysis: every figure, and the page that holds them all.
 
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::Report;
 use abbe_study::analyze::figures::Figures;
-use abbe_study::mistake;
-use plotly::Plot;
 
-use super::figure::Named;
-use super::html;
-use super::svg;
+use crate::figures::{self, Named};
+use crate::scene::Scene;
+use crate::{html, svg};
 
 /// The page that holds everything.
 pub const PAGE: &str = "report.html";
@@ -27,45 +24,41 @@ pub struct File {
 pub struct Picture {
     /// The name of its file, without the ending.
     pub name: String,
-    /// What it is called.
-    pub title: String,
-    /// As SVG.
+    /// The figure as plain data.
+    pub scene: Scene,
+    /// The figure as SVG.
     pub svg: String,
-    /// To rotate, to zoom and to point at: what Plotly draws, as JSON; several stand side by side.
-    pub plots: Vec<String>,
 }
 
-/// The figures of an analysis, in the order of its page.
+/// Returns the figures of an analysis, in the order of its page.
 ///
 /// Only what was gathered is drawn: a report without figures has none.
-pub fn figures(report: &Report) -> Result<Vec<Picture>, Diagnostics> {
+pub fn figures(report: &Report) -> Vec<Picture> {
+    let picture =
+        |(named, scene): (Named, Scene)| Picture { name: named.name, svg: svg::file(&scene), scene };
+    scenes(report).into_iter().map(picture).collect()
+}
+
+fn scenes(report: &Report) -> Vec<(Named<'_>, Scene)> {
     let gathered = report.figures.as_ref().map_or(&[][..], |figures| &figures.figures);
-    let picture = |figure: Named| {
-        let svg = drawn(&figure, report)?;
-        let plots = html::interactive(&figure, report).iter().map(Plot::to_json).collect();
-        Ok(Picture { name: figure.name, title: figure.title, svg, plots })
-    };
-    Named::all(gathered, report).into_iter().map(picture).collect()
+    let named = Named::all(gathered, report);
+    let scenes = named.iter().map(|named| figures::scene(named, report)).collect::<Vec<_>>();
+    named.into_iter().zip(scenes).collect()
 }
 
-fn drawn(figure: &Named, report: &Report) -> Result<String, Diagnostics> {
-    svg::draw(figure, report)
-        .map_err(|error| mistake::with_help(&figure.name, error, "leave this figure out of the study"))
-}
-
-/// The figures of an analysis as SVG, and `report.html`, which shows them and says everything else.
+/// Returns the figures of an analysis as SVG, and `report.html`, which shows them and says everything else.
 ///
 /// Only what was gathered is drawn: a report without figures is a page without pictures.
-pub fn analysis(report: &Report) -> Result<Vec<File>, Diagnostics> {
+pub fn analysis(report: &Report) -> Vec<File> {
     let none = Figures::default();
-    let Figures { figures, left_out } = report.figures.as_ref().unwrap_or(&none);
-    let figures = Named::all(figures, report);
-    let drawings = figures.iter().map(|figure| drawn(figure, report)).collect::<Result<Vec<_>, _>>()?;
-    let at_most = svg::at_most(report)
-        .map_err(|error| mistake::with_help(PAGE, error, "ask for the analysis without a page"))?;
-    let page = html::page(&figures, &drawings, at_most.as_deref(), left_out, report);
-    let names = figures.iter().map(|figure| format!("{}.svg", figure.name));
-    let mut files = names.zip(drawings).map(|(name, text)| File { name, text }).collect::<Vec<_>>();
+    let Figures { left_out, .. } = report.figures.as_ref().unwrap_or(&none);
+    let scenes = scenes(report);
+    let page = html::page(&scenes, figures::sampled(report).as_ref(), left_out, report);
+    let file = |(named, scene): &(Named, Scene)| File {
+        name: format!("{}.svg", named.name),
+        text: svg::file(scene),
+    };
+    let mut files = scenes.iter().map(file).collect::<Vec<_>>();
     files.push(File { name: PAGE.to_owned(), text: page });
-    Ok(files)
+    files
 }

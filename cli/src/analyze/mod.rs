@@ -52,7 +52,7 @@ pub(crate) fn write(
 ) -> Result<(), Failure> {
     let (mut complete, page) = files.finish(report)?;
     let mut page = Some(page);
-    for file in abbe_report::analysis(report)? {
+    for file in abbe_report::analysis(report) {
         let begun = match page.take_if(|_| file.name == abbe_report::PAGE) {
             Some(page) => page,
             None => outputs.file(&folder.join(&file.name))?,

@@ -1,23 +1,15 @@
 //! The page of corrected commands: where the tool is without and with them.
 
-use abbe::VariableKind;
 use abbe_spec::Spec;
-use abbe_study::compensate::{Report, Row, Size};
+use abbe_study::compensate::{Report, Size};
 use abbe_study::data::Map;
 use abbe_study::number::{self, fixed};
-use abbe_study::study_file::Over;
-use plotly::common::{ExponentFormat, HoverInfo, Marker, Mode};
-use plotly::layout::{AxisType, Layout};
-use plotly::{Plot, Scatter};
 
-use super::figure::{Figures, round, step, thinned};
+use super::figure::figures;
 use super::provenance::Provenance;
-use super::residuals::histogram;
-use super::{document, escaped, section, style};
-use crate::axis::{Axis, BAR, GREY, css};
+use super::{document, escaped, section};
+use crate::figures::distances;
 
-/// The most dots of a picture.
-const DOTS: usize = 3000;
 /// The most rows that are listed.
 const LISTED: usize = 100;
 
@@ -29,10 +21,11 @@ pub fn compensation(spec: &Spec, map: &Map, report: &Report, provenance: &Proven
         escaped(&map.title)
     );
     let lines = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect::<String>();
+    let drawn = figures(&distances::scenes(report, spec), 0);
     let body = [
         heading,
         section("Distance of the tool point from where it should be", &sizes(spec, report)),
-        section("Figures", &figures(spec, report)),
+        section("Figures", &format!("<p>Distances are in mm.</p>\n{drawn}")),
         section("Rows that are not compensated", &failed(report)),
         section("Rows", &format!("<p>{lines}</p>\n")),
         section("Input files", &provenance.table()),
@@ -60,82 +53,6 @@ fn sizes(spec: &Spec, report: &Report) -> String {
         number::length(report.tolerance, spec.length),
         unit = report.length
     )
-}
-
-fn figures(spec: &Spec, report: &Report) -> String {
-    let to_mm = 1e3 * spec.length.in_metres();
-    let every = step(report.rows.len(), DOTS);
-    let few = thinned(report.rows.len(), every);
-    let numbered = report.rows.iter().enumerate().step_by(every);
-    let shown: Vec<(f64, &Row)> = numbered.map(|(i, row)| (i as f64 + 1.0, row)).collect();
-    let mut figures = Figures::new();
-    let x = style::axis("rows in their order").exponent_format(ExponentFormat::None);
-    let caption = format!(
-        "Grey: as commanded. Blue: corrected. On a logarithmic scale; what is below 10 nm is drawn there.{few}"
-    );
-    figures.add("Distance over the order of the rows", &[distances(&shown, x, to_mm)], 320, &caption);
-    let over = spec.variables.iter().enumerate().filter_map(|(joint, _)| {
-        let axis = Axis::over(Over::Variable(joint), spec);
-        let factor = axis.factor;
-        let at = |row: &Row| row.q.0.get(joint).map_or(0.0, |(_, value)| value * factor);
-        let points: Vec<(f64, &Row)> = shown.iter().map(|(_, row)| (at(row), *row)).collect();
-        let first = points.first()?.0;
-        let moves = points.iter().any(|(x, _)| (x - first).abs() > 1e-9);
-        moves.then(|| distances(&points, style::axis(&axis.title()), to_mm))
-    });
-    figures.add("Distance over each joint", &over.collect::<Vec<_>>(), 240, &caption);
-    let lists = [
-        (report.rows.iter().map(|row| row.before.length * to_mm).collect(), css(GREY, 0.5)),
-        (report.rows.iter().map(|row| row.after.length * to_mm).collect(), css(BAR, 0.75)),
-    ];
-    figures.add(
-        "How often which distance occurs",
-        &[histogram("distance (mm)", &lists)],
-        260,
-        "Grey: as commanded. Blue: corrected.",
-    );
-    let corrections = spec.variables.iter().enumerate().filter_map(|(joint, variable)| {
-        let (factor, unit) = match variable.kind {
-            VariableKind::Revolute => (1e3, "mrad"),
-            VariableKind::Prismatic => (to_mm, "mm"),
-        };
-        let changes: Vec<f64> =
-            report.rows.iter().filter_map(|row| Some(row.changes.get(joint)? * factor)).collect();
-        let name = format!("change of {} ({unit})", variable.name);
-        (!changes.is_empty()).then(|| histogram(&name, &[(changes, css(BAR, 0.75))]))
-    });
-    figures.add(
-        "Corrections of the joints",
-        &corrections.collect::<Vec<_>>(),
-        230,
-        "Corrected minus what the row has, all rows.",
-    );
-    format!("<p>Distances are in mm.</p>\n{}", figures.html())
-}
-
-fn distances(shown: &[(f64, &Row)], x: plotly::layout::Axis, to_mm: f64) -> Plot {
-    let layout = Layout::new()
-        .margin(style::margin([64, 10, 10, 44]))
-        .x_axis(x)
-        .y_axis(style::axis("distance (mm)").type_(AxisType::Log));
-    let mut plot = style::plot(layout);
-    let mut add = |value: &dyn Fn(&Row) -> f64, colour: String| {
-        let all = shown.iter().map(|(x, row)| (round(*x), round((value(row) * to_mm).max(1e-5))));
-        let (x, y): (Vec<f64>, Vec<f64>) = all.unzip();
-        let hover = shown
-            .iter()
-            .map(|(_, row)| format!("line {}: {} mm", row.line, number::digits(value(row) * to_mm, 3)));
-        plot.add_trace(
-            Scatter::new(x, y)
-                .mode(Mode::Markers)
-                .marker(Marker::new().size(4).color(colour))
-                .hover_info(HoverInfo::Text)
-                .hover_text_array(hover.collect::<Vec<_>>()),
-        );
-    };
-    add(&|row| row.before.length, css(GREY, 0.5));
-    add(&|row| row.after.length, css(BAR, 0.9));
-    plot
 }
 
 fn failed(report: &Report) -> String {

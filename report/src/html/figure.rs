@@ -1,63 +1,31 @@
-//! The numbered figures of the pages about measurements.
+//! Numbered figures: the SVG of a scene with its title and its caption.
 
-use plotly::Plot;
+use super::escaped;
+use crate::scene::Scene;
+use crate::svg;
 
-/// What is drawn, in this order.
-pub(super) struct Figures {
-    drawn: Vec<String>,
-    /// How many stand before these.
-    before: usize,
+/// Figures one after another, numbered behind so many others.
+pub(super) fn figures(scenes: &[Scene], before: usize) -> String {
+    scenes.iter().enumerate().map(|(i, scene)| figure(before + i + 1, scene, "")).collect()
 }
 
-impl Figures {
-    pub(super) fn new() -> Self {
-        Self { drawn: Vec::new(), before: 0 }
-    }
-
-    /// More of them, numbered on.
-    pub(super) fn after(other: &Self) -> Self {
-        Self { drawn: Vec::new(), before: other.before + other.drawn.len() }
-    }
-
-    /// Plots side by side under a title, so many pixels high.
-    pub(super) fn add(&mut self, title: &str, plots: &[Plot], height: u32, caption: &str) {
-        if plots.is_empty() {
-            return;
-        }
-        let number = self.before + self.drawn.len() + 1;
-        let panels = plots.iter().enumerate().map(|(i, plot)| {
-            let id = format!("figure-{number}-{}", i + 1);
-            format!(
-                "<div class=\"plot\" style=\"height:{height}px\">{}</div>\n",
-                plot.to_inline_html(Some(&id))
-            )
-        });
-        let columns = match plots.len() {
-            columns @ (1 | 2 | 4) => columns,
-            _ => 3,
-        };
-        self.drawn.push(format!(
-            "<figure>\n<h3>{number}. {title}</h3>\n<div class=\"plots of-{columns}\">\n{}</div>\n<figcaption>{caption}</figcaption>\n</figure>\n",
-            panels.collect::<String>()
-        ));
-    }
-
-    pub(super) fn html(&self) -> String {
-        self.drawn.concat()
-    }
+/// A figure; `more` stands behind its caption.
+pub(super) fn figure(number: usize, scene: &Scene, more: &str) -> String {
+    let heading = format!("{number}. {}", escaped(&scene.title));
+    let reference = match scene.reference.as_str() {
+        "" => String::new(),
+        reference => format!(" <span class=\"paper\">{}</span>", escaped(reference)),
+    };
+    unnumbered(&format!("<h3>{heading}{reference}</h3>\n"), scene, more)
 }
 
-/// The step at which no more than `most` of so many are drawn.
-pub(super) fn step(count: usize, most: usize) -> usize {
-    count.div_ceil(most).max(1)
-}
-
-/// What is to be said if not all are drawn.
-pub(super) fn thinned(count: usize, step: usize) -> String {
-    if step == 1 { String::new() } else { format!(" One in {step} of {count} is drawn.") }
-}
-
-/// Six digits: the file need not be longer.
-pub(super) fn round(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
+/// A figure below a heading of its own.
+pub(super) fn unnumbered(heading: &str, scene: &Scene, more: &str) -> String {
+    let subtitle = if scene.subtitle.is_empty() { String::new() } else { format!("{}.", scene.subtitle) };
+    let caption = [escaped(&subtitle), escaped(&scene.caption), more.to_owned()].join(" ");
+    format!(
+        "<figure>\n{heading}<div class=\"picture\">{}</div>\n<figcaption>{}</figcaption>\n</figure>\n",
+        svg::embedded(scene),
+        caption.trim()
+    )
 }

@@ -6,10 +6,10 @@ use abbe_study::data::Map;
 use abbe_study::identify::{Indistinguishable, Kind, Parameter, Report, Sizes, WeaklyDetermined};
 use abbe_study::number::{self, digits, fixed};
 
-use super::figure::Figures;
+use super::figure::figures;
 use super::provenance::{Provenance, instrument};
-use super::residuals::{Names, Residual, figures};
 use super::{document, escaped, section};
+use crate::figures::residuals::{Names, Residual, scenes};
 
 /// The page of an identification; `spec` and `map` are those of the job.
 pub fn identification(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
@@ -240,7 +240,6 @@ fn pictures(spec: &Spec, report: &Report) -> String {
     let list = |is_test: bool| {
         let points = report.points.iter().filter(move |point| point.is_test == is_test && !point.is_rejected);
         let residuals = points.map(|point| Residual {
-            line: point.line,
             q: &point.q,
             point: point.point,
             before: Some(point.before),
@@ -249,13 +248,11 @@ fn pictures(spec: &Spec, report: &Report) -> String {
         residuals.collect::<Vec<_>>()
     };
     let names = Names { before: "base and tool fitted", after: "identified" };
-    let (mut drawn, test) = (Figures::new(), list(true));
-    figures(&mut drawn, &list(false), &names, spec);
-    let mut text = format!("<p>Rows that were used; gross errors are left out.</p>\n{}", drawn.html());
+    let (used, test) = (scenes(&list(false), &names, spec), list(true));
+    let mut text = format!("<p>Rows that were used; gross errors are left out.</p>\n{}", figures(&used, 0));
     if !test.is_empty() {
-        let mut drawn = Figures::after(&drawn);
-        figures(&mut drawn, &test, &names, spec);
-        text += &format!("<h3>Test rows</h3>\n{}", drawn.html());
+        let drawn = figures(&scenes(&test, &names, spec), used.len());
+        text += &format!("<h3>Test rows</h3>\n{drawn}");
     }
     text
 }

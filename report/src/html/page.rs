@@ -1,23 +1,21 @@
 //! The whole page.
 
-use plotly::Plot;
-
 use abbe::analysis::Measurand;
 use abbe_study::analyze::{self, AfterCompensation, Report};
 
-use super::{covered, escaped, facts, ledger, plots};
-use crate::figure::Named;
+use super::{covered, escaped, facts, figure, ledger};
+use crate::figures::Named;
+use crate::scene::Scene;
 use abbe_study::number::{percent, trimmed};
 
 const STYLE: &str = include_str!("style.css");
 
-/// The report, with its figures in their order, each with its drawing; `left_out` are sources that are switched off and had one.
+/// The report with its figures; `left_out` are sources that are switched off and had one.
 ///
-/// `at_most` is the drawing of what is certified, if anything is.
+/// `sampled` is the figure of what is certified, if anything is.
 pub(crate) fn page(
-    figures: &[Named],
-    drawings: &[String],
-    at_most: Option<&str>,
+    figures: &[(Named, Scene)],
+    sampled: Option<&Scene>,
     left_out: &[String],
     report: &Report,
 ) -> String {
@@ -27,13 +25,13 @@ pub(crate) fn page(
         summary(report),
         section("Every source alone", &format!("{METRICS}\n{}", ledger::sources(report))),
         section("All together", &(ledger::combined(report) + &conclusions(report))),
-        certified(at_most, report),
+        certified(sampled, report),
         section("Ledger", &format!("{LEDGER}\n{}", ledger::listed(&analyze::ledger(report)))),
         covered::turns(report),
         allowed(report),
         covered::uncertainty(report),
         covered::monte_carlo(report),
-        drawn(figures, drawings, left_out, report),
+        drawn(figures, left_out),
         section("Conventions", &facts::conventions(report)),
         section("Values", &facts::values(report)),
         notes(report),
@@ -42,16 +40,14 @@ pub(crate) fn page(
     document(&format!("{}: error analysis", report.spec.title), &parts.concat())
 }
 
-/// A page with its script and style in it.
+/// A page with its style in it.
 pub(super) fn document(title: &str, body: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{}</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}</style>\n\
-         <noscript><style>.plots {{ display: none !important; }} .drawing {{ display: block !important; }}</style></noscript>\n{}\n\
          </head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
         escaped(title),
-        script(),
     )
 }
 
@@ -62,13 +58,6 @@ const METRICS: &str = "<p>Largest errors of the tool point over the workspace, a
 
 const LEDGER: &str =
     "<p>Norms of the errors of the tool point: the largest and the root mean square over the workspace.</p>";
-
-/// The script that draws the figures: the first of two, the second sets formulas, of which there are none.
-fn script() -> String {
-    let scripts = Plot::offline_js_sources();
-    let end = "</script>";
-    scripts.find(end).map_or_else(String::new, |at| scripts[..at + end.len()].to_owned())
-}
 
 /// A part of a page.
 pub(super) fn section(title: &str, body: &str) -> String {
@@ -133,32 +122,11 @@ fn conclusions(report: &Report) -> String {
 }
 
 /// What was sampled, and what is certified.
-fn certified(drawing: Option<&str>, report: &Report) -> String {
-    let (Some(drawing), Some(listing)) = (drawing, analyze::at_most(report)) else { return String::new() };
+fn certified(sampled: Option<&Scene>, report: &Report) -> String {
+    let (Some(scene), Some(listing)) = (sampled, analyze::at_most(report)) else { return String::new() };
     let unit = report.spec.length.symbol();
-    let lines = match report.box_contains_more() {
-        true => {
-            "The line: what nothing in the box that contains the workspace exceeds, to first order. The box holds more than the \
-             workspace, whose own maximum may be smaller"
-        }
-        false => {
-            "The true maximum lies between the two lines: the first was found, and nothing in the box of the workspace exceeds the \
-             second, to first order. Where both fall together it is one line"
-        }
-    };
-    let tolerance = if report.study.tolerance.is_some() { "; the dashed line is the tolerance" } else { "" };
-    let body = format!(
-        "<figure>\n<div class=\"picture\">{}</div>\n<figcaption>Bars: what was sampled, a lower bound. {lines}{tolerance}.\
-         </figcaption>\n</figure>\n<p>In {unit}.</p>\n{}",
-        inline(drawing),
-        ledger::listed(&listing)
-    );
-    section("At most", &body)
-}
-
-/// A drawing in a page, where it needs no name of a format.
-fn inline(drawing: &str) -> String {
-    drawing.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)
+    let figure = figure::unnumbered("", scene, "");
+    section("At most", &format!("{figure}<p>In {unit}.</p>\n{}", ledger::listed(&listing)))
 }
 
 /// The budget backwards.
@@ -175,47 +143,18 @@ fn allowed(report: &Report) -> String {
     if tables.is_empty() { tables } else { section("What the tolerance allows", &format!("{about}{tables}")) }
 }
 
-fn drawn(figures: &[Named], drawings: &[String], left_out: &[String], report: &Report) -> String {
+fn drawn(figures: &[(Named, Scene)], left_out: &[String]) -> String {
     let mut text = String::new();
-    for (i, (figure, drawing)) in figures.iter().zip(drawings).enumerate() {
-        let plots::Plots { plots, height, note } = plots::of(figure, report);
-        let columns = plots.len();
-        let panels = plots.iter().enumerate().map(|(j, plot)| {
-            let id = format!("figure-{}-{}", i + 1, j + 1);
-            format!(
-                "<div class=\"plot\" style=\"height:{height}px\">{}</div>\n",
-                plot.to_inline_html(Some(&id))
-            )
-        });
-        let panels = panels.collect::<String>();
-        let paper = &figure.asked.paper;
-        let paper = if paper.is_empty() {
-            String::new()
-        } else {
-            format!(" <span class=\"paper\">cf. {} of {}</span>", escaped(paper), escaped(report.publisher()))
-        };
-        let words =
-            [&figure.asked.caption, &figure.workspace_note, &note].map(|words| escaped(words)).join(" ");
-        text += &format!(
-            "<figure>\n<h3>{}. {}{paper}</h3>\n<div class=\"plots of-{columns}\">\n{panels}</div>\n\
-             <div class=\"drawing\">{}</div>\n<figcaption>{} <a href=\"{file}\">{file}</a></figcaption>\n</figure>\n",
-            i + 1,
-            escaped(&figure.title),
-            // On paper, where nothing turns.
-            inline(drawing),
-            words.trim(),
-            file = format_args!("{}.svg", figure.name),
-        );
+    for (i, (named, scene)) in figures.iter().enumerate() {
+        let file = format!("{}.svg", named.name);
+        let note = escaped(&named.workspace_note);
+        text += &figure::figure(i + 1, scene, &format!("{note} <a href=\"{file}\">{file}</a>"));
     }
     for source in left_out {
         text += &format!("<p>Not drawn: the source “{}” is switched off.</p>\n", escaped(source));
     }
-    section(
-        "Figures",
-        &format!(
-            "<p>Drag to turn or to zoom, point at a curve or a dot to see its configuration, double-click to go back. Errors are in mm, those of the orientation in mrad.</p>\n{text}"
-        ),
-    )
+    let units = "<p>Errors are in mm, those of the orientation in mrad.</p>\n";
+    section("Figures", &format!("{units}{text}"))
 }
 
 fn notes(report: &Report) -> String {

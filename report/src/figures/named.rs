@@ -1,42 +1,35 @@
-//! A figure as it is drawn: what was gathered, with its names.
+//! A figure of an analysis: what was gathered, with its names.
 
 use abbe::analysis::Measurand;
 use abbe_study::analyze::figures::{Figure, Gathered, Range};
 use abbe_study::analyze::{Report, unit};
 use abbe_study::study_file::{self, CombinedFigure, Content, Metric};
 
-use super::axis::Axis;
+use super::Quantity;
 
 /// A figure, ready to be drawn.
-pub(super) struct Named<'a> {
-    pub(super) asked: &'a study_file::Figure,
+pub(crate) struct Named<'a> {
+    pub(crate) asked: &'a study_file::Figure,
     /// The name of its file, without the ending; no two figures of a report have the same.
-    pub(super) name: String,
-    pub(super) title: String,
+    pub(crate) name: String,
+    pub(crate) title: String,
     /// What is to be said of its own workspace, if it has one.
-    pub(super) workspace_note: String,
+    pub(crate) workspace_note: String,
     /// Whether there are only bounds to show.
-    pub(super) bounds: bool,
-    pub(super) data: &'a Gathered,
+    pub(crate) bounds: bool,
+    pub(crate) data: &'a Gathered,
 }
 
 /// A published figure to draw: the least and the largest that it allows, and what it is called.
 pub(super) struct Printed {
     pub(super) range: Range,
-    /// Its name, in short lines.
-    pub(super) lines: Vec<String>,
-}
-
-impl Printed {
-    /// Its name in one line.
-    pub(super) fn label(&self) -> String {
-        self.lines.join(" ")
-    }
+    /// Its name.
+    pub(super) label: String,
 }
 
 impl<'a> Named<'a> {
     /// The figures of a report, in their order.
-    pub(super) fn all(figures: &'a [Figure], report: &Report) -> Vec<Self> {
+    pub(crate) fn all(figures: &'a [Figure], report: &Report) -> Vec<Self> {
         let mut stems = Vec::new();
         let named = figures.iter().map(|figure| {
             let mut named = Self::new(figure, report);
@@ -57,7 +50,7 @@ impl<'a> Named<'a> {
         let of = asked.source.as_deref().unwrap_or("all sources");
         let kept = if *bounds { "all random sources" } else { "all repeatable sources" };
         let kept = asked.source.as_deref().unwrap_or(kept);
-        let over = |over| Axis::over(over, &report.spec).name;
+        let over = |over| Quantity::over(over, &report.spec).name;
         let (kind, overs, title) = match asked.content {
             Content::Travel(first) => ("travel", vec![over(first)], format!("{of}, over {}", over(first))),
             Content::Surface([first, second]) => {
@@ -107,22 +100,15 @@ impl<'a> Named<'a> {
         let (value, metric) = published?;
         let (middle, about) = match metric {
             Metric::PlainMaximum => (0.0, ""),
-            Metric::HalfPeakToPeak => (found.middle(), "about the middle"),
+            Metric::HalfPeakToPeak => (found.middle(), " about the middle"),
             // It stands for differences, which this figure does not show.
             Metric::RelativeToHome => return None,
         };
-        let errors = self.axis(report);
+        let errors = self.errors(report);
         let shown = abbe_study::number::short(errors.show(value));
         Some(Printed {
             range: Range { least: middle - value, largest: middle + value },
-            lines: [
-                format!("{}:", report.publisher()),
-                format!("±{shown} {}", errors.unit),
-                about.to_owned(),
-            ]
-            .into_iter()
-            .filter(|line| !line.is_empty())
-            .collect(),
+            label: format!("{}: ±{shown} {}{about}", report.publisher(), errors.unit),
         })
     }
 
@@ -134,9 +120,9 @@ impl<'a> Named<'a> {
         published.filter(|_| all && self.asked.measurand == Measurand::Position)?.figures[3]
     }
 
-    /// The axis of its errors.
-    pub(super) fn axis(&self, report: &Report) -> Axis {
-        Axis::errors(self.asked.measurand, &report.spec)
+    /// Its errors, in their unit.
+    pub(super) fn errors(&self, report: &Report) -> Quantity {
+        Quantity::errors(self.asked.measurand, &report.spec)
     }
 
     /// The names of the three rows.
@@ -150,7 +136,7 @@ impl<'a> Named<'a> {
     }
 
     /// What the errors are called.
-    pub(super) fn errors(&self) -> &'static str {
+    pub(super) fn what(&self) -> &'static str {
         if self.bounds { "bound" } else { "error" }
     }
 }

@@ -1,0 +1,117 @@
+//! A machine that is watched: its charts over time.
+
+use abbe_study::data::Calendar;
+use abbe_study::monitor::{Chart, Finding, Report};
+
+use crate::scene::{Axis, Colour, Mark, Panel, Scale, Scene, ends, with_room};
+
+/// The most charts that have a picture of their own.
+const DRAWN: usize = 9;
+/// The colour of what has changed.
+const CHANGED: Colour = Colour::XYZ[0];
+
+/// The figures of checks over time.
+pub(crate) fn scenes(report: &Report) -> Vec<Scene> {
+    let mut scenes = Vec::new();
+    if let Some(finding) = &report.finding {
+        scenes.push(changed(finding, report));
+    }
+    scenes.push(all(report));
+    let charts = report.nearest_first();
+    let own = charts.iter().take(DRAWN).map(|chart| one(chart, report)).collect::<Vec<_>>();
+    if !own.is_empty() {
+        let hidden = charts.len().saturating_sub(DRAWN);
+        let more = if hidden > 0 { format!(" {hidden} more are nearer to zero.") } else { String::new() };
+        let caption = format!("Dots: the error at every check, less its mean.{more}");
+        scenes
+            .push(Scene::new("The charts nearest to their limits", own.len().min(3), own).captioned(caption));
+    }
+    let left = dots(&report.left.values, Colour::INK, report);
+    let panel = panel(240.0, "norm", "", vec![left], report);
+    let caption = "The norm of what differs from the checks before, in units of the instrument's uncertainty: 1 where checks scatter as it does.";
+    scenes.push(Scene::new("What is left", 1, vec![panel]).captioned(caption));
+    scenes
+}
+
+/// A panel over time that holds its marks.
+fn panel(height: f64, name: &str, unit: &str, marks: Vec<Mark<[f64; 2]>>, report: &Report) -> Panel {
+    let values = marks.iter().flat_map(|mark| mark.places()).map(|[_, value]| value);
+    let y = Axis::linear(name, unit, with_room(ends(values), 0.06));
+    let time = with_room(ends(report.times.iter().copied()), 0.02);
+    let x = match report.calendar {
+        Calendar::Dates => Axis::linear("", "", time).scaled(Scale::Dates),
+        Calendar::Days => Axis::linear("day", "", time),
+        Calendar::Checks => Axis::linear("check", "", time),
+    };
+    Panel::plane(height, x, y, marks)
+}
+
+/// A value of every check.
+fn over_time(values: impl IntoIterator<Item = f64>, report: &Report) -> Vec<[f64; 2]> {
+    report.times.iter().zip(values).map(|(time, value)| [*time, value]).collect()
+}
+
+fn dots(values: &[f64], colour: Colour, report: &Report) -> Mark<[f64; 2]> {
+    let radius = if values.len() > 300 { 1.6 } else { 2.4 };
+    Mark::points(colour, radius, over_time(values.iter().copied(), report)).faded(0.8)
+}
+
+/// Rad as mrad.
+fn shown(unit: &str) -> (f64, &str) {
+    if unit == "rad" { (1e3, "mrad") } else { (1.0, unit) }
+}
+
+/// The error that has changed, and the change that explains it best.
+fn changed(finding: &Finding, report: &Report) -> Scene {
+    let (factor, unit) = shown(finding.unit);
+    let column = |i: usize| over_time(finding.series.iter().map(|values| values[i] * factor), report);
+    let [first, last] = finding.between;
+    let is_since = |[time, _]: &[f64; 2]| {
+        first.is_none_or(|first| *time >= first) && last.is_some_and(|last| *time <= last)
+    };
+    let (since, others): (Vec<_>, Vec<_>) = column(0).into_iter().partition(is_since);
+    let radius = if report.times.len() > 300 { 1.6 } else { 2.4 };
+    let mut marks = vec![Mark::points(Colour::BAR, radius, others).named("the error at every check")];
+    if !since.is_empty() {
+        let name = "the change began here, with 95 % probability";
+        marks.push(Mark::points(Colour::INK, radius, since).named(name));
+    }
+    marks.push(Mark::line(CHANGED, 2.5, column(1)).named("the change that explains them best"));
+    let title = format!("What has changed: {}", finding.name);
+    let caption = "The error at every check is computed as if all others stayed what they are.";
+    Scene::new(title, 1, vec![panel(280.0, &finding.name, unit, marks, report)]).captioned(caption)
+}
+
+/// All moving averages, in their limits.
+fn all(report: &Report) -> Scene {
+    let charts = || report.charts.iter().chain([&report.left]);
+    let named = |name: &str| {
+        report.charts.iter().find(|chart| chart.name == name || chart.alike.iter().any(|alike| alike == name))
+    };
+    let found = report.finding.as_ref().and_then(|finding| named(&finding.name));
+    let first =
+        found.map(|chart| chart.name.as_str()).or(report.alarm.as_ref().map(|alarm| alarm.chart.as_str()));
+    let percents = |chart: &Chart| over_time(chart.average.iter().map(|share| 100.0 * share), report);
+    let others = charts().filter(|chart| Some(chart.name.as_str()) != first).map(percents).collect();
+    let time = ends(report.times.iter().copied());
+    let limits = [100.0, -100.0].map(|limit| time.map(|at| [at, limit]).to_vec());
+    let mut marks = vec![
+        Mark::lines(Colour::BAR, 1.0, others).faded(0.5).named("moving averages"),
+        Mark::dashed(Colour::TOLERANCE, limits.to_vec()).named("limits"),
+    ];
+    if let Some(chart) = charts().find(|chart| Some(chart.name.as_str()) == first) {
+        marks.push(Mark::line(CHANGED, 2.5, percents(chart)).named(&chart.name));
+    }
+    let panel = panel(280.0, "average, share of the limit", "%", marks, report);
+    let caption = "Moving averages as shares of their limits: an alarm beyond ±100 %.";
+    Scene::new("All charts", 1, vec![panel]).captioned(caption)
+}
+
+/// The error of one chart, less its mean.
+fn one(chart: &Chart, report: &Report) -> Panel {
+    let (factor, unit) = shown(chart.unit);
+    let mean = chart.values.iter().sum::<f64>() / chart.values.len().max(1) as f64;
+    let values = chart.values.iter().map(|value| (value - mean) * factor).collect::<Vec<_>>();
+    let colour = if chart.alarm.is_some() { CHANGED } else { Colour::INK };
+    panel(170.0, &chart.name, unit, vec![dots(&values, colour, report)], report)
+}

@@ -1,0 +1,55 @@
+//! What is drawn along an axis: its name, its unit, and the factor into that unit.
+
+use abbe::VariableKind;
+use abbe::analysis::Measurand;
+use abbe_spec::Spec;
+use abbe_study::study_file::Over;
+
+use crate::scene::Axis;
+
+/// A quantity in the unit in which it is shown.
+#[derive(Clone, Debug)]
+pub(super) struct Quantity {
+    pub(super) name: String,
+    pub(super) unit: String,
+    pub(super) factor: f64,
+}
+
+impl Quantity {
+    /// Errors: mm, whatever the spec's unit, because they are small; of the orientation mrad.
+    pub(super) fn errors(measurand: Measurand, spec: &Spec) -> Self {
+        let (unit, factor) = match measurand {
+            Measurand::Position => ("mm", 1e3 * spec.length.in_metres()),
+            Measurand::Orientation => ("mrad", 1e3),
+        };
+        Self { name: String::new(), unit: unit.to_owned(), factor }
+    }
+
+    /// A variable, a parameter or an input; angles of joints in degrees.
+    pub(super) fn over(over: Over, spec: &Spec) -> Self {
+        let (name, unit, factor) = match over {
+            Over::Variable(i) => match spec.variables[i].kind {
+                VariableKind::Revolute => (&spec.variables[i].name, "deg", 180.0 / std::f64::consts::PI),
+                VariableKind::Prismatic => (&spec.variables[i].name, spec.length.symbol(), 1.0),
+            },
+            Over::Parameter(i) => (&spec.parameters[i].name, spec.parameters[i].unit.as_str(), 1.0),
+            Over::Input(i) => (&spec.inputs[i].name, spec.inputs[i].unit.as_str(), 1.0),
+        };
+        Self { name: name.to_owned(), unit: unit.to_owned(), factor }
+    }
+
+    /// The quantity with another name.
+    pub(super) fn named(&self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self.clone() }
+    }
+
+    /// A value in the unit in which it is shown.
+    pub(super) fn show(&self, value: f64) -> f64 {
+        value * self.factor
+    }
+
+    /// An axis from one value to another, both in the unit in which they are shown.
+    pub(super) fn axis(&self, range: [f64; 2]) -> Axis {
+        Axis::linear(&self.name, &self.unit, range)
+    }
+}

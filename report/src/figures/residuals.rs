@@ -1,0 +1,198 @@
+//! Errors of measured points: vectors in space, over the order of the rows, over each joint, and how often which occurs.
+
+use abbe_spec::Spec;
+use abbe_study::number::short;
+use abbe_study::study_file::Over;
+
+use super::histogram::{COLOURS, Values, panel};
+use super::reach::Reach;
+use super::{Quantity, norm, step, thinned};
+use crate::scene::{Axis, Colour, Mark, Panel, Scene, ends, with_room};
+
+/// The most vectors that are drawn, the most dots over rows, and over a joint.
+const VECTORS: usize = 400;
+const DOTS: usize = 3000;
+const DOTS_OVER_JOINT: usize = 1200;
+/// The height of a panel with dots.
+const HEIGHT: f64 = 180.0;
+/// The colours of errors before and after.
+const BEFORE: Colour = Colour::GREY;
+const AFTER: Colour = Colour::BAR;
+
+/// One point: where it is, and its error before and after. In the spec's length unit.
+pub(crate) struct Residual<'r> {
+    pub(crate) q: &'r [f64],
+    pub(crate) point: [f64; 3],
+    pub(crate) before: Option<[f64; 3]>,
+    pub(crate) after: [f64; 3],
+}
+
+/// What the two errors of every point are called; there may be no first one.
+pub(crate) struct Names {
+    pub(crate) before: &'static str,
+    pub(crate) after: &'static str,
+}
+
+/// Errors along x, y and z or their norms, in mm.
+struct Errors<'r> {
+    residuals: &'r [Residual<'r>],
+    names: &'r Names,
+    spec: &'r Spec,
+    to_mm: f64,
+}
+
+/// All figures of a list of points.
+pub(crate) fn scenes(residuals: &[Residual], names: &Names, spec: &Spec) -> Vec<Scene> {
+    let errors = Errors { residuals, names, spec, to_mm: 1e3 * spec.length.in_metres() };
+    let mut scenes = vec![errors.vectors(), errors.over_rows()];
+    scenes.extend(errors.over_joints());
+    if !names.before.is_empty() {
+        scenes.push(errors.histograms());
+    }
+    scenes
+}
+
+impl Errors<'_> {
+    /// Errors as lines that begin at the tool points, much longer than they are.
+    fn vectors(&self) -> Scene {
+        let every = step(self.residuals.len(), VECTORS);
+        let shown: Vec<&Residual> = self.residuals.iter().step_by(every).collect();
+        let axes = [0, 1, 2].map(|axis| ends(shown.iter().map(|residual| residual.point[axis])));
+        let diagonal = norm(axes.map(|[least, most]| (most - least).max(0.0)));
+        // The longest but for a few gross ones are a tenth of all that is drawn.
+        let scale = |error: &dyn Fn(&Residual) -> [f64; 3]| {
+            let mut sizes: Vec<f64> = shown.iter().map(|residual| norm(error(residual))).collect();
+            sizes.sort_by(f64::total_cmp);
+            let long = sizes.get(sizes.len().saturating_sub(1) * 19 / 20).copied().unwrap_or_default();
+            if long > 0.0 && diagonal > 0.0 { round_down(0.1 * diagonal / long) } else { 1.0 }
+        };
+        let Names { before, after } = self.names;
+        let own = scale(&|residual| residual.after);
+        let title = |name: &str, scale: f64| format!("{name}, × {}", short(scale));
+        let mut panels = Vec::new();
+        if shown.iter().any(|residual| residual.before.is_some()) {
+            let same = scale(&|residual| residual.before.unwrap_or(residual.after));
+            let first = self.arrows(&shown, |residual| residual.before, same, BEFORE);
+            panels.push(first.titled(title(before, same)));
+            let second = self.arrows(&shown, |residual| Some(residual.after), same, AFTER);
+            panels.push(second.titled(title(after, same)));
+        }
+        let last = self.arrows(&shown, |residual| Some(residual.after), own, AFTER);
+        panels.push(last.titled(title(after, own)));
+        let caption = format!(
+            "Lines begin at the tool point, a dot, and are as many times longer than the errors as stands above.{}",
+            thinned(self.residuals.len(), every)
+        );
+        Scene::new("Errors in space", panels.len(), panels).captioned(caption)
+    }
+
+    fn arrows(
+        &self,
+        shown: &[&Residual],
+        error: impl Fn(&Residual) -> Option<[f64; 3]>,
+        scale: f64,
+        colour: Colour,
+    ) -> Panel {
+        let from = |residual: &&Residual| residual.point;
+        let drawn = shown.iter().filter_map(|residual| {
+            let error = error(residual)?;
+            Some(vec![from(residual), std::array::from_fn(|i| residual.point[i] + scale * error[i])])
+        });
+        let lines = drawn.collect::<Vec<Vec<[f64; 3]>>>();
+        let unit = self.spec.length.symbol();
+        let spans = [0, 1, 2].map(|axis| with_room(ends(lines.iter().flatten().map(|end| end[axis])), 0.03));
+        let longest = spans.iter().map(|[least, most]| most - least).fold(0.0, f64::max);
+        let axes = ["x", "y", "z"].map(|name| Axis::linear(name, unit, [0.0; 2]));
+        let mut spans = spans.into_iter();
+        let axes = axes.map(|axis| {
+            let [least, most] = spans.next().unwrap_or_default();
+            let room = ((0.3 * longest - (most - least)) / 2.0).max(0.0);
+            Axis { range: [least - room, most + room], ..axis }
+        });
+        let marks = vec![
+            Mark::lines(colour, 1.1, lines),
+            Mark::points(Colour::INK, 1.0, shown.iter().map(from).collect()),
+        ];
+        Panel::equal_space(if self.names.before.is_empty() { 500.0 } else { 300.0 }, axes, 2, marks)
+    }
+
+    fn over_rows(&self) -> Scene {
+        let every = step(self.residuals.len(), DOTS);
+        let numbered = self.residuals.iter().enumerate().map(|(i, residual)| (i as f64 + 1.0, residual));
+        let shown = numbered.step_by(every).collect::<Vec<_>>();
+        let x = Axis::linear("points in the order of the rows", "", [0.0, self.residuals.len() as f64 + 1.0]);
+        let caption = thinned(self.residuals.len(), every);
+        Scene::new("Over the order of the rows", 1, vec![self.dots(&shown, x)]).captioned(caption.trim())
+    }
+
+    /// None if no joint moves.
+    fn over_joints(&self) -> Option<Scene> {
+        let every = step(self.residuals.len(), DOTS_OVER_JOINT);
+        let panel = |joint: usize| {
+            let quantity = Quantity::over(Over::Variable(joint), self.spec);
+            let at = |residual: &Residual| quantity.show(residual.q[joint]);
+            let range = ends(self.residuals.iter().map(at));
+            let shown = self.residuals.iter().step_by(every).map(|residual| (at(residual), residual));
+            let moves = range[1] - range[0] > 1e-9;
+            moves.then(|| self.dots(&shown.collect::<Vec<_>>(), quantity.axis(with_room(range, 0.03))))
+        };
+        let panels = (0..self.spec.variables.len()).filter_map(panel).collect::<Vec<_>>();
+        let few = thinned(self.residuals.len(), every);
+        let caption = format!("A joint that does not move has no picture.{few}");
+        (!panels.is_empty()).then(|| Scene::new("Over each joint", 3, panels).captioned(caption))
+    }
+
+    /// Norms as dots: before in grey below, after in blue.
+    fn dots(&self, shown: &[(f64, &Residual)], x: Axis) -> Panel {
+        let norms = |error: fn(&Residual) -> Option<[f64; 3]>| {
+            let norm = |(x, residual): &(f64, &Residual)| Some([*x, norm(error(residual)?) * self.to_mm]);
+            shown.iter().filter_map(norm).collect::<Vec<_>>()
+        };
+        let lists = [
+            (norms(|residual| residual.before), BEFORE, 0.45, self.names.before),
+            (norms(|residual| Some(residual.after)), AFTER, 0.9, self.names.after),
+        ];
+        let all =
+            self.residuals.iter().flat_map(|residual| residual.before.into_iter().chain([residual.after]));
+        let reach = Reach::new(all.map(|error| norm(error) * self.to_mm).collect());
+        let top = if reach.ends[1] > 0.0 { 1.05 * reach.ends[1] } else { 1.0 };
+        let radius = match shown.len() {
+            0..300 => 2.4,
+            300..1500 => 1.9,
+            _ => 1.5,
+        };
+        let lists = lists.into_iter().filter(|(places, ..)| !places.is_empty());
+        let marks = lists.map(|(mut places, colour, opacity, name)| {
+            places.retain(|[_, error]| *error <= top);
+            Mark::points(colour, radius, places).faded(opacity).named(name)
+        });
+        let y = Axis::linear(reach.title("error"), "mm", [0.0, top]);
+        Panel::plane(HEIGHT, x, y, marks.collect())
+    }
+
+    fn histograms(&self) -> Scene {
+        let Names { before, after } = self.names;
+        let along = |axis: usize| {
+            let values = self.residuals.iter().map(|residual| residual.after[axis] * self.to_mm);
+            let name = ["x error", "y error", "z error"][axis];
+            panel(name, "mm", &[Values::new(values.collect(), COLOURS[axis])])
+        };
+        let norms = self.residuals.iter().map(|residual| norm(residual.after) * self.to_mm).collect();
+        let first = self.residuals.iter().filter_map(|residual| Some(norm(residual.before?) * self.to_mm));
+        let lists = [
+            Values { values: first.collect(), colour: BEFORE, name: before },
+            Values { values: norms, colour: AFTER, name: after },
+        ];
+        let lists = lists.into_iter().filter(|list| !list.values.is_empty()).collect::<Vec<_>>();
+        let panels = [along(0), along(1), along(2), panel("norm of the error", "mm", &lists)];
+        let caption = format!("x, y and z: {after}.");
+        Scene::new("How often which error occurs", 2, panels.to_vec()).captioned(caption)
+    }
+}
+
+/// 1, 2 or 5 times a power of ten.
+fn round_down(value: f64) -> f64 {
+    let power = 10f64.powf(value.log10().floor());
+    let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= value * (1.0 + 1e-9));
+    factor.unwrap_or(1.0) * power
+}

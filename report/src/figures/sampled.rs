@@ -1,0 +1,78 @@
+//! The largest norms: what was sampled, and between which two values the true maximum lies.
+
+use abbe::analysis::Measurand;
+use abbe_study::analyze::{Report, Sampled};
+use abbe_study::number::{decimals, fixed, rounded_down, rounded_up};
+
+use super::Quantity;
+use crate::scene::{Axis, Colour, Mark, Panel, Scene};
+
+/// The height of a kind of sources, in pixels.
+const ROW: f64 = 52.0;
+
+/// The figure; none if nothing is certified.
+pub(crate) fn scene(report: &Report) -> Option<Scene> {
+    let rows = report.sampled();
+    if rows.is_empty() {
+        return None;
+    }
+    let errors = Quantity::errors(Measurand::Position, &report.spec);
+    let tolerance = report.study.tolerance.map(|tolerance| errors.show(tolerance));
+    let ends = rows.iter().map(|row| errors.show(row.largest.certified.unwrap_or(row.largest.found)));
+    let most = ends.chain(tolerance).fold(0.0, f64::max);
+    // What was found in a larger box says nothing of the workspace.
+    let contains_more = report.box_contains_more();
+    let range = [0.0, if most > 0.0 { 1.04 * most } else { 1.0 }];
+    let height = [0.5 - rows.len() as f64, 0.5];
+    let (mut bars, mut lines, mut texts) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, row) in rows.iter().enumerate() {
+        let (low, high) = (-(i as f64) - 0.36, -(i as f64) + 0.06);
+        bars.push([[0.0, low], [errors.show(row.sampled), high]]);
+        let found = Some(errors.show(row.largest.found)).filter(|_| !contains_more);
+        let certified = row.largest.certified.map(|certified| errors.show(certified));
+        lines.extend(found.into_iter().chain(certified).map(|at| vec![[at, low], [at, high]]));
+        texts.push(([0.0, high], label(row, &errors, contains_more)));
+    }
+    let mut marks = vec![Mark::bars(Colour::BAR, bars).named("sampled")];
+    if let Some(tolerance) = tolerance {
+        let line = height.map(|at| [tolerance, at]).to_vec();
+        marks.push(Mark::dashed(Colour::TOLERANCE, vec![line]).named("tolerance"));
+    }
+    let name = if contains_more { "not exceeded in the box" } else { "the true maximum lies between" };
+    marks.push(Mark::lines(Colour::XYZ[0], 2.0, lines).named(name));
+    marks.push(Mark::texts(texts));
+    let x = errors.named("largest norm of the position's error").axis(range);
+    let panel = Panel::plane(ROW * rows.len() as f64, x, Axis::names(Vec::new(), height), marks);
+    let scene = Scene::new("Sampled and certified", 1, vec![panel]).captioned(caption(report));
+    Some(Scene { manipulator: report.spec.title.clone(), ..scene })
+}
+
+/// What the bars and the lines are.
+fn caption(report: &Report) -> String {
+    let lines = match report.box_contains_more() {
+        true => {
+            "The line: what nothing in the box that contains the workspace exceeds, to first order. The box holds more than the \
+             workspace, whose own maximum may be smaller"
+        }
+        false => {
+            "The true maximum lies between the two lines: the first was found, and nothing in the box of the workspace exceeds the \
+             second, to first order. Where both fall together it is one line"
+        }
+    };
+    let tolerance = if report.study.tolerance.is_some() { "; the dashed line is the tolerance" } else { "" };
+    format!("Bars: what was sampled, a lower bound. {lines}{tolerance}.")
+}
+
+fn label(row: &Sampled, errors: &Quantity, contains_more: bool) -> String {
+    let unit = &errors.unit;
+    let found = errors.show(row.largest.found);
+    let decimals = decimals(found, 4);
+    let certified = row.largest.certified.map(|certified| errors.show(certified));
+    let at_most = certified.map_or_else(|| "not known".to_owned(), |value| rounded_up(value, decimals));
+    let at_least = match contains_more {
+        true => String::new(),
+        false => format!("at least {} {unit}, ", rounded_down(found, decimals)),
+    };
+    let sampled = fixed(errors.show(row.sampled), decimals);
+    format!("{}: {sampled} {unit} sampled; {at_least}at most {at_most} {unit}", row.sources)
+}

@@ -1,0 +1,49 @@
+//! The error farthest from zero over two travels: one surface for each axis.
+
+use abbe_study::analyze::Report;
+use abbe_study::analyze::figures::{Mesh, Range};
+use abbe_study::number::trimmed;
+use abbe_study::study_file::Over;
+
+use super::{Named, Quantity};
+use crate::scene::{Corner, Mark, Panel, Scene, View, ends, with_room};
+
+pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Report) -> Scene {
+    let [first, second] = over.map(|over| Quantity::over(over, &report.spec));
+    let errors = figure.errors(report);
+    let panels = (0..3).map(|axis| {
+        let lines = mesh.cells.iter().zip(&mesh.first).map(|(line, one)| {
+            let corners = line.iter().zip(&mesh.second).map(|(cell, other)| {
+                let value = errors.show(cell.as_ref()?.errors[axis].farther());
+                Some(Corner { at: [first.show(*one), second.show(*other), value], value })
+            });
+            corners.collect::<Vec<_>>()
+        });
+        let corners = lines.collect::<Vec<_>>();
+        let values = corners.iter().flatten().flatten().map(|corner| corner.value);
+        let range = with_room(ends(values.chain([0.0])), 0.0);
+        let axes = [
+            first.axis(with_room(ends(mesh.first.iter().map(|value| first.show(*value))), 0.0)),
+            second.axis(with_room(ends(mesh.second.iter().map(|value| second.show(*value))), 0.0)),
+            errors.axis(range),
+        ];
+        let view = View::Space { axes, up: 2, equal: false, marks: vec![Mark::surface(corners, range)] };
+        let title = format!("{} {} ({})", figure.rows(report)[axis], figure.what(), errors.unit);
+        Panel { title, published: published(axis, mesh, figure, report), height: 330.0, view }
+    });
+    let subtitle =
+        format!("The {} farthest from zero where others vary too{}", figure.what(), figure.remark());
+    Scene { subtitle, ..Scene::new("", 3, panels.collect()) }
+}
+
+/// The error farthest from zero on an axis, and what is published of it.
+fn published(axis: usize, mesh: &Mesh, figure: &Named, report: &Report) -> String {
+    let mut span = Range::default();
+    mesh.cells.iter().flatten().flatten().for_each(|cell| span.join(cell.errors[axis]));
+    let errors = figure.errors(report);
+    let here = format!("here: {} {}", trimmed(errors.show(span.farther()), 4), errors.unit);
+    match figure.printed(axis, span, report) {
+        Some(printed) => format!("{here} · {}", printed.label),
+        None => here,
+    }
+}

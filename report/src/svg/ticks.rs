@@ -1,0 +1,117 @@
+//! Where an axis has numbers.
+
+use abbe_study::data::Calendar;
+use abbe_study::number;
+
+use crate::scene::{Axis, Scale};
+
+/// A place of an axis, and what stands there.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tick {
+    pub(super) at: f64,
+    pub(super) label: String,
+}
+
+/// Round values within the range of an axis, at most about so many.
+pub(super) fn ticks(axis: &Axis, about: usize) -> Vec<Tick> {
+    match &axis.scale {
+        Scale::Linear => linear(axis.range, &axis.unit, about),
+        Scale::Logarithmic => decades(axis.range, about),
+        Scale::Dates => dates(axis.range, about),
+        Scale::Names(names) => {
+            names.iter().enumerate().map(|(i, name)| Tick { at: i as f64, label: name.clone() }).collect()
+        }
+    }
+}
+
+fn linear([least, largest]: [f64; 2], unit: &str, about: usize) -> Vec<Tick> {
+    let span = (largest - least) / about.max(1) as f64;
+    let step = if unit == "deg" && (1.0..90.0).contains(&span) {
+        let steps = [2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0];
+        steps.into_iter().find(|step| *step >= span).unwrap_or(90.0)
+    } else {
+        let power = 10f64.powf(span.log10().floor());
+        let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
+        steps.into_iter().find(|step| *step >= span * 0.98).unwrap_or(span)
+    };
+    if !(step > 0.0 && step.is_finite()) {
+        return vec![Tick { at: least, label: number::short(least) }];
+    }
+    let decimals = (-(step * 1.0001).log10().floor()).max(0.0) as usize;
+    let label = |value| if decimals > 6 { number::short(value) } else { number::fixed(value, decimals) };
+    let (first, last) = ((least / step - 1e-9).ceil() as i64, (largest / step + 1e-9).floor() as i64);
+    let values = (first..=last).map(|i| i as f64 * step);
+    values.map(|at| Tick { at, label: label(at) }).collect()
+}
+
+/// Powers of ten.
+fn decades([least, largest]: [f64; 2], about: usize) -> Vec<Tick> {
+    let (first, last) = ((least.log10() - 1e-9).ceil() as i32, (largest.log10() + 1e-9).floor() as i32);
+    let every = usize::try_from(last - first).unwrap_or(0) / about.max(1) + 1;
+    let powers = (first..=last).step_by(every).map(|power| 10f64.powi(power));
+    powers.map(|at| Tick { at, label: number::short(at) }).collect()
+}
+
+/// Days, or the first days of months or years.
+fn dates([first, last]: [f64; 2], about: usize) -> Vec<Tick> {
+    let days = (last - first) / about.max(1) as f64;
+    let all = (first.ceil() as i64..=last.floor() as i64).map(|day| {
+        let at = day as f64;
+        Tick { at, label: Calendar::Dates.show(at) }
+    });
+    if let Some(step) = [1, 2, 5, 10].into_iter().find(|step| f64::from(*step) >= days) {
+        return all.step_by(step as usize).collect();
+    }
+    let months = [1, 3, 6].into_iter().find(|months| 30.5 * f64::from(*months) >= days);
+    let years = (days / 365.25).ceil() as i64;
+    let is_round = |tick: &Tick| {
+        let mut parts = tick.label.rsplit('-').map(|part| part.parse::<i64>().unwrap_or_default());
+        let [day, month, year] = [(); 3].map(|()| parts.next().unwrap_or_default());
+        day == 1
+            && match months {
+                Some(months) => (month - 1) % i64::from(months) == 0,
+                None => month == 1 && year % years == 0,
+            }
+    };
+    all.filter(is_round).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ticks;
+    use crate::scene::{Axis, Scale};
+
+    fn labels(axis: &Axis, about: usize) -> Vec<String> {
+        ticks(axis, about).into_iter().map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn ticks_are_round() {
+        let axis = Axis::linear("d1", "mm", [0.0, 2256.0]);
+        assert_eq!(labels(&axis, 6), ["0", "500", "1000", "1500", "2000"]);
+        let axis = Axis::linear("d1", "mm", [-0.123, 0.34]);
+        assert_eq!(labels(&axis, 5), ["-0.1", "0", "0.1", "0.2", "0.3"]);
+        let axis = Axis::linear("q4", "deg", [-90.0, 90.0]);
+        assert_eq!(labels(&axis, 7), ["-90", "-60", "-30", "0", "30", "60", "90"]);
+        assert_eq!(labels(&Axis::linear("d1", "mm", [1.0, 1.0]), 5), ["1"]);
+    }
+
+    #[test]
+    fn ticks_of_logarithms_are_powers_of_ten() {
+        let axis = Axis::linear("distance", "mm", [2e-5, 30.0]).scaled(Scale::Logarithmic);
+        assert_eq!(labels(&axis, 8), ["0.0001", "0.001", "0.01", "0.1", "1", "10"]);
+        assert_eq!(labels(&axis, 3), ["0.0001", "0.01", "1"]);
+    }
+
+    #[test]
+    fn ticks_of_dates_are_days_months_or_years() {
+        let axis = |range| Axis::linear("", "", range).scaled(Scale::Dates);
+        assert_eq!(
+            labels(&axis([20_526.0, 20_529.5]), 4),
+            ["2026-03-14", "2026-03-15", "2026-03-16", "2026-03-17"]
+        );
+        assert_eq!(labels(&axis([20_526.0, 20_626.0]), 4), ["2026-04-01", "2026-05-01", "2026-06-01"]);
+        assert_eq!(labels(&axis([20_526.0, 20_726.0]), 3), ["2026-04-01", "2026-07-01"]);
+        assert_eq!(labels(&axis([20_526.0, 22_626.0]), 3), ["2028-01-01", "2030-01-01"]);
+    }
+}
