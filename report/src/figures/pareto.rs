@@ -39,7 +39,7 @@ fn largest_errors(figure: &Named, report: &Report) -> Vec<(String, f64)> {
     let unit = figure.errors(report);
     let sources = report.budget.errors(figure.asked.measurand).0.iter();
     let error =
-        sources.map(|alone| (report.source(alone.source).name.clone(), unit.show(alone.plain_max.norm)));
+        sources.map(|alone| (report.sources[alone.source].name.clone(), unit.show(alone.plain_max.norm)));
     let mut errors = error.collect::<Vec<_>>();
     errors.sort_by(|a, b| b.1.total_cmp(&a.1));
     if errors.len() > MOST {

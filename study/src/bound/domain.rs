@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
 use abbe_codegen::chain::{Apart, Magnitude};
 use abbe_codegen::graph::{Graph, Node};
-use abbe_bound::{Effort, Limits, MOST_MOVING, Moving, Progress};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Symbol;

@@ -1,7 +1,7 @@
 //! Least values: how far the joints move the tool at least, and how stiff the machine is at least.
 
-use abbe_codegen::chain;
 use abbe_bound::{Effort, Extreme, Progress, Singular, singular_value};
+use abbe_codegen::chain;
 
 use super::domain::{Domain, home};
 use super::report::{Dexterity, Least};

@@ -14,9 +14,9 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use abbe::Orientation;
+use abbe_bound::{Bound as Proved, Effort, Progress};
 use abbe_codegen::chain::{Magnitude, Magnitudes};
 use abbe_codegen::graph::Graph;
-use abbe_bound::{Bound as Proved, Effort, Progress};
 use abbe_spec::diagnostic::Diagnostics;
 
 use crate::changes::Changes;

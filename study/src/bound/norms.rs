@@ -1,8 +1,8 @@
 //! The norms of the position's errors alone, beside what an analysis samples.
 
 use abbe::Class;
-use abbe_codegen::chain::Magnitudes;
 use abbe_bound::{Effort, Progress};
+use abbe_codegen::chain::Magnitudes;
 use serde::Serialize;
 
 use crate::machine::Machine;

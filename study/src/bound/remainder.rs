@@ -1,8 +1,8 @@
 //! What first order leaves out, and what a step of compensation leaves.
 
+use abbe_bound::{Effort, Moving, Progress};
 use abbe_codegen::chain::{self, Magnitude};
 use abbe_codegen::graph::Graph;
-use abbe_bound::{Effort, Moving, Progress};
 use abbe_spec::expr::Symbol;
 
 use super::domain::{Domain, home};

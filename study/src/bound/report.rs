@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use abbe::{Class, Orientation};
-use abbe_bound::{Effort};
+use abbe_bound::Effort;
 use abbe_spec::{Fitted, Spec};
 use indexmap::IndexMap;
 use serde::Serialize;
