@@ -7,7 +7,7 @@ use rand_distr::StandardNormal;
 
 use super::{NormalVector, PROBABILITY_ERROR, StudentVector};
 use crate::sampling::stream;
-use crate::thorough::sample_size;
+use crate::thorough::{sample_size, thorough};
 
 fn vector(mean: [f64; 3], [x, y, z]: [f64; 3]) -> NormalVector {
     NormalVector::new(mean, [[x * x, 0.0, 0.0], [0.0, y * y, 0.0], [0.0, 0.0, z * z]])
@@ -119,7 +119,7 @@ fn the_series_of_ruben() {
 #[test]
 fn quantiles_come_back_as_probabilities() {
     let mut random = stream(9, 0);
-    for case in 0..40 {
+    for case in 0..if thorough() { 40 } else { 10 } {
         // Any shape, needles and plates among them.
         let deviations = [0; 3].map(|_| 10_f64.powf(-6.0 * random.random::<f64>()));
         let mean = [0; 3].map(|_| if case % 2 == 0 { 0.0 } else { 2.0 * random.random::<f64>() - 1.0 });
@@ -252,7 +252,7 @@ fn a_line_has_the_largest_quantile() {
             StudentVector::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], nu).quantile(0.95)
         };
         let line = quantile([1.0, 0.0, 0.0]);
-        for _ in 0..12 {
+        for _ in 0..if thorough() { 12 } else { 3 } {
             let any = [0; 3].map(|_| random.random::<f64>().powi(3));
             let trace: f64 = any.iter().sum();
             assert!(quantile(any.map(|v| v / trace)) <= line * (1.0 + 1e-9), "{nu} {any:?}");

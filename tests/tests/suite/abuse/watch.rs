@@ -18,9 +18,9 @@ const PATIENT: u32 = 40;
 /// How much of the processors' time nothing should take; what does is named.
 const LONG: Duration = Duration::from_secs(5);
 
-/// How many inputs of a kind: so many in a thorough run, a quarter of it otherwise, if nobody asks for another number.
+/// How many inputs of a kind: so many in a thorough run, an eighth of it otherwise, if nobody asks for another number.
 pub(crate) fn many(thoroughly: u64) -> u64 {
-    asked().unwrap_or(if thorough() { thoroughly } else { thoroughly / 4 })
+    asked().unwrap_or(if thorough() { thoroughly } else { thoroughly / 8 })
 }
 
 fn asked() -> Option<u64> {
