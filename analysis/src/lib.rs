@@ -52,6 +52,9 @@ mod workspace;
 mod by_hand;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+#[path = "../../tests/src/thorough.rs"]
+mod thorough;
 
 pub use abbe_core::lanes::Sweepable;
 pub use budget::{

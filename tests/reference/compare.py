@@ -55,6 +55,7 @@ def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("command")
     arguments.add_argument("--specs", type=int, default=30, help="how many")
+    arguments.add_argument("--all", action="store_true", help="not only those that are the first to use a form")
     arguments.add_argument("--only", type=int, metavar="SEED")
     arguments.add_argument("--half", choices=["first", "second"], help="of the specs; the paper's robot is in the second")
     arguments.add_argument("--keep", type=pathlib.Path, metavar="FOLDER")
@@ -65,11 +66,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = options.keep or pathlib.Path(folder)
         for seed in range(options.specs):
-            if seed in asked and options.only in (None, seed):
-                comparison.attempt(random_spec, random_specs.Writer(seed, used), folder)
-            else:
-                # What later ones use depends on it.
-                random_specs.Writer(seed, used).everything(folder)
+            # What later ones use depends on it.
+            before = set(used)
+            random_specs.Writer(seed, used).everything(folder)
+            is_new = options.all or options.only is not None or used != before
+            if is_new and seed in asked and options.only in (None, seed):
+                comparison.attempt(random_spec, random_specs.Writer(seed, before), folder)
         if options.only is None and options.half != "first":
             comparison.attempt(shipped.paper)
             comparison.attempt(shipped.some_configurations, folder)

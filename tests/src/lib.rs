@@ -7,6 +7,9 @@ pub mod chains;
 pub mod frame_loop;
 pub mod languages;
 pub mod needs;
+mod thorough;
+
+pub use thorough::{is_tested, sample_size, thorough};
 
 /// The specs in `specs/`.
 pub mod specs {

@@ -1,5 +1,6 @@
-//! Tests that need what is not everywhere: measurements of others, tools. Where it is missing they are reported as
-//! ignored, with the reason, never as passed. Their targets have `harness = false` and [`run`] in `main`.
+//! Tests that need what is not everywhere: measurements of others, tools, time. Where it is missing they are reported as
+//! ignored, with the reason, never as passed. Of each crate they are one executable, `tests/needs`, which has
+//! `harness = false` and [`run`] in `main`.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -12,15 +13,28 @@ pub struct Missing(pub String);
 /// A test that may find what it needs missing. It panics where it fails.
 pub type Test = fn() -> Result<(), Missing>;
 
-/// Runs tests by name.
+/// The tests of a module, each with its name.
+pub type Tests = &'static [(&'static str, Test)];
+
+/// Runs tests by name, those of each module as `module::name`.
 #[must_use]
-pub fn run(tests: impl IntoIterator<Item = (&'static str, Test)>) -> ExitCode {
-    let trial = |(name, test): (_, Test)| {
-        Trial::ignorable_test(name, move || {
+pub fn run(modules: &[(&str, Tests)]) -> ExitCode {
+    let trial = |module: &str, (name, test): &'static (&'static str, Test)| {
+        Trial::ignorable_test(format!("{module}::{name}"), move || {
             Ok(test().map_or_else(|Missing(what)| Completion::ignored_with(what), |()| Completion::Completed))
         })
     };
-    libtest_mimic::run(&Arguments::from_args(), tests.into_iter().map(trial).collect()).exit_code()
+    let trials = modules.iter().flat_map(|(module, tests)| tests.iter().map(|test| trial(module, test)));
+    libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit_code()
+}
+
+/// Time for all that a test can do: `ABBE_THOROUGH=1`.
+///
+/// # Errors
+///
+/// Nobody asked for it.
+pub fn thorough() -> Result<(), Missing> {
+    if crate::thorough() { Ok(()) } else { Err(Missing("it takes long: ABBE_THOROUGH=1 runs it".to_owned())) }
 }
 
 /// A file of the public measurements of UR5 and WAM, which stand beside the repository, if at all.

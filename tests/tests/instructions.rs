@@ -1,7 +1,7 @@
 //! Instruction counts by valgrind: within 2 % of those that are checked in.
 //!
 //! Needs valgrind, gungraun-runner and the compiler they were counted with, and is ignored without: `.ci/run` installs the
-//! first two. A change is written by `UPDATE_EXPECT=1 cargo test -p abbe-tests --test instructions`.
+//! first two, and runs this; `cargo test` does not. A change is written by `UPDATE_EXPECT=1 cargo test -p abbe-tests --test instructions`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -9,12 +9,14 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-use abbe_tests::needs::{Missing, Test, run, tool};
+use abbe_tests::needs::{Missing, Tests, run, tool};
 use serde_json::Value;
 
 fn main() -> ExitCode {
-    run([("as_many_as_are_checked_in", as_many_as_are_checked_in as Test)])
+    run(&[("instructions", TESTS)])
 }
+
+const TESTS: Tests = &[("as_many_as_are_checked_in", as_many_as_are_checked_in)];
 
 /// The version that the runner must have: that of the crate.
 fn version() -> &'static str {
@@ -27,6 +29,8 @@ fn version() -> &'static str {
 fn counted() -> BTreeMap<String, u64> {
     let arguments = [
         "bench",
+        "--profile",
+        "counts",
         "--quiet",
         "-p",
         "abbe-instructions",

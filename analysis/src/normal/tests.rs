@@ -7,6 +7,7 @@ use rand_distr::StandardNormal;
 
 use super::{NormalVector, PROBABILITY_ERROR, StudentVector};
 use crate::sampling::stream;
+use crate::thorough::{sample_size, thorough};
 
 fn vector(mean: [f64; 3], [x, y, z]: [f64; 3]) -> NormalVector {
     NormalVector::new(mean, [[x * x, 0.0, 0.0], [0.0, y * y, 0.0], [0.0, 0.0, z * z]])
@@ -118,7 +119,7 @@ fn the_series_of_ruben() {
 #[test]
 fn quantiles_come_back_as_probabilities() {
     let mut random = stream(9, 0);
-    for case in 0..40 {
+    for case in 0..if thorough() { 40 } else { 10 } {
         // Any shape, needles and plates among them.
         let deviations = [0; 3].map(|_| 10_f64.powf(-6.0 * random.random::<f64>()));
         let mean = [0; 3].map(|_| if case % 2 == 0 { 0.0 } else { 2.0 * random.random::<f64>() - 1.0 });
@@ -150,9 +151,10 @@ fn nothing_varies() {
     assert_eq!(vector([0.0; 3], [1.0; 3]).within(-1.0), 0.0);
 }
 
-/// Ten million draws of each rank: within four standard errors.
+/// Millions of draws of each rank: within four standard errors.
 #[test]
-fn ten_million_draws() {
+fn draws_of_each_rank() {
+    let count = sample_size(10_000_000);
     let covariances = [
         [[0.04, 0.02, -0.06], [0.02, 0.01, -0.03], [-0.06, -0.03, 0.09]],
         [[0.5, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.0]],
@@ -170,12 +172,12 @@ fn ten_million_draws() {
         assert_eq!(vector.deviations.iter().filter(|d| **d > 0.0).count(), rank);
         let q = vector.quantile(0.95);
         let mut random = stream(rank as u64, 0);
-        let inside = (0..10_000_000).filter(|_| {
+        let inside = (0..count).filter(|_| {
             let z = nalgebra::Vector3::from_fn(|_, _| random.sample::<f64, _>(StandardNormal));
             (root * z).norm_squared() <= q * q
         });
-        let share = inside.count() as f64 / 1e7;
-        assert!((share - 0.95).abs() < 4.0 * (0.95 * 0.05 / 1e7_f64).sqrt(), "rank {rank}: {share}");
+        let share = inside.count() as f64 / count as f64;
+        assert!((share - 0.95).abs() < 4.0 * (0.95 * 0.05 / count as f64).sqrt(), "rank {rank}: {share}");
     }
 }
 
@@ -250,7 +252,7 @@ fn a_line_has_the_largest_quantile() {
             StudentVector::new([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], nu).quantile(0.95)
         };
         let line = quantile([1.0, 0.0, 0.0]);
-        for _ in 0..12 {
+        for _ in 0..if thorough() { 12 } else { 3 } {
             let any = [0; 3].map(|_| random.random::<f64>().powi(3));
             let trace: f64 = any.iter().sum();
             assert!(quantile(any.map(|v| v / trace)) <= line * (1.0 + 1e-9), "{nu} {any:?}");

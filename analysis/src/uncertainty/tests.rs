@@ -7,6 +7,7 @@ use super::errors_at::{RandomError, covariance};
 use super::statement::degrees_of_freedom;
 use super::*;
 use crate::sampling::{draw, norm, stream};
+use crate::thorough::{sample_size, thorough};
 use crate::{Measurand, NormalVector, StudentVector};
 use abbe_core::{Class, Description, Distribution, LengthUnit, List, Orientation, Source, Text};
 
@@ -73,7 +74,7 @@ fn drawn(errors: &ErrorsAt, bias: f64, radius: f64, count: usize, seed: u64) -> 
     (within as f64 / count as f64, largest)
 }
 
-/// Twenty budgets of two to nine normal sources, ranks 1, 2 and 3: U holds 95 ± 0.5 % of a million draws, about the bias and
+/// Twenty budgets of two to nine normal sources, ranks 1, 2 and 3: U holds 95 ± 0.5 % of the draws, about the bias and
 /// along each axis.
 #[test]
 fn the_stated_uncertainty_holds_what_it_says() {
@@ -83,7 +84,7 @@ fn the_stated_uncertainty_holds_what_it_says() {
         let description = machine(sources.chain([source(Class::Repeatable)]).collect());
         let errors = errors(&description, rank, seed);
         let statement = Statement::new(&errors, Measurand::Position, seed);
-        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], 1_000_000, seed);
+        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], sample_size(1_000_000), seed);
         assert!((share - COVERAGE).abs() < 0.005, "rank {rank}: {share}");
         assert!((statement.coverage.probability - COVERAGE).abs() < 1e-8);
         assert!(statement.coverage.draws.is_none());
@@ -92,7 +93,7 @@ fn the_stated_uncertainty_holds_what_it_says() {
         // Along an axis: the other rows of the draws are nothing.
         let mut flat = errors.clone();
         flat.sources.iter_mut().for_each(|row| row[1..3].fill(0.0));
-        let (share, _) = drawn(&flat, 0.0, statement.expanded()[0], 1_000_000, seed);
+        let (share, _) = drawn(&flat, 0.0, statement.expanded()[0], sample_size(1_000_000), seed);
         assert!((share - COVERAGE).abs() < 0.005, "along x: {share}");
     }
 }
@@ -105,9 +106,9 @@ fn the_coverage_of_other_distributions_is_stated() {
         let description = machine((0..1 + seed as usize % 5).map(any).collect());
         let errors = errors(&description, 1 + seed as usize % 3, seed);
         let statement = Statement::new(&errors, Measurand::Orientation, seed);
-        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], 1_000_000, seed);
+        let (share, _) = drawn(&errors, 0.0, statement.expanded()[3], sample_size(1_000_000), seed);
         let Compliance { probability, error, .. } = statement.coverage;
-        let spread = error.hypot((share * (1.0 - share) / 1e6).sqrt());
+        let spread = error.hypot((share * (1.0 - share) / sample_size(1_000_000) as f64).sqrt());
         assert!((share - probability).abs() < 4.0 * spread + 1e-5, "{share} {probability}");
     }
 }
@@ -128,8 +129,8 @@ fn a_probability_is_that_of_draws() {
             let Compliance { probability, error, draws } =
                 compliance(&errors, Measurand::Position, limit, seed);
             assert_eq!(draws.is_none(), seed == 0);
-            let (share, _) = drawn(&errors, 1.0, limit, 1_000_000, seed);
-            let spread = error + (share * (1.0 - share) / 1e6).sqrt() + 1e-6;
+            let (share, _) = drawn(&errors, 1.0, limit, sample_size(1_000_000), seed);
+            let spread = error + (share * (1.0 - share) / sample_size(1_000_000) as f64).sqrt() + 1e-6;
             assert!((share - probability).abs() < 4.0 * spread, "{share} {probability}");
         }
     }
@@ -205,7 +206,7 @@ fn mean_coverage(sources: &Estimated, figure: Figure) -> f64 {
 #[test]
 fn estimated_standard_deviations_are_covered() {
     const KNOWN: f64 = f64::INFINITY;
-    for sources in [
+    let cases = [
         &[(0, 1.0, 3.0), (0, 1.0, KNOWN)][..],
         &[(0, 1.0, 3.0), (0, 0.5, KNOWN)],
         &[(0, 1.0, 3.0), (0, 0.25, KNOWN)],
@@ -216,7 +217,8 @@ fn estimated_standard_deviations_are_covered() {
         &[(0, 0.7, 3.0), (1, 1.0, KNOWN)],
         &[(0, 1.0, 4.0), (1, 0.6, 9.0), (2, 0.3, KNOWN)],
         &[(0, 1.0, 3.0), (1, 1.0, KNOWN), (2, 1.0, KNOWN)],
-    ] {
+    ];
+    for sources in cases.into_iter().step_by(if thorough() { 1 } else { 3 }) {
         let coverage = mean_coverage(sources, Figure::Norm);
         assert!((0.945..0.99).contains(&coverage), "{sources:?}: {coverage}");
     }
@@ -254,7 +256,7 @@ fn an_estimated_error_is_drawn_after_student() {
     assert!((probability - COVERAGE).abs() < 4.0 * error, "{probability}");
 }
 
-/// Equal shares of bounded sources: neither ten million draws nor any signs of the bounds exceed the tolerance.
+/// Equal shares of bounded sources: neither millions of draws nor any signs of the bounds exceed the tolerance.
 #[test]
 fn certain_is_never_exceeded() {
     let kinds =
@@ -275,7 +277,7 @@ fn certain_is_never_exceeded() {
     };
     let extreme = (0..32).map(corner).fold(0.0, f64::max);
     assert!((extreme - tolerance).abs() < 1e-12);
-    let (_, largest) = drawn(&errors, 1.0, tolerance, 10_000_000, 5);
+    let (_, largest) = drawn(&errors, 1.0, tolerance, sample_size(10_000_000), 5);
     assert!(largest <= tolerance * (1.0 + 1e-12), "{largest}");
     assert!(largest > 0.7 * tolerance);
 }

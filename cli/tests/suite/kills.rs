@@ -1,0 +1,179 @@
+//! Commands that are killed while they write: every file is the one of before or the one of after, none is lost, and the next
+//! run, of whatever command, completes a set of which some were in their places, and leaves nothing behind.
+//!
+//! `ABBE_KILLS=1000` kills so often; it takes as long as it takes.
+
+#![cfg(unix)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use abbe_tests::thorough;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use crate::running::command;
+use crate::workshop::{Workshop, contents};
+
+/// How often, if nobody says, and in a thorough run.
+const KILLS: [usize; 2] = [18, 54];
+/// At most so long.
+const TIME: Duration = Duration::from_secs(15);
+
+/// A command in two forms whose files differ; `{}` is `d` or `t`, `[]` is 1 or 2.
+const COMMANDS: [&str; 9] = [
+    "generate {}.spec.toml --out arm.rs",
+    "simulate s.toml --map m.toml --samples 5000 --seed [] --out data.csv",
+    "plan s.toml --map m.toml --optimal 20 --candidates [][] --out plan.csv",
+    "compensate s.toml {}.csv --map m.toml --out commands.csv --report commands.html",
+    "monitor s.toml {}.csv {}.csv --map m.toml --report watched.html",
+    "identify s.toml {}.csv --map m.toml --out found.toml --report found.html",
+    "measure s.toml {}.csv --map m.toml --out measured",
+    "analyze s.toml --monte-carlo 100 --seed [] --out analyzed",
+    "analyze {}.spec.toml --out again",
+];
+
+fn words(workshop: &Workshop, line: &str, form: usize) -> Vec<String> {
+    let line = line.replace("{}", ["d", "t"][form]).replace("[]", ["3", "4"][form]);
+    line.split_whitespace()
+        .map(|word| {
+            let path = word.contains('.') || ["measured", "analyzed", "again"].contains(&word);
+            if path { workshop.path(word) } else { word.to_owned() }
+        })
+        .collect()
+}
+
+fn start(words: &[String]) -> Command {
+    let mut command = command(words);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
+/// A workshop and the files that both forms of a command leave there, and how long it takes.
+struct Victim {
+    workshop: Workshop,
+    line: &'static str,
+    forms: [BTreeMap<PathBuf, Vec<u8>>; 2],
+    time: Duration,
+}
+
+impl Victim {
+    fn new(line: &'static str) -> Self {
+        let workshop = Workshop::new();
+        let spec = fs::read_to_string(workshop.at("s.toml")).unwrap();
+        fs::write(workshop.at("d.spec.toml"), &spec).unwrap();
+        fs::write(workshop.at("t.spec.toml"), spec.replace("450 mm", "460 mm")).unwrap();
+        let mut time = Duration::ZERO;
+        let forms = [1, 0].map(|form| {
+            let begin = Instant::now();
+            let status = start(&words(&workshop, line, form)).status().unwrap();
+            assert!(status.code().is_some_and(|code| code <= 1), "{line}: {status}");
+            time = begin.elapsed();
+            contents(workshop.0.path())
+        });
+        let [second, first] = forms;
+        assert!(first != second && first.keys().eq(second.keys()), "{line}");
+        Self { workshop, line, forms: [first, second], time }
+    }
+
+    /// Another command writes where this one does, and its file is taken away.
+    fn write_something_else(&self) {
+        let folder = ["measured", "analyzed", "again"].into_iter().find(|name| self.line.ends_with(name));
+        let file = self.workshop.at(folder.unwrap_or(".")).join("other.rs");
+        let words = self.workshop.words("generate s.toml --out");
+        let status = start(&[&words[..], &[file.to_str().unwrap().to_owned()]].concat()).status().unwrap();
+        assert!(status.success(), "{status}");
+        fs::remove_file(file).unwrap();
+    }
+
+    /// Of which form the files are that differ; none if they are of both.
+    fn form(&self) -> Option<usize> {
+        let now = contents(self.workshop.0.path());
+        for (path, before) in &self.forms[0] {
+            let content = now.get(path).unwrap_or_else(|| panic!("{} is lost", path.display()));
+            let whole = content == before || *content == self.forms[1][path];
+            assert!(whole, "half a file: {}", path.display());
+        }
+        let temporary = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().starts_with(".abbe-");
+        assert!(now.keys().all(|path| temporary(path) || self.forms[0].contains_key(path)));
+        (0..2).find(|form| self.forms[*form].iter().all(|(path, content)| now[path] == *content))
+    }
+}
+
+#[test]
+fn whoever_is_killed_leaves_whole_files_and_the_next_run_nothing() {
+    let asked = std::env::var("ABBE_KILLS").ok().map(|kills| kills.parse::<usize>().unwrap());
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(9);
+    let victims = COMMANDS.map(Victim::new);
+    // Below `nohup` this one is not heard.
+    let ignored = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = ignored.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    let signals: Vec<(&str, i32)> = [("KILL", 9), ("INT", 2), ("TERM", 15), ("HUP", 1)]
+        .into_iter()
+        .filter(|(name, number)| *name != "HUP" || ignored & (1 << (number - 1)) == 0)
+        .collect();
+    let (mut kills, mut killed, mut mixed, mut left) = (0, 0, 0, 0);
+    let begin = Instant::now();
+    for i in 0..asked.unwrap_or(KILLS[usize::from(thorough())]) {
+        if asked.is_none() && begin.elapsed() > TIME {
+            break;
+        }
+        kills += 1;
+        if i % 100 == 99 {
+            println!("{kills} kills, {killed} before the end, {left} left something, {mixed} sets in halves");
+        }
+        let victim = &victims[i % victims.len()];
+        let (name, number) = signals[random.random_range(0..signals.len())];
+        let before = victim.form();
+        let next = before.map_or(0, |form| 1 - form);
+        let mut child = start(&words(&victim.workshop, victim.line, next)).spawn().unwrap();
+        // Most of them towards the end, where files are written.
+        let share = if random.random_bool(0.7) {
+            random.random_range(0.6..1.1)
+        } else {
+            random.random_range(0.0..0.6)
+        };
+        std::thread::sleep(victim.time.mul_f64(share));
+        let pid = child.id().to_string();
+        let _ = Command::new("kill").args([&format!("-{name}"), &pid]).stderr(Stdio::null()).status();
+        let status = child.wait().unwrap();
+        let ended = match number {
+            9 => status.signal() == Some(9),
+            // Before it can hear them they end it as they end any other.
+            n => status.code() == Some(128 + n) || status.signal() == Some(n),
+        };
+        let finished = status.code().is_some_and(|code| code <= 1);
+        assert!(ended || finished, "{}: {name}: {status}", victim.line);
+        killed += usize::from(ended);
+        let after = victim.form();
+        if after.is_none() {
+            // Between two files of a set only what cannot be caught can strike.
+            assert!(ended && number == 9, "{}: {name}: a set in halves", victim.line);
+            mixed += 1;
+        }
+        let now = contents(victim.workshop.0.path());
+        let found = now.len() - victim.forms[0].len();
+        assert!(found == 0 || number == 9, "{}: {name}: {status} leaves {:?}", victim.line, now.keys());
+        left += usize::from(found > 0);
+        if after.is_none() {
+            victim.write_something_else();
+            assert_eq!(victim.form(), Some(next), "{}: the set is not completed", victim.line);
+        }
+        // What was killed is done again, without --force, and nothing is left.
+        if found > 0 || after.is_none() || random.random_bool(0.2) {
+            let again = start(&words(&victim.workshop, victim.line, next)).status().unwrap();
+            assert!(again.code().is_some_and(|code| code <= 1), "{}: {again}", victim.line);
+            assert_eq!(victim.form(), Some(next));
+            assert_eq!(contents(victim.workshop.0.path()).len(), victim.forms[0].len());
+        }
+    }
+    println!(
+        "{kills} kills, {killed} before the end, {left} left something for the next run, {mixed} sets in halves"
+    );
+    assert!(killed > 0);
+}

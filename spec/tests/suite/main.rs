@@ -1,0 +1,3 @@
+//! The reader of specs as its users call it.
+
+mod bounds;

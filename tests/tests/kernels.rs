@@ -1,0 +1,23 @@
+//! Every function of every shipped manipulator in batches: 450 kernels, which take longer to compile than all other tests.
+//!
+//! `cargo test --workspace --test kernels`, which the tests of `needs` run where there is time.
+
+#[path = "suite/batches/laws.rs"]
+mod laws;
+
+use abbe::lanes::Batches;
+use abbe_manipulators::{SHIPPED, general6r, iiwa, machine3, panda, pps, puma560, scara, stanford, ur5, wam};
+
+/// The shipped manipulators: all their functions are compiled for lanes here.
+const COMPILED: [&dyn Batches; SHIPPED.len()] = [
+    &general6r::General6r,
+    &iiwa::Iiwa,
+    &machine3::Machine3,
+    &panda::Panda,
+    &pps::Pps,
+    &puma560::Puma560,
+    &scara::Scara,
+    &stanford::Stanford,
+    &ur5::Ur5,
+    &wam::Wam,
+];

@@ -1,0 +1,353 @@
+//! Generated C in single precision, held against the same in double precision.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use abbe::analysis::sampling::{arm_length, nominal_parameters};
+use abbe::compensator::norms;
+use abbe::{Function, Manipulator, Orientation, Pose, deviation};
+use abbe_codegen::print::{Language, Real};
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_tests::chains::{coupled_joints, long_chain};
+use abbe_tests::languages::{NAMES, configurations};
+use abbe_tests::needs::{Missing, tool};
+use abbe_tests::{is_tested, specs, thorough};
+
+use super::program::{called, compiled, succeeds, write};
+
+/// What single precision makes of a manipulator: the largest differences from double precision.
+#[derive(Default)]
+struct Differences {
+    /// Of the position of `pose`, in the length unit.
+    position: f64,
+    /// Of `J_e`, by its largest number.
+    jacobian: f64,
+    /// Of the tool point's displacement by errors of 1e-3, in the length unit.
+    displacement: f64,
+    /// How far the tool is from where it should be, and how far it is turned, computed in double precision: at commands, and at
+    /// those that single precision makes of them, if both precisions came to rest.
+    before: [f64; 2],
+    after: [f64; 2],
+    /// How many corrected commands came to rest, in double and in single precision.
+    rest: [usize; 2],
+}
+
+/// The same configurations in both, as single precision holds them.
+fn differences(spec: &Spec, given: Vec<Vec<f64>>) -> Differences {
+    let name = spec.name.clone();
+    let robot = Interpreter::new(spec.clone());
+    let nearest = |given: Vec<f64>| given.into_iter().map(|value| Real::Float.nearest(value)).collect();
+    let given: Vec<Vec<f64>> = given.into_iter().map(nearest).collect();
+    let euler = robot.description().orientation == Orientation::EulerYzx;
+    let [mut double, mut single] = Real::ALL.map(|real| {
+        let folder = tempfile::tempdir().unwrap();
+        write(folder.path(), spec, real);
+        called(&["cc"], folder.path(), &robot, real, &given).into_iter()
+    });
+    let mut found = Differences::default();
+    assert_eq!((double.next(), single.next()), (Some(0.0), Some(0.0)), "{name}: the self-tests");
+    for given in &given {
+        for function in Function::ALL {
+            let [one, other] = [&mut double, &mut single].map(|numbers| numbers.next().unwrap());
+            assert!(one == other || euler, "{name} {}: {one} and {other}", function.name());
+            let arrays = function.signature().results.iter().map(|array| array.len(robot.description()));
+            for (k, len) in arrays.enumerate() {
+                let [a, b] = [&mut double, &mut single].map(|all| all.take(len).collect::<Vec<f64>>());
+                if one == 0.0 && other == 0.0 {
+                    found.compare(function, k, &a, &b);
+                }
+            }
+        }
+        let q = &given[..robot.description().variables.len()];
+        let of = |numbers: &mut std::vec::IntoIter<f64>| {
+            let status = numbers.next().unwrap();
+            let corrected: Vec<f64> = numbers.take(q.len()).collect();
+            numbers.nth(11);
+            (status, corrected)
+        };
+        let (double, single) = (of(&mut double), of(&mut single));
+        found.compensated(&robot, given, double, single);
+    }
+    assert_eq!((double.next(), single.next()), (None, None), "{name}");
+    found
+}
+
+impl Differences {
+    fn compare(&mut self, function: Function, result: usize, a: &[f64], b: &[f64]) {
+        let largest = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        match (function, result) {
+            (Function::Pose, _) => {
+                self.position = self.position.max(largest(&a[9..], &b[9..]));
+            }
+            (Function::ErrorJacobian, 1) => {
+                self.jacobian = self.jacobian.max(largest(a, b) / largest(a, &vec![0.0; a.len()]));
+            }
+            (Function::Displacement, _) => {
+                self.displacement = self.displacement.max(largest(&a[..3], &b[..3]));
+            }
+            _ => {}
+        }
+    }
+
+    fn compensated(
+        &mut self,
+        robot: &Interpreter,
+        given: &[f64],
+        (double, exact): (f64, Vec<f64>),
+        (single, found): (f64, Vec<f64>),
+    ) {
+        let description = robot.description();
+        let (q, rest) = given.split_at(description.variables.len());
+        let (s, rest) = rest.split_at(description.parameters.len());
+        let u = &rest[..description.inputs.len()];
+        let target = robot.pose(q, s).unwrap();
+        let left = |q: &[f64]| {
+            let real = robot.evaluate(Function::RealPose, &[q, s, u].concat()).unwrap();
+            let real = Pose(std::array::from_fn(|i| std::array::from_fn(|j| real[3 * i + j])));
+            norms(&deviation(Orientation::RotationVector, &target, &real))
+        };
+        let more = |most: &mut [f64; 2], (length, angle): (f64, f64)| {
+            *most = [most[0].max(length), most[1].max(angle)];
+        };
+        self.rest[0] += usize::from(double == 0.0);
+        self.rest[1] += usize::from(single == 0.0);
+        // What neither can reach says nothing of their precision.
+        let (length, angle) = left(&exact);
+        let metre = 1.0 / description.length.in_metres();
+        if [double, single] == [0.0; 2] && length < 1e-8 * metre && angle < 1e-8 {
+            more(&mut self.before, left(q));
+            more(&mut self.after, left(&found));
+        }
+    }
+}
+
+/// The chapter's table has a row for each, and the header says the most of all.
+pub(crate) fn shipped_robots() -> Result<(), Missing> {
+    tool("cc", "")?;
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/in-a-controller.md");
+    let page = fs::read_to_string(page).unwrap();
+    let mut most = [0.0_f64; 4];
+    let mut wrong = Vec::new();
+    for shipped in SHIPPED.iter().filter(|shipped| is_tested(shipped.name)) {
+        let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
+        let robot = Interpreter::new(spec.clone());
+        let found = differences(&spec, configurations(&robot, 1000));
+        let arm = arm_length(&robot, &nominal_parameters(robot.description())).unwrap();
+        let shares = [found.position / arm, found.jacobian, found.after[0] / arm, found.after[1]];
+        most = std::array::from_fn(|k| most[k].max(shares[k]));
+        let unit = robot.description().length.symbol();
+        let Differences { position, jacobian, displacement, before, after, rest } = found;
+        let figures = [position, jacobian, displacement, before[0], after[0], before[1], after[1]];
+        let [position, jacobian, displacement, before, after, turned, left] = figures.map(upwards);
+        let corrected = match figures[3] > 0.0 {
+            true => format!("{before} → {after} {unit} | {turned} → {left} rad"),
+            false => "– | –".to_owned(),
+        };
+        let row = format!(
+            "| {} | {position} {unit} | {jacobian} | {displacement} {unit} | {corrected} | {} of {} |",
+            shipped.name, rest[1], rest[0],
+        );
+        println!("{row}");
+        let some: Vec<f64> = figures.into_iter().filter(|figure| *figure > 0.0).collect();
+        let begin = format!("| {} |", shipped.name);
+        let told = page.lines().find(|line| line.starts_with(&begin)).unwrap_or("");
+        if !told.contains(&format!("{} of {} |", rest[1], rest[0])) || !agree(&numbers(told), &some) {
+            wrong.push(row);
+        }
+    }
+    println!("shares: {:?}", most.map(upwards));
+    assert!(wrong.is_empty(), "the chapter has other figures than\n{}", wrong.join("\n"));
+    // The header has the largest of all robots.
+    if !thorough() {
+        return Ok(());
+    }
+    let spec = Spec::parse("ur5.toml", SHIPPED.iter().find(|shipped| shipped.name == "ur5").unwrap().spec);
+    let header = Language::C(Real::Float).files(&spec.unwrap()).swap_remove(0).text;
+    let (_, told) = header.split_once("In single precision").unwrap();
+    let (told, _) = told.split_once("*/").unwrap();
+    let told: String = told.lines().map(|line| line.trim_start_matches(" *")).collect();
+    assert!(agree(&numbers(&told), &most), "{told}: {most:?}");
+    Ok(())
+}
+
+/// With two digits, the last one rounded up.
+fn upwards(value: f64) -> String {
+    let digit = 10_f64.powf(value.log10().floor() - 1.0);
+    format!("{:.1e}", (value / digit).ceil() * digit)
+}
+
+/// The numbers with an exponent in a text.
+fn numbers(text: &str) -> Vec<f64> {
+    let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '|'));
+    words.filter(|word| word.contains('e')).filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Whether nothing is larger than is told, and nothing much smaller.
+fn agree(told: &[f64], found: &[f64]) -> bool {
+    let fits = |(told, found): (&f64, &f64)| found <= told && *told <= 1.3 * found;
+    told.len() == found.len() && told.iter().zip(found).all(fits)
+}
+
+pub(crate) fn long_chains_and_tables() -> Result<(), Missing> {
+    tool("cc", "")?;
+    for spec in [
+        Spec::parse("long.toml", &long_chain()).unwrap(),
+        Spec::parse("coupled.toml", coupled_joints()).unwrap(),
+        Spec::read(specs::path("measured")).unwrap(),
+        Spec::parse("names.toml", NAMES).unwrap(),
+    ] {
+        let robot = Interpreter::new(spec.clone());
+        let arm = arm_length(&robot, &nominal_parameters(robot.description())).unwrap();
+        let mut given = configurations(&robot, 50);
+        // Where tables end.
+        let limits = robot.description().variables[0].limits;
+        let limits = limits.into_iter().filter(|limit| limit.is_finite());
+        given.iter_mut().zip(limits).for_each(|(given, limit)| given[0] = limit);
+        let Differences { position, jacobian, .. } = differences(&spec, given);
+        // Twice what six frames are off by for every six frames.
+        let frames = robot.description().frames.len().div_ceil(6) as f64;
+        assert!(position > 0.0 && position <= frames * 1e-6 * arm, "{position} of {arm}");
+        assert!(jacobian > 0.0 && jacobian <= frames * 1e-6, "{jacobian}");
+    }
+    Ok(())
+}
+
+/// Sine and cosine against those of double precision, for one in 61 of all numbers they are for; and their polynomials against
+/// the best there are.
+pub(crate) fn sines() -> Result<(), Missing> {
+    tool("cc", "")?;
+    let folder = tempfile::tempdir().unwrap();
+    let spec = Spec::parse("names.toml", NAMES).unwrap();
+    write(folder.path(), &spec, Real::Float);
+    let source = folder.path().join("main.c");
+    fs::write(&source, SINES.replace("NAME", &spec.name)).unwrap();
+    let program = folder.path().join("program");
+    compiled(&["cc", "-O2"], &program, &[&source]);
+    let said = String::from_utf8(succeeds(&mut Command::new(&program))).unwrap();
+    println!("units in the last place, sine and cosine: {said}");
+    let text = fs::read_to_string(folder.path().join(format!("{}.c", spec.name))).unwrap();
+    for worst in said.split_whitespace() {
+        let worst: f64 = worst.parse().unwrap();
+        let (_, told) = text.split_once("Sine and cosine, below ").unwrap();
+        let told: f64 = told.split(' ').next().unwrap().parse().unwrap();
+        assert!(worst < told && told < 1.3 * worst, "{worst}");
+    }
+    is_minimax(&factors(&text, "s"), |z| {
+        let r = z.sqrt();
+        // z (S − (sin r − r)/r³), as a share of sin r / r
+        let series: f64 =
+            (0..12).rev().fold(0.0, |sum, k| (1.0 - z * sum) / ((2 * k + 2) * (2 * k + 3)) as f64);
+        (-series, z * r / r.sin())
+    });
+    is_minimax(&factors(&text, "c"), |z| {
+        let series = (0..12).rev().fold(0.0, |sum, k| (1.0 - z * sum) / ((2 * k + 3) * (2 * k + 4)) as f64);
+        (series / 2.0, z * z / z.sqrt().cos())
+    });
+    Ok(())
+}
+
+/// Reads like a header: the sources of a manipulator and of this program are one.
+const SINES: &str = r#"
+#include "NAME.c"
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+static double units(float found, double expected)
+{
+    return fabs((double)found - expected) / ldexp(1.0, ilogb(expected) - 23);
+}
+int main(void)
+{
+    double worst[2] = { 0.0, 0.0 };
+    for (uint32_t bits = 0x20000000U; bits < 0x45bb8000U; bits += 61U) {
+        for (int sign = 0; sign < 2; sign++) {
+            const uint32_t signed_bits = bits | ((uint32_t)sign << 31);
+            float x;
+            float s;
+            float c;
+            memcpy(&x, &signed_bits, sizeof x);
+            sin_cos(x, &s, &c);
+            worst[0] = fmax(worst[0], units(s, sin((double)x)));
+            worst[1] = fmax(worst[1], units(c, cos((double)x)));
+        }
+    }
+    printf("%.3f %.3f\n", worst[0], worst[1]);
+    return 0;
+}
+"#;
+
+/// The factors of a polynomial of degree 2, the lowest power first: of the sine after r, of the cosine after −1/2.
+fn factors(text: &str, name: &str) -> [f64; 3] {
+    let (_, text) = text.split_once(&format!("    float {name} = ")).unwrap();
+    let words = text.split(|c: char| c.is_whitespace() || c == ';');
+    let mut found = words.filter_map(|word| word.strip_suffix('f')?.parse().ok());
+    let [third, second, first] = [(); 3].map(|()| f64::from(found.next().map(|x: f64| x as f32).unwrap()));
+    [first, second, third]
+}
+
+/// A polynomial whose error has four extrema of alternating signs is worse than the best by no more than from the least to the
+/// largest of them (de la Vallée-Poussin); at each z on (0, (π/4)²] what is approached, and the error's weight.
+fn is_minimax(factors: &[f64; 3], at: impl Fn(f64) -> (f64, f64)) {
+    let mut extrema: Vec<f64> = Vec::new();
+    for k in 1..=100_000 {
+        let z = std::f64::consts::FRAC_PI_4.powi(2) * f64::from(k) / 1e5;
+        let (wanted, weight) = at(z);
+        let error = ((factors[2] * z + factors[1]) * z + factors[0] - wanted) * weight;
+        match extrema.last_mut() {
+            Some(last) if *last * error >= 0.0 => {
+                *last = if error.abs() > last.abs() { error } else { *last }
+            }
+            _ => extrema.push(error),
+        }
+    }
+    let [least, largest] = [f64::min, f64::max].map(|f| extrema.iter().map(|e| e.abs()).reduce(f).unwrap());
+    assert!(extrema.len() == 4 && largest <= 1.2 * least, "{extrema:?}");
+}
+
+/// With other compilers and fused operations it passes; with a length that is wrong in the fourth digit, or for `double` in the eleventh, it does not.
+pub(crate) fn self_tests() -> Result<(), Missing> {
+    tool("gcc", "")?;
+    tool("clang", "")?;
+    let fused = ["gcc", "-O2", "-ffp-contract=fast", "-march=native"];
+    for shipped in SHIPPED.iter().filter(|shipped| is_tested(shipped.name)) {
+        let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
+        for real in Real::ALL {
+            let folder = tempfile::tempdir().unwrap();
+            write(folder.path(), &spec, real);
+            for compiler in [&["clang"][..], &fused] {
+                assert_eq!(
+                    self_test(folder.path(), &spec.name, compiler),
+                    0,
+                    "{} {real} {compiler:?}",
+                    spec.name
+                );
+            }
+        }
+    }
+    let puma = SHIPPED.iter().find(|shipped| shipped.name == "puma560").unwrap();
+    let spec = Spec::parse("puma560.toml", puma.spec).unwrap();
+    for (real, wrong) in [(Real::Double, "0.43180000001"), (Real::Float, "0.4319")] {
+        let folder = tempfile::tempdir().unwrap();
+        write(folder.path(), &spec, real);
+        let source = folder.path().join("puma560.c");
+        let text = fs::read_to_string(&source).unwrap();
+        let [right, wrong] = ["0.4318", wrong].map(|length| format!("const {real} a2_z4 = {length}"));
+        assert!(text.contains(&right));
+        let text = text.replace(&right, &wrong);
+        fs::write(&source, text).unwrap();
+        assert_ne!(self_test(folder.path(), "puma560", &["gcc"]), 0, "{real}");
+    }
+    Ok(())
+}
+
+/// What it returns.
+fn self_test(folder: &Path, name: &str, compiler: &[&str]) -> i32 {
+    let [source, program] = ["main.c", "program"].map(|file| folder.join(file));
+    fs::write(&source, format!("#include \"{name}.h\"\nint main(void) {{ return {name}_self_test(); }}\n"))
+        .unwrap();
+    compiled(compiler, &program, &[&folder.join(format!("{name}.c")), &source]);
+    Command::new(&program).status().unwrap().code().unwrap()
+}

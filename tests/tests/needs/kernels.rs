@@ -1,0 +1,19 @@
+//! The kernels of every shipped robot, an executable of its own.
+
+use std::path::Path;
+use std::process::Command;
+
+use abbe_tests::needs::{Missing, Tests, thorough};
+
+pub(crate) const TESTS: Tests = &[("of_every_shipped_robot", of_every_shipped_robot)];
+
+fn of_every_shipped_robot() -> Result<(), Missing> {
+    thorough()?;
+    let mut cargo = Command::new(env!("CARGO"));
+    // Of the whole workspace: a package by itself would be compiled again, with other features.
+    cargo.args(["test", "--workspace", "--locked", "--test", "kernels"]);
+    cargo.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    let output = cargo.output().expect("cargo runs this test");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&[output.stdout, output.stderr].concat()));
+    Ok(())
+}

@@ -1,0 +1,90 @@
+//! Code generated for JavaScript, NumPy and Octave gives what Rust gives, to 1e-13 of the largest number of a result: every
+//! function of every shipped robot, of a long chain, and of one whose names mean something in these languages.
+//!
+//! `PYTHON` names a Python that has NumPy, if `python3` has none. Octave, which is slow, is asked for 20 configurations;
+//! `CONFIGURATIONS=1000` is for all.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use abbe::{Function, Manipulator};
+use abbe_codegen::print::Language;
+use abbe_interpreter::Interpreter;
+use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_tests::chains::{coupled_joints, long_chain};
+use abbe_tests::languages::{NAMES, assert_alike, configurations};
+use abbe_tests::needs::{Missing, Tests, python, tool};
+use abbe_tests::{is_tested, specs};
+
+pub(crate) const TESTS: Tests = &[
+    ("javascript", (|| in_all(Language::JavaScript, 1000))),
+    ("python", (|| in_all(Language::Python, 1000))),
+    ("octave", (|| in_all(Language::Matlab, 20))),
+];
+
+/// All robots in a language, in so many configurations.
+fn in_all(language: Language, usual: usize) -> Result<(), Missing> {
+    let command = command(language)?;
+    let asked = std::env::var("CONFIGURATIONS").ok().and_then(|count| count.parse().ok());
+    let count = asked.unwrap_or(usual);
+    let few = count.min(50);
+    for shipped in SHIPPED.iter().filter(|shipped| is_tested(shipped.name)) {
+        let spec = Spec::parse(&format!("{}.toml", shipped.name), shipped.spec).unwrap();
+        assert_equal(language, &command, spec, count);
+    }
+    assert_equal(language, &command, Spec::parse("long.toml", &long_chain()).unwrap(), few);
+    assert_equal(language, &command, Spec::parse("coupled.toml", coupled_joints()).unwrap(), few);
+    assert_equal(language, &command, Spec::read(specs::path("measured")).unwrap(), count);
+    assert_equal(language, &command, Spec::parse("names.toml", NAMES).unwrap(), few);
+    Ok(())
+}
+
+/// What runs a script of the language.
+fn command(language: Language) -> Result<Vec<String>, Missing> {
+    let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+    match language {
+        Language::JavaScript => tool("node", "").map(|_| words(&["node"])),
+        Language::Python => python("numpy").map(|python| words(&[&python])),
+        _ => tool("octave", "").map(|_| words(&["octave", "--no-gui", "--quiet", "--norc"])),
+    }
+}
+
+/// Equal to Rust in so many configurations.
+fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize) {
+    let (name, file) = (spec.name.clone(), language.files(&spec).remove(0));
+    let robot = Interpreter::new(spec);
+    let given = configurations(&robot, count);
+    let folder = tempfile::tempdir().unwrap();
+    let script = match language {
+        Language::JavaScript => "run.mjs",
+        Language::Python => "run.py",
+        _ => "run.m",
+    };
+    let source = folder.path().join(if language == Language::JavaScript { "module.mjs" } else { &file.name });
+    let [input, output, functions] = ["input", "output", "functions"].map(|name| folder.path().join(name));
+    fs::write(&source, &file.text).unwrap();
+    fs::write(&input, given.concat().iter().flat_map(|value| value.to_ne_bytes()).collect::<Vec<u8>>())
+        .unwrap();
+    let names = |function: Function| {
+        let signature = function.signature();
+        let names = |arrays: &[abbe::function::Array]| arrays.iter().map(|array| array.name).collect();
+        let (arguments, mut results): (Vec<_>, Vec<_>) =
+            (names(signature.arguments), names(signature.results));
+        results.extend(signature.has_margin(robot.description().orientation).then_some("margin"));
+        (signature.name, arguments, results)
+    };
+    fs::write(&functions, serde_json::to_string(&Function::ALL.map(names)).unwrap()).unwrap();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("languages").join(script);
+    let mut run = Command::new(&command[0]);
+    let run = run.args(&command[1..]).arg(script).args([&source, &functions, &input, &output]).output();
+    let run = run.expect("the command is there");
+    assert!(run.status.success(), "{name}: {}", String::from_utf8_lossy(&run.stderr));
+    let bytes = fs::read(&output).unwrap();
+    let found: Vec<f64> =
+        bytes.chunks_exact(8).map(|bytes| f64::from_ne_bytes(bytes.try_into().unwrap())).collect();
+    let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
+    let worst = assert_alike(&robot, evaluate, &given, &found);
+    println!("{name}: {worst:e} in {count} configurations");
+}

@@ -1,0 +1,23 @@
+//! Tests that need tools or data that are not everywhere: each is ignored, with the reason, where they are missing.
+
+mod c99;
+mod kernels;
+mod languages;
+mod measured_data;
+mod ros;
+mod rustfmt;
+
+use std::process::ExitCode;
+
+use abbe_tests::needs::run;
+
+fn main() -> ExitCode {
+    run(&[
+        ("c99", c99::TESTS),
+        ("kernels", kernels::TESTS),
+        ("languages", languages::TESTS),
+        ("measured_data", measured_data::TESTS),
+        ("ros", ros::TESTS),
+        ("rustfmt", rustfmt::TESTS),
+    ])
+}

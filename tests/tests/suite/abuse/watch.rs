@@ -1,0 +1,114 @@
+//! Every input is watched: how it ends, and that it does.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::exit;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_tests::thorough;
+
+/// How long anything may take: in tests that are not optimized, on computers that are busy.
+const LONGEST: Duration = Duration::from_secs(30);
+
+/// How many times as long if it is asked for more than usual, which may be at a low priority.
+const PATIENT: u32 = 40;
+
+/// How much of the processors' time nothing should take; what does is named.
+const LONG: Duration = Duration::from_secs(5);
+
+/// How many inputs of a kind: so many in a thorough run, an eighth of it otherwise, if nobody asks for another number.
+pub(crate) fn many(thoroughly: u64) -> u64 {
+    asked().unwrap_or(if thorough() { thoroughly } else { thoroughly / 8 })
+}
+
+fn asked() -> Option<u64> {
+    std::env::var("ABBE_ABUSE").ok().and_then(|many| many.parse().ok())
+}
+
+/// The time that the processors have worked for this process, where it can be told: of one test, if it is alone.
+fn worked() -> Option<Duration> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name, which may have any letters: the user's and the system's, in hundredths of a second.
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
+    let mut ticks = || fields.next()?.parse::<u64>().ok();
+    Some(Duration::from_millis(10 * (ticks()? + ticks()?)))
+}
+
+/// How inputs ended.
+#[derive(Default)]
+pub(crate) struct Figures {
+    kind: &'static str,
+    pub(crate) answered: usize,
+    refused: usize,
+    slowest: Duration,
+}
+
+impl Figures {
+    pub(crate) fn new(kind: &'static str) -> Self {
+        Self { kind, ..Self::default() }
+    }
+
+    pub(crate) fn add(&mut self, (answered, taken): (bool, Duration)) {
+        if answered {
+            self.answered += 1;
+        } else {
+            self.refused += 1;
+        }
+        self.slowest = self.slowest.max(taken);
+    }
+
+    pub(crate) fn all(&self) -> usize {
+        self.answered + self.refused
+    }
+
+    pub(crate) fn print(&self) {
+        let Self { kind, answered, refused, slowest } = self;
+        eprintln!(
+            "{kind}: {} inputs, {answered} answered, {refused} refused, slowest {slowest:.1?}",
+            self.all()
+        );
+    }
+}
+
+/// Runs one input: whether it was answered, and how long the processors worked, or else how long it took. A panic, and a refusal without a place or a way out, fail the
+/// test; what does not end, ends it.
+pub(crate) fn watched(
+    kind: &str,
+    seed: u64,
+    input: &str,
+    run: impl FnOnce() -> Result<(), Diagnostics>,
+) -> (bool, Duration) {
+    let (done, watch) = channel::<()>();
+    let (begun, worked_before, said) = (Instant::now(), worked(), format!("{kind} {seed}"));
+    let kept = input.to_owned();
+    let watching = thread::spawn(move || {
+        let longest = LONGEST * if asked().is_some() { PATIENT } else { 1 };
+        if watch.recv_timeout(longest) == Err(RecvTimeoutError::Timeout) {
+            eprintln!("{said} does not end:\n{kept}");
+            exit(1);
+        }
+    });
+    let result = catch_unwind(AssertUnwindSafe(run));
+    drop(done);
+    watching.join().unwrap();
+    let Ok(result) = result else { panic!("{kind} {seed} panics:\n{input}") };
+    if let Err(refused) = &result {
+        assert!(!refused.list.is_empty());
+        for mistake in &refused.list {
+            let has_place = mistake.span.is_some() || !refused.path.is_empty();
+            let has_way_out = mistake.help.as_ref().is_some_and(|help| !help.trim().is_empty());
+            assert!(
+                has_place && has_way_out && !mistake.message.is_empty(),
+                "{kind} {seed}:\n{refused}\nof\n{input}"
+            );
+        }
+        assert!(refused.to_string().lines().count() < 400, "{kind} {seed}:\n{refused}");
+    }
+    let taken = worked().zip(worked_before).map_or(begun.elapsed(), |(after, before)| after - before);
+    if taken > LONG {
+        eprintln!("{kind} {seed} takes {taken:.1?}:\n{input}");
+    }
+    (result.is_ok(), taken)
+}

@@ -1,0 +1,391 @@
+//! What is certified is never exceeded: random boxes on random robots, boxes that are chosen to break it, and cases that are solved
+//! by hand.
+
+mod corners;
+mod dexterity;
+mod remainder;
+mod residual;
+mod robot;
+mod stiffness;
+
+use abbe::{Class, Manipulator, Orientation};
+use abbe_bound::{Bound, Effort, Moving, largest, limits};
+use abbe_codegen::chain::{Magnitude, Magnitudes};
+use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_spec::expr::Symbol;
+use abbe_tests::thorough;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// A number with rounding of its own: errors are summed here from the columns of `J_e`, another way than the bounds are.
+const ROUNDING: f64 = 1e-12;
+
+fn moving(spec: &Spec) -> Vec<Moving> {
+    let joints = spec.variables.iter().enumerate().map(|(i, variable)| Moving {
+        symbol: Symbol::Variable(i),
+        range: variable.limits,
+        home: variable.home,
+        start: variable.home,
+    });
+    let inputs = spec.inputs.iter().enumerate().map(|(i, input)| Moving {
+        symbol: Symbol::Input(i),
+        range: input.range,
+        home: input.value,
+        start: input.value,
+    });
+    joints.chain(inputs).collect()
+}
+
+fn home(symbol: Symbol, spec: &Spec) -> f64 {
+    match symbol {
+        Symbol::Variable(i) => spec.variables[i].home,
+        Symbol::Parameter(i) => spec.parameters[i].value,
+        Symbol::Input(i) => spec.inputs[i].value,
+        _ => f64::NAN,
+    }
+}
+
+fn bounded(
+    spec: &Spec,
+    magnitudes: &mut Magnitudes,
+    magnitude: &Magnitude,
+    box_: &[Moving],
+    effort: &Effort,
+) -> Bound {
+    largest(&mut magnitudes.graph, magnitude, box_, |symbol| home(symbol, spec), effort, &mut |_| true)
+}
+
+/// Of the repeatable sources, of the random ones, and both added.
+fn kinds(magnitudes: &Magnitudes) -> [[Magnitude; 5]; 3] {
+    [&magnitudes.repeatable, &magnitudes.random, &magnitudes.radius].map(Clone::clone)
+}
+
+/// Repeatable, random, both added; of each the norm, x, y, z, and the norm of rows 4–6.
+fn sizes(robot: &Interpreter, q: &[f64], u: &[f64]) -> Option<[[f64; 5]; 3]> {
+    let description = robot.description();
+    let mut columns = vec![[0.0; 6]; 6 * description.frames.len()];
+    robot.error_jacobian(q, &[], &mut columns).ok()?;
+    let mut effects = vec![0.0; description.effects.len()];
+    robot.effects(q, &[], u, &mut effects).ok()?;
+    let mut moved = vec![[0.0; 6]; description.sources.len()];
+    for (effect, value) in description.effects.iter().zip(&effects) {
+        let column = &columns[6 * effect.frame + effect.component.index()];
+        for (sum, entry) in moved[effect.source].iter_mut().zip(column) {
+            *sum += value * entry;
+        }
+    }
+    let (mut repeatable, mut squares) = ([0.0; 6], [0.0; 6]);
+    for (source, moved) in description.sources.iter().zip(&moved) {
+        for i in 0..6 {
+            match source.class {
+                Class::Repeatable => repeatable[i] += moved[i],
+                // At its bound: 3σ of a normal one.
+                Class::Random(distribution) => squares[i] += (distribution.bound() * moved[i]).powi(2),
+            }
+        }
+    }
+    let norm = |squares: &[f64]| squares.iter().sum::<f64>().sqrt();
+    let own = repeatable.map(|value| value * value);
+    let five = |s: [f64; 6]| [norm(&s[..3]), s[0].sqrt(), s[1].sqrt(), s[2].sqrt(), norm(&s[3..])];
+    let (first, second) = (five(own), five(squares));
+    Some([first, second, std::array::from_fn(|i| first[i] + second[i])])
+}
+
+/// A box within that of the joints and inputs: often wide, sometimes narrow or a point, sometimes at an end.
+fn part(all: &[Moving], random: &mut impl Rng) -> Vec<Moving> {
+    all.iter()
+        .map(|name| {
+            let [low, high] = name.range;
+            let width = (high - low) * [0.0, 1e-9, 0.01, 0.3, 1.0][random.random_range(0..5)];
+            let low = match random.random_range(0..3) {
+                0 => low,
+                1 => high - width,
+                _ => low + random.random_range(0.0..=1.0) * (high - low - width),
+            };
+            Moving { range: [low, (low + width).min(high)], ..*name }
+        })
+        .collect()
+}
+
+/// A place in a box: anywhere, or with some joints at their ends.
+fn place(box_: &[Moving], random: &mut impl Rng) -> Vec<f64> {
+    let within = |name: &Moving, random: &mut dyn FnMut() -> f64| {
+        let [low, high] = name.range;
+        match random() {
+            r if r < 0.15 => low,
+            r if r > 0.85 => high,
+            _ => (low + random() * (high - low)).min(high),
+        }
+    };
+    box_.iter().map(|name| within(name, &mut || random.random_range(0.0..1.0))).collect()
+}
+
+fn is_sound(seed: u64, boxes: usize, samples: usize) {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let text = robot::spec(&mut random);
+    let spec = Spec::parse("robot.toml", &text).unwrap_or_else(|mistakes| panic!("{mistakes}\n{text}"));
+    let robot = Interpreter::new(spec.clone());
+    let mut magnitudes = Magnitudes::new(&spec);
+    let all = moving(&spec);
+    for _ in 0..boxes {
+        let box_ = part(&all, &mut random);
+        let effort =
+            Effort { gap: 0.02, boxes: [1, 40, 400][random.random_range(0..3)], ..Effort::default() };
+        let places: Vec<Vec<f64>> = (0..samples).map(|_| place(&box_, &mut random)).collect();
+        let seen: Vec<[[f64; 5]; 3]> = places
+            .iter()
+            .filter_map(|place| {
+                let (q, u) = place.split_at(spec.variables.len());
+                sizes(&robot, q, u)
+            })
+            .collect();
+        // Nor more than the parts allow.
+        let apart = magnitudes.apart.clone();
+        let limits = limits(&mut magnitudes.graph, &apart, &box_, |symbol| home(symbol, &spec));
+        for k in 0..3 {
+            let most = |row: usize| seen.iter().map(|sizes| sizes[k][row]).fold(0.0, f64::max);
+            let slack = ROUNDING * (most(0) + 1e-6);
+            assert!(most(0) <= limits.position[k] + slack, "robot {seed}, {k}: {limits:?}\n{box_:?}\n{text}");
+            let is_rotation = spec.orientation == Orientation::RotationVector;
+            let slack = ROUNDING * (most(4) + 1e-6);
+            assert!(
+                !is_rotation || most(4) <= limits.rotation[k] + slack,
+                "robot {seed}, {k}: {limits:?}\n{box_:?}\n{text}"
+            );
+        }
+        // Neither x nor y is more than what is across z.
+        for k in 0..3 {
+            let across_z = magnitudes.across_z[k].clone();
+            let bound = bounded(&spec, &mut magnitudes, &across_z, &box_, &effort);
+            let most = seen.iter().map(|sizes| sizes[k][1].max(sizes[k][2])).fold(0.0, f64::max);
+            let slack = ROUNDING * (most + 1e-6);
+            assert!(
+                most <= bound.certified + slack,
+                "robot {seed}, {k} across z: {most:e} above {bound:?}\n{box_:?}\n{text}"
+            );
+        }
+        let kinds = kinds(&magnitudes);
+        for (k, five) in kinds.into_iter().enumerate() {
+            for (i, magnitude) in five.into_iter().enumerate() {
+                let bound = bounded(&spec, &mut magnitudes, &magnitude, &box_, &effort);
+                let most = seen.iter().map(|sizes| sizes[k][i]).fold(0.0, f64::max);
+                let slack = ROUNDING * (most + 1e-6);
+                assert!(
+                    most <= bound.certified + slack,
+                    "robot {seed}, {k} {i}: {most:e} above {bound:?}\n{box_:?}\n{text}"
+                );
+                assert!(bound.found <= bound.certified);
+                assert!(!bound.complete || bound.certified <= bound.found * 1.02 + 1e-9, "{bound:?}");
+                let (q, u) = bound.at.split_at(spec.variables.len());
+                if let Some(sizes) = sizes(&robot, q, u) {
+                    // Near an Euler singularity rounding alone moves it by far more than elsewhere.
+                    let found = sizes[k][i];
+                    assert!(
+                        (found - bound.found).abs() <= 1e-6 * (found + 1e-6),
+                        "robot {seed}, {k} {i}: {found:e} at {bound:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// How much is looked at: `ABBE_BOXES` of each robot, `ABBE_SAMPLES` of each box; `ABBE_ROBOT` is the first of ten, or thirty in
+/// a thorough run.
+fn given(name: &str, otherwise: usize) -> usize {
+    std::env::var(name).map_or(otherwise, |count| count.parse().expect("a number"))
+}
+
+fn robots() -> std::ops::Range<u64> {
+    let first = given("ABBE_ROBOT", 0) as u64;
+    first..first + if thorough() { 30 } else { 10 }
+}
+
+#[test]
+fn nothing_exceeds_what_is_certified() {
+    let (boxes, samples) = (given("ABBE_BOXES", 2), given("ABBE_SAMPLES", 60));
+    robots().for_each(|seed| is_sound(seed, boxes, samples));
+}
+
+/// Two bars in a plane, of which each joint is off: `ΔX = e_1 (l_1 + l_2)` when stretched, and what follows from its box otherwise.
+fn two_bars(limits: &str) -> Spec {
+    let text = format!(
+        r#"
+        [manipulator]
+        name = "bars"
+        length = "mm"
+        [[frame]]
+        name = "shoulder"
+        variable = {{ name = "q1", kind = "revolute", limits = ["-180 deg", "180 deg"] }}
+        transform = "Rz(q1)"
+        [[frame]]
+        name = "elbow"
+        variable = {{ name = "q2", kind = "revolute", limits = {limits}, home = "90 deg" }}
+        transform = "Tx(400) Rz(q2)"
+        [tool]
+        transform = "Tx(300)"
+        [[source]]
+        name = "shoulder"
+        class = "repeatable"
+        joint = "q1"
+        error = "1 mrad"
+        [[source]]
+        name = "elbow"
+        class = "random"
+        distribution = "uniform"
+        joint = "q2"
+        error = "2 mrad"
+        "#
+    );
+    Spec::parse("bars.toml", &text).unwrap()
+}
+
+fn is(bound: &Bound, exact: f64) {
+    assert!(bound.complete, "{bound:?}");
+    assert!(
+        bound.found <= exact * (1.0 + 1e-15) && bound.certified >= exact * (1.0 - 1e-15),
+        "{exact}: {bound:?}"
+    );
+    assert!(
+        bound.certified <= exact * (1.0 + 1e-6) && bound.found >= exact * (1.0 - 1e-6),
+        "{exact}: {bound:?}"
+    );
+}
+
+#[test]
+fn maxima_that_are_known_exactly_are_enclosed() {
+    let effort = Effort { gap: 1e-7, boxes: 200_000, ..Effort::default() };
+    // ‖ΔX‖ = e √(l₁² + l₂² + 2 l₁ l₂ cos q₂): stretched 700 mm, at 60° and beyond √(400² + 300² + 400·300) mm.
+    for (limits, reach) in
+        [("[\"-150 deg\", \"150 deg\"]", 700.0), ("[\"60 deg\", \"150 deg\"]", 370_000.0_f64.sqrt())]
+    {
+        let spec = two_bars(limits);
+        let all = moving(&spec);
+        let mut magnitudes = Magnitudes::new(&spec);
+        let [repeatable, random, radius] = kinds(&magnitudes);
+        let across_z = magnitudes.across_z.clone();
+        let mut bounded = |magnitude: &Magnitude| bounded(&spec, &mut magnitudes, magnitude, &all, &effort);
+        is(&bounded(&repeatable[0]), 1e-3 * reach);
+        is(&bounded(&random[0]), 2e-3 * 300.0);
+        is(&bounded(&radius[0]), 1e-3 * reach + 0.6);
+        is(&bounded(&repeatable[4]), 1e-3);
+        // Along x, y of F_0 the first joint turns it wherever it is largest.
+        is(&bounded(&repeatable[1]), 1e-3 * reach);
+        is(&bounded(&random[2]), 0.6);
+        is(&bounded(&across_z[0]), 1e-3 * reach);
+        is(&bounded(&across_z[1]), 0.6);
+        is(&bounded(&across_z[2]), 1e-3 * reach + 0.6);
+        assert!(bounded(&repeatable[3]).certified < 1e-150);
+    }
+}
+
+/// Nine joints are too many for boxes: what is certified comes from the parts, and is less than two and a half times the largest error that is found.
+#[test]
+fn of_many_joints_the_parts_are_known() {
+    let mut text = abbe_tests::chains::revolute_chain(9);
+    for frame in 1..=9 {
+        text += &format!(
+            "[[source]]\nname = \"{frame}\"\nclass = \"repeatable\"\nframe = \"{frame}\"\ne_x = \"0.05 mm\"\ne_y = \"-0.03 mm\"\n\
+             e_s = \"0.05 mrad\"\ne_r = \"-0.04 mrad\"\ne_p = \"0.03 mrad\"\n"
+        );
+    }
+    let spec = Spec::parse("chain.toml", &text).unwrap();
+    let mut magnitudes = Magnitudes::new(&spec);
+    let (all, apart, norm) = (moving(&spec), magnitudes.apart.clone(), magnitudes.repeatable[0].clone());
+    let limits = limits(&mut magnitudes.graph, &apart, &all, |symbol| home(symbol, &spec));
+    let effort = Effort { boxes: 100, at_most: limits.position[0], ..Effort::default() };
+    let bound = bounded(&spec, &mut magnitudes, &norm, &all, &effort);
+    assert_eq!(bound.certified, limits.position[0]);
+    assert!(bound.found > 0.4 * bound.certified, "{bound:?}");
+}
+
+#[test]
+fn boxes_that_are_chosen_to_break_it_do_not() {
+    let spec = two_bars("[\"-150 deg\", \"150 deg\"]");
+    let mut magnitudes = Magnitudes::new(&spec);
+    let norm = magnitudes.repeatable[0].clone();
+    let robot = Interpreter::new(spec.clone());
+    let at = |low: f64, high: f64| {
+        let all = moving(&spec);
+        vec![all[0], Moving { range: [low, high], ..all[1] }]
+    };
+    let degree = std::f64::consts::PI / 180.0;
+    let largest = [
+        // A point; neighbours of the stretched arm; a turn and more; both ends alike.
+        (at(0.3, 0.3), 0.3_f64),
+        (at(0.0, 0.0_f64.next_up()), 0.0),
+        (at(-f64::EPSILON, f64::EPSILON), 0.0),
+        (at(-10.0, 10.0), 0.0),
+        (at(-150.0 * degree, 150.0 * degree), 0.0),
+        (at(1e-8, 2e-8), 1e-8),
+    ];
+    for (box_, best) in largest {
+        let bound = bounded(&spec, &mut magnitudes, &norm, &box_, &Effort { gap: 1e-9, ..Effort::default() });
+        let exact = sizes(&robot, &[0.0, best], &[]).unwrap()[0][0];
+        assert!(bound.certified >= exact * (1.0 - 1e-15), "{bound:?} {exact}");
+        assert!(bound.certified <= exact * (1.0 + 1e-8) && bound.complete, "{bound:?} {exact}");
+    }
+}
+
+/// Where a held table begins, the error has a kink; and there it is largest: 1 mm/m until 0, and 2 mm/m less behind it.
+#[test]
+fn a_kink_at_the_end_of_a_table_may_be_the_maximum() {
+    let text = r#"
+        [manipulator]
+        name = "slide"
+        length = "m"
+        [tables.falls]
+        x = [0, 1, 2]
+        y = [0, -2e-3, -4e-3]
+        interpolation = "cubic"
+        outside = "hold"
+        [[frame]]
+        name = "slide"
+        variable = { name = "d", kind = "prismatic", limits = [-1.3, 1.7] }
+        transform = "Tx(d)"
+        [[source]]
+        name = "scale"
+        class = "repeatable"
+        frame = "slide"
+        e_x = "2e-3 m + 1e-3 * d + 1 m * falls(d/(1 m))"
+    "#;
+    let spec = Spec::parse("slide.toml", text).unwrap();
+    let mut magnitudes = Magnitudes::new(&spec);
+    let norm = magnitudes.repeatable[0].clone();
+    for range in [[-1.3, 1.7], [-1.0, 1.0], [-0.7, 0.1], [-0.01, 1.9]] {
+        let all = [Moving { range, ..moving(&spec)[0] }];
+        is(&bounded(&spec, &mut magnitudes, &norm, &all, &Effort { gap: 1e-7, ..Effort::default() }), 2e-3);
+    }
+}
+
+/// Two large errors that cancel but for a little: the bound is that of the difference, as good as numbers of this size can be known.
+#[test]
+fn what_cancels_is_known_as_well_as_its_parts() {
+    let text = r#"
+        [manipulator]
+        name = "cancel"
+        length = "m"
+        [[frame]]
+        name = "slide"
+        variable = { name = "d", kind = "prismatic", limits = [0, 1] }
+        transform = "Tx(d)"
+        [[source]]
+        name = "one"
+        class = "repeatable"
+        frame = "slide"
+        e_x = "1e6 * d + 1e-6 m * sin(d/(1 m))"
+        [[source]]
+        name = "other"
+        class = "repeatable"
+        frame = "slide"
+        e_x = "-1e6 * d"
+    "#;
+    let spec = Spec::parse("cancel.toml", text).unwrap();
+    let mut magnitudes = Magnitudes::new(&spec);
+    let norm = magnitudes.repeatable[0].clone();
+    let all = moving(&spec);
+    let bound = bounded(&spec, &mut magnitudes, &norm, &all, &Effort::default());
+    let exact = 1e-6 * 1.0_f64.sin();
+    assert!(bound.certified >= exact && bound.found <= exact + 1e-9, "{bound:?}");
+}

@@ -1,0 +1,191 @@
+//! Tables of machines whose axes slide, and tables of corrections.
+
+use abbe::analysis::{Workspace, random_joint_samples, sampling};
+use abbe::{Manipulator, drawn_pose, repeatable_magnitudes};
+use abbe_interpreter::Interpreter;
+use abbe_study::export::{Export, Format};
+use abbe_study::{Changes, Machine, Notes};
+use nalgebra::Vector3;
+
+use super::{exported, machine};
+
+/// The milling machine at 20 degrees Celsius.
+pub(crate) fn mill() -> Machine {
+    let mut machine = machine("machine3", "");
+    let set = ["temperature_rise=0K".to_owned()];
+    machine.change(&Changes::read(&set, &[], &[], &machine.spec).unwrap());
+    machine
+}
+
+/// The largest distance of the real tool from the ideal one, with commands as they are corrected.
+fn commanded(machine: &Machine, corrected: impl Fn(&[f64]) -> Vec<f64>) -> f64 {
+    let arm = Interpreter::new(machine.spec.clone());
+    let magnitudes = repeatable_magnitudes(arm.description());
+    let (s, u) =
+        (sampling::nominal_parameters(arm.description()), sampling::nominal_inputs(arm.description()));
+    let moved: Vec<usize> = (0..machine.spec.variables.len()).collect();
+    let workspace = random_joint_samples(&arm, &moved, 300, 7).unwrap();
+    let left = (0..workspace.len()).map(|index| {
+        let q = workspace.configuration(index).unwrap().q;
+        let ideal = arm.pose(&q, &s).unwrap().position();
+        let real = drawn_pose(&arm, &corrected(&q), &s, &u, &magnitudes).unwrap().position();
+        (Vector3::from(real) - Vector3::from(ideal)).norm()
+    });
+    left.fold(0.0, f64::max)
+}
+
+/// Straight between the rows of a table, whose first column rises.
+fn between(rows: &[Vec<f64>], x: f64) -> Vec<f64> {
+    let i = rows.partition_point(|row| row[0] <= x).clamp(1, rows.len() - 1);
+    let share = (x - rows[i - 1][0]) / (rows[i][0] - rows[i - 1][0]);
+    rows[i - 1].iter().zip(&rows[i]).map(|(a, b)| a + share * (b - a)).collect()
+}
+
+pub(crate) fn rows(lines: &str) -> Vec<Vec<f64>> {
+    lines.lines().map(|line| line.split(' ').map(|cell| cell.parse().unwrap()).collect()).collect()
+}
+
+/// To first order `ΔP = Σ t_i + θ_i × (what lies between carriage i and the tool)`; the control subtracts it. The other sign doubles.
+#[test]
+fn volumetric_tables_hold_errors_that_the_control_subtracts() {
+    let machine = mill();
+    let report = exported(&machine, Format::IsgCsv { nodes: 601 });
+    let text = &report.files[0].text;
+    let mut blocks = text.split("\n#\n");
+    let tool = rows(blocks.next().unwrap().lines().last().unwrap()).remove(0);
+    assert_eq!(tool, [0.0, 0.0, -150.0]);
+    let axes: Vec<Vec<Vec<f64>>> = blocks
+        .zip(["X", "Y", "Z"])
+        .map(|(block, axis)| {
+            let (heading, lines) = block.split_once('\n').unwrap();
+            assert_eq!(heading, format!("{axis} EX{axis} EY{axis} EZ{axis} EA{axis} EB{axis} EC{axis}"));
+            rows(lines)
+        })
+        .collect();
+    // A number of the spec: EYX = 4 um in the middle of X, and the turn about X there is 12 urad.
+    let middle = between(&axes[0], 300.0);
+    assert!((middle[2] - 0.004).abs() < 1e-9 && (middle[4] - 12e-6).abs() < 1e-9, "{middle:?}");
+    let corrected = |q: &[f64], sign: f64| {
+        let mut shift = Vector3::zeros();
+        for (i, axis) in axes.iter().enumerate() {
+            let e = between(axis, q[i]);
+            let mut lever = Vector3::from_column_slice(&tool);
+            (i + 1..3).for_each(|k| lever[k] += q[k]);
+            shift += Vector3::new(e[1], e[2], e[3]) + Vector3::new(e[4], e[5], e[6]).cross(&lever);
+        }
+        (0..3).map(|i| q[i] - sign * shift[i]).collect::<Vec<f64>>()
+    };
+    let before = commanded(&machine, <[f64]>::to_vec);
+    let after = commanded(&machine, |q| corrected(q, 1.0));
+    let wrong = commanded(&machine, |q| corrected(q, -1.0));
+    assert!(after < before / 50.0 && wrong > 1.9 * before, "{before} {after} {wrong}");
+    assert!((report.before.position.largest / before - 1.0).abs() < 0.3, "{before} {:?}", report.before);
+    assert!(report.remains.position.largest < 5e-4, "{:?}", report.remains);
+    assert!(!report.left_out[0].contains("depends on more"), "{:?}", report.left_out);
+}
+
+/// Coarse tables leave what the screws do between their nodes; an input that is not set remains, and is named.
+#[test]
+fn what_tables_leave_is_said() {
+    let coarse = exported(&mill(), Format::IsgCsv { nodes: 9 });
+    assert!(coarse.remains.position.largest > 1e-3, "{:?}", coarse.remains);
+    let warm = exported(&machine("machine3", ""), Format::IsgCsv { nodes: 101 });
+    assert!(warm.remains.position.largest > 0.05, "{:?}", warm.remains);
+    assert!(warm.left_out[0].ends_with("\"thermal expansion\"."), "{:?}", warm.left_out);
+    for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5 }] {
+        let job = Export { machine: machine("pps", ""), format, samples: 5, seed: 0 };
+        let message = job.run(&mut ()).unwrap_err().list[0].message.clone();
+        assert!(message.contains("turns") || message.contains("slide"), "{message}");
+    }
+    let job = Export { machine: mill(), format: Format::LinuxCnc { nodes: 257 }, samples: 5, seed: 0 };
+    assert!(job.run(&mut ()).unwrap_err().list[0].message.contains("256"));
+}
+
+/// LinuxCNC adds `nominal − forward` to the command: along each axis, with the others at home, nothing is left.
+#[test]
+fn files_of_linuxcnc_hold_where_the_axis_is() {
+    let machine = mill();
+    let report = exported(&machine, Format::LinuxCnc { nodes: 256 });
+    let names: Vec<&str> = report.files.iter().map(|file| file.name.as_str()).collect();
+    assert_eq!(names, ["x.comp", "y.comp", "z.comp"]);
+    let arm = Interpreter::new(machine.spec.clone());
+    let magnitudes = repeatable_magnitudes(arm.description());
+    let (s, home) = (sampling::nominal_parameters(arm.description()), sampling::home(arm.description()));
+    for (i, file) in report.files.iter().enumerate() {
+        let lines = rows(&file.text);
+        assert_eq!(lines.len(), 256);
+        let (mut before, mut after) = (0.0_f64, 0.0_f64);
+        for line in &lines {
+            let [nominal, forward, reverse] = line[..] else { panic!("{line:?}") };
+            assert_eq!(forward, reverse);
+            let at = |value: f64| {
+                let mut q = home.clone();
+                q[i] = value;
+                drawn_pose(&arm, &q, &s, &[0.0], &magnitudes).unwrap().position()[i]
+            };
+            let mut q = home.clone();
+            q[i] = nominal;
+            let ideal = arm.pose(&q, &s).unwrap().position()[i];
+            before = before.max((at(nominal) - ideal).abs());
+            after = after.max((at(nominal + (nominal - forward)) - ideal).abs());
+        }
+        assert!(before > 1e-3 && after < 1e-5, "{names:?} {i}: {before} {after}");
+    }
+    assert!(report.remains.position.rms < report.before.position.rms);
+}
+
+/// At a node the corrected tool is where it should be; between nodes it is as the report says, and closer with more of them.
+#[test]
+fn a_table_of_corrections_is_added_to_commands() {
+    let machine = mill();
+    let report = exported(&machine, Format::Table { nodes: Some(7) });
+    let arm = Interpreter::new(machine.spec.clone());
+    let magnitudes = repeatable_magnitudes(arm.description());
+    let s = sampling::nominal_parameters(arm.description());
+    let mut lines = report.files[0].text.lines();
+    assert_eq!(lines.next(), Some("x,y,z,add to x,add to y,add to z"));
+    let mut count = 0;
+    for line in lines {
+        let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let (q, added) = numbers.split_at(3);
+        let corrected: Vec<f64> = q.iter().zip(added).map(|(q, added)| q + added).collect();
+        let ideal = Vector3::from(arm.pose(q, &s).unwrap().position());
+        let real = drawn_pose(&arm, &corrected, &s, &[0.0], &magnitudes).unwrap().position();
+        assert!((Vector3::from(real) - ideal).norm() < 1e-5, "{line}");
+        count += 1;
+    }
+    assert_eq!(count, 343);
+    let fine = exported(&machine, Format::Table { nodes: Some(31) });
+    assert!(report.remains.position.rms < report.before.position.rms / 5.0, "{:?}", report.remains);
+    assert!(fine.remains.position.rms < report.remains.position.rms, "{:?}", fine.remains);
+    assert!(report.at_nodes.unwrap().position.rms < report.remains.position.rms);
+}
+
+/// Three nodes over two turns of each joint: whoever loads that is warned.
+#[test]
+fn a_table_that_makes_it_worse_is_said_to() {
+    #[derive(Default)]
+    struct Heard(Vec<String>);
+    impl Notes for Heard {
+        fn note(&mut self, _: &str) {}
+
+        fn warn(&mut self, warning: &str) {
+            self.0.push(warning.to_owned());
+        }
+    }
+    let found = machine(
+        "ur5",
+        "[[source]]\nname = \"zero\"\nclass = \"repeatable\"\njoint = \"q2\"\nerror = \"0.6 mrad\"\n\
+         [[source]]\nname = \"tilt\"\nclass = \"repeatable\"\nframe = \"shoulder\"\ne_p = \"-0.4 mrad\"\n",
+    );
+    let heard = |format| {
+        let mut heard = Heard::default();
+        let report =
+            Export { machine: found.clone(), format, samples: 200, seed: 0 }.run(&mut heard).unwrap();
+        (report.remains.position.rms > report.before.position.rms, heard.0)
+    };
+    let (worse, warned) = heard(Format::Table { nodes: Some(3) });
+    assert!(worse && warned.iter().any(|warning| warning.contains("do not load it")), "{warned:?}");
+    let (worse, warned) = heard(Format::Dh);
+    assert!(!worse && warned.is_empty(), "{warned:?}");
+}

@@ -1,0 +1,182 @@
+//! Tables of a machine with axes that turn the workpiece.
+
+use abbe::{Manipulator, drawn_pose, repeatable_magnitudes};
+use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
+use abbe_study::Machine;
+use abbe_study::export::{Export, Format};
+use nalgebra::Vector3;
+
+use super::slides::mill;
+use super::{exported, matrix};
+
+/// A trunnion: the table turns about Z in what tilts about X, 50 mm below; slides along X, Y and Z carry the tool.
+const TRUNNION: &str = r#"
+[manipulator]
+name = "trunnion"
+length = "mm"
+[[frame]]
+name = "C"
+variable = { name = "c", kind = "revolute", limits = ["-180 deg", "180 deg"] }
+transform = "Rz(c)"
+[[frame]]
+name = "A"
+variable = { name = "a", kind = "revolute", limits = ["-110 deg", "30 deg"] }
+transform = "Tz(-50) Rx(a)"
+[[frame]]
+name = "bed"
+transform = "Tx(-250) Ty(-200) Tz(250)"
+[[frame]]
+name = "X"
+variable = { name = "x", kind = "prismatic", limits = [0, 500] }
+transform = "Tx(x)"
+[[frame]]
+name = "Y"
+variable = { name = "y", kind = "prismatic", limits = [0, 400] }
+transform = "Ty(y)"
+[[frame]]
+name = "Z"
+variable = { name = "z", kind = "prismatic", limits = [0, 400] }
+transform = "Tz(z)"
+[tool]
+transform = "Tz(-120)"
+"#;
+
+/// Where its axes really stand.
+const ELSEWHERE: &str = r#"
+[[source]]
+name = "where C is"
+class = "repeatable"
+frame = "C"
+e_x = "12 um"
+e_y = "-18 um"
+e_s = "-25e-6"
+e_p = "40e-6"
+[[source]]
+name = "where A is"
+class = "repeatable"
+frame = "A"
+e_y = "15 um"
+e_z = "-22 um"
+e_s = "35e-6"
+[[source]]
+name = "behind A"
+class = "repeatable"
+frame = "bed"
+e_z = "9 um"
+e_r = "-20e-6"
+"#;
+
+/// Of the slides.
+const SLIDES: &str = r#"
+[[source]]
+name = "slides"
+class = "repeatable"
+[[source.effect]]
+frame = "X"
+e_x = "24 um * x/(500 mm)"
+e_s = "30e-6 * x/(500 mm)"
+[[source.effect]]
+frame = "Y"
+e_x = "-25e-6 * y"
+e_r = "-24e-6 * y/(400 mm)"
+[[source.effect]]
+frame = "Z"
+e_z = "10 um * z/(400 mm)"
+e_p = "20e-6 * z/(400 mm)"
+"#;
+
+fn trunnion(sources: &str) -> Machine {
+    Machine::of_spec(Spec::parse("trunnion.toml", &(TRUNNION.to_owned() + sources)).unwrap(), "trunnion")
+}
+
+/// Seen from the bed, a point of the table runs round the axis of the table: the mean of three places a third of a turn apart is on it. At two
+/// heights they give the axis, and the same for the trunnion, whose axis is that of the points of what tilts.
+#[test]
+fn axes_that_turn_stand_where_the_report_says() {
+    let machine = trunnion(ELSEWHERE);
+    let report = exported(&machine, Format::IsgCsv { nodes: 5 });
+    let arm = Interpreter::new(machine.spec.clone());
+    let (s, magnitudes) = (vec![], repeatable_magnitudes(arm.description()));
+    // The slides are right: where they all are at 0, the bed is the tool but for a constant.
+    let third = 2.0 * std::f64::consts::PI / 3.0;
+    let on_table = |c: f64, a: f64, point: Vector3<f64>, is_real: bool| {
+        let q = [c, a, 0.0, 0.0, 0.0];
+        let tool = if is_real {
+            matrix(&drawn_pose(&arm, &q, &s, &[], &magnitudes).unwrap())
+        } else {
+            matrix(&arm.pose(&q, &s).unwrap())
+        };
+        tool.try_inverse().unwrap().transform_point(&point.into()).coords
+    };
+    let moved = |at: &dyn Fn(bool) -> Vector3<f64>| at(true) - at(false);
+    let [c, a] = &report.turned[..] else { panic!("{:?}", report.turned) };
+    assert_eq!([c.variable.as_str(), a.variable.as_str()], ["c", "a"]);
+    // The table's axis in the trunnion, at the table and 100 mm above; the trunnion's own place is in what follows.
+    let centre = |height: f64| {
+        moved(&|is_real| {
+            let places =
+                [0.0, third, -third].map(|c| on_table(c, 0.0, Vector3::new(70.0, -20.0, height), is_real));
+            (places[0] + places[1] + places[2]) / 3.0
+        })
+    };
+    // The trunnion's axis in the bed: points of it that do not move when it tilts, 100 mm to either side of the table's middle.
+    let tilt = |x: f64| {
+        moved(&|is_real| {
+            let places =
+                [0.0, third, -third].map(|a| on_table(0.0, a, Vector3::new(x, 30.0, -80.0), is_real));
+            (places[0] + places[1] + places[2]) / 3.0
+        })
+    };
+    let (left, right) = (tilt(-100.0), tilt(100.0));
+    let across = (right - left) / 200.0;
+    let middle = (left + right) / 2.0;
+    // A turn (A, B, C) takes X to (1, C, -B).
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-6;
+    assert!(close(a.position[1], middle.y) && close(a.position[2], middle.z), "{a:?} {middle}");
+    assert!((a.angles[2] - across.y).abs() < 1e-8 && (a.angles[1] + across.z).abs() < 1e-8, "{a:?} {across}");
+    // 15 um of its own, and 5 um by the turn of what is behind it, 250 mm away.
+    assert!((a.position[1] + 0.010).abs() < 1e-4 && (a.angles[1] + 35e-6).abs() < 1e-8, "{a:?}");
+    // Of C, less what the trunnion does to it at the table's height, 50 mm above its axis.
+    let (low, high) = (centre(0.0), centre(100.0));
+    let upright = (high - low) / 100.0;
+    let turn = Vector3::from(a.angles);
+    let carried = Vector3::from(a.position) + turn.cross(&Vector3::new(0.0, 0.0, 50.0));
+    let own = low - carried;
+    assert!(close(c.position[0], own.x) && close(c.position[1], own.y), "{c:?} {own}");
+    // A turn takes Z to (B, -A, 1).
+    let own = upright - turn.cross(&Vector3::z());
+    assert!((c.angles[1] - own.x).abs() < 1e-8 && (c.angles[0] + own.y).abs() < 1e-8, "{c:?} {own}");
+    assert!((c.position[0] + 0.012).abs() < 1e-6 && (c.angles[0] + 40e-6).abs() < 1e-8, "{c:?}");
+}
+
+/// With the axes placed, tables hold the rest of a machine whose axes turn true; without, they do not.
+#[test]
+fn tables_and_placed_axes_hold_a_machine_whose_axes_turn_true() {
+    for format in [Format::IsgCsv { nodes: 11 }, Format::LinuxCnc { nodes: 11 }] {
+        let report = exported(&trunnion(ELSEWHERE), format);
+        let placed = report.placed.unwrap();
+        assert!(report.before.position.rms > 0.02 && placed.position.largest < 1e-9, "{placed:?}");
+        assert!((report.remains.position.rms / report.before.position.rms - 1.0).abs() < 0.01);
+    }
+    let report = exported(&trunnion(&[ELSEWHERE, SLIDES].concat()), Format::IsgCsv { nodes: 101 });
+    let placed = report.placed.unwrap();
+    assert!(report.remains.position.rms > 0.01 && placed.position.largest < 2e-5, "{placed:?}");
+    // Orientations stay as they are, to what 0.1 mm of slides changes.
+    assert!((placed.angle.rms / report.before.angle.rms - 1.0).abs() < 1e-3, "{placed:?}");
+    // Where nothing turns the workpiece there is nothing to place.
+    let mill = exported(&mill(), Format::IsgCsv { nodes: 11 });
+    assert!(mill.placed.is_none() && mill.turned.is_empty());
+}
+
+/// A head behind the slides has a lever that its angles change.
+#[test]
+fn a_head_is_refused() {
+    let head = TRUNNION.replace("[tool]", "[[frame]]\nname = \"B\"\nvariable = { name = \"b\", kind = \"revolute\", limits = [-1, 1] }\ntransform = \"Ry(b)\"\n[tool]");
+    let machine = Machine::of_spec(Spec::parse("head.toml", &head).unwrap(), "head");
+    for format in [Format::IsgCsv { nodes: 5 }, Format::LinuxCnc { nodes: 5 }] {
+        let mistake =
+            Export { machine: machine.clone(), format, samples: 5, seed: 0 }.run(&mut ()).unwrap_err();
+        assert!(mistake.list[0].message.contains("`b` turns the tool, which a slide carries"), "{mistake:?}");
+    }
+}

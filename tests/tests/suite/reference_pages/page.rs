@@ -1,0 +1,120 @@
+//! A page of `docs/reference`: its tables of keys, and the files that it shows.
+
+use std::fs;
+use std::path::PathBuf;
+
+use super::example::Use;
+
+/// A page, line by line.
+pub(crate) struct Page {
+    pub(crate) name: &'static str,
+    path: PathBuf,
+    text: String,
+}
+
+/// One key of a table.
+pub(crate) struct Row {
+    /// The tables that the heading names, as `[tool]` and `[[frame]]`, or `the file`.
+    pub(crate) tables: Vec<String>,
+    pub(crate) key: String,
+    /// The words that the value may be, if it is one of a few.
+    pub(crate) choices: Vec<String>,
+    pub(crate) default: String,
+    /// A value between backticks, or words that say where one stands.
+    pub(crate) example: String,
+    /// What is said of a mistake, and the file that it is said of.
+    pub(crate) mistake: String,
+    pub(crate) golden: String,
+    line: usize,
+}
+
+impl Page {
+    pub(crate) fn read(name: &'static str) -> Self {
+        let path = folder().join(name);
+        let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        Self { name, path, text }
+    }
+
+    /// Every row of a table that begins with `key`.
+    pub(crate) fn rows(&self) -> Vec<Row> {
+        let (mut rows, mut tables, mut in_table) = (Vec::new(), Vec::new(), false);
+        for (line, text) in self.text.lines().enumerate() {
+            if text.starts_with('#') {
+                tables = spans(text);
+                if text.ends_with("the file") {
+                    tables.push("the file".to_owned());
+                }
+            }
+            in_table = text.starts_with('|') && (in_table || text.starts_with("| key |"));
+            let cells: Vec<&str> = text.trim_matches('|').split(" | ").map(str::trim).collect();
+            if !in_table || !cells[0].starts_with('`') {
+                continue;
+            }
+            let [key, value, _, default, example, _, mistake] = cells[..] else {
+                panic!("{}:{}: a row of keys has seven cells, not {}", self.name, line + 1, cells.len());
+            };
+            let (mistake, golden) = mistake.rsplit_once("](").unwrap_or_default();
+            rows.push(Row {
+                tables: tables.clone(),
+                key: key.trim_matches('`').to_owned(),
+                choices: if value.starts_with("`\"") { spans(value) } else { Vec::new() },
+                default: default.to_owned(),
+                example: example.to_owned(),
+                mistake: mistake.trim_start_matches('[').to_owned(),
+                golden: golden.trim_end_matches(')').to_owned(),
+                line,
+            });
+        }
+        rows
+    }
+
+    /// The names that the first cells below a heading list.
+    pub(crate) fn names(&self, heading: &str) -> Vec<String> {
+        let below = self.text.lines().skip_while(|line| *line != heading).skip(1);
+        let rows = below.take_while(|line| !line.starts_with('#')).filter(|line| line.starts_with("| `"));
+        rows.flat_map(|row| spans(row.split(" | ").next().unwrap_or_default())).collect()
+    }
+
+    /// The files that the page shows: those blocks that say their name in the first line.
+    pub(crate) fn files(&self) -> Vec<(&str, &str)> {
+        let blocks = self.text.split("```").skip(1).step_by(2);
+        let blocks = blocks.filter_map(|block| block.split_once('\n')).map(|(_, block)| block);
+        blocks.filter_map(|block| Some((block.lines().next()?.strip_prefix("# ")?, block))).collect()
+    }
+
+    /// Writes what is said of mistakes beside their keys.
+    pub(crate) fn write_mistakes(&self) {
+        let mut lines: Vec<String> = self.text.lines().map(str::to_owned).collect();
+        for row in self.rows() {
+            let link = lines[row.line].rfind("| [").expect("a link");
+            let said = row.said().unwrap_or_else(|| "?".to_owned());
+            lines[row.line].replace_range(link.., &format!("| [{said}]({}) |", row.golden));
+        }
+        fs::write(&self.path, lines.join("\n") + "\n").unwrap();
+    }
+}
+
+impl Row {
+    /// Whether the row is about that key.
+    pub(crate) fn describes(&self, key: &Use) -> bool {
+        key.key == self.key && self.tables.iter().any(|table| key.is_in(table))
+    }
+
+    /// What is said of the mistake that the row points at: the message that has the key in it, or else the first.
+    pub(crate) fn said(&self) -> Option<String> {
+        let golden = folder().join(&self.golden);
+        let text = fs::read_to_string(&golden).ok()?;
+        let messages = text.lines().filter_map(|line| line.strip_prefix("error: ")).collect::<Vec<_>>();
+        let own = messages.iter().find(|message| message.contains(&format!("`{}`", self.key)));
+        own.or(messages.first()).map(|message| (*message).to_owned())
+    }
+}
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/reference")
+}
+
+/// What stands between backticks.
+fn spans(text: &str) -> Vec<String> {
+    text.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
