@@ -4,6 +4,8 @@
 
 mod table;
 
+pub use table::{COMPENSATED, CONVERGED};
+
 use crate::{Description, Orientation, Quantity};
 
 macro_rules! functions {
@@ -22,25 +24,12 @@ macro_rules! functions {
             /// What it takes and gives.
             pub const fn signature(self) -> &'static Signature {
                 match self {
-                    $(Self::$function => &Signature {
-                        name: stringify!($name),
-                        documentation: $documentation,
-                        arguments: &[$(crate::function_array!($argument: table::constant)),+],
-                        results: &[$(crate::function_array!($result: table::constant)),+],
-                        oriented: is_oriented!($($oriented)?),
-                    },)+
+                    $(Self::$function => &table::signature!(
+                        $name($($argument),+) -> ($($result),+) $($oriented)?: $documentation
+                    ),)+
                 }
             }
         }
-    };
-}
-
-macro_rules! is_oriented {
-    () => {
-        false
-    };
-    (oriented) => {
-        true
     };
 }
 

@@ -189,6 +189,50 @@ macro_rules! function_array {
             "Of ΔX at the tool point in `F_0`: rows and columns as the rows of a Jacobian."
         )
     };
+    (corrected: $($then:tt)+) => {
+        $($then)+!(
+            "corrected",
+            Variables,
+            [f64; VARIABLES],
+            "length unit, rad",
+            "The commands to be given instead, in the order of `q`."
+        )
+    };
+    (before: $($then:tt)+) => {
+        $($then)+!(
+            "before",
+            Displacement,
+            [f64; 6],
+            "length unit, rad",
+            "ΔX at `q`, real minus ideal: the tool point in `F_0`, then the rotation vector."
+        )
+    };
+    (after: $($then:tt)+) => {
+        $($then)+!("after", Displacement, [f64; 6], "length unit, rad", "ΔX at `corrected`, as `before`.")
+    };
+}
+
+/// The [`Signature`](super::Signature) of an entry.
+macro_rules! signature {
+    ($name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?: $documentation:literal) => {
+        $crate::function::Signature {
+            name: stringify!($name),
+            documentation: $documentation,
+            arguments: &[$($crate::function_array!($argument: $crate::function::table::constant)),+],
+            results: &[$($crate::function_array!($result: $crate::function::table::constant)),+],
+            oriented: $crate::function::table::is_oriented!($($oriented)?),
+        }
+    };
+}
+
+/// Whether a function is `oriented`.
+macro_rules! is_oriented {
+    () => {
+        false
+    };
+    (oriented) => {
+        true
+    };
 }
 
 /// The [`Array`](super::Array) of an entry.
@@ -255,4 +299,18 @@ macro_rules! count {
     };
 }
 
-pub(crate) use {constant, count, counts};
+pub(crate) use {constant, count, counts, is_oriented, signature};
+
+/// What generated code has as `compensated`: not a function of nodes, but steps on two of them, `pose` and `compensator_step`, as
+/// [`compensator`](crate::compensator) takes them.
+///
+/// Behind its results it says whether it converged: [`CONVERGED`].
+pub const COMPENSATED: super::Signature = signature!(
+    compensated(q, s, u) -> (corrected, before, after):
+        "Commands that put the real tool where the ideal one is at `q`, within the limits of the variables: a fixed number of \
+         steps. Where not all can be had the tool point comes first."
+);
+
+/// What it means that corrected commands have converged.
+pub const CONVERGED: &str = "Whether the steps came to rest. If not, more of them were needed, at a limit or near a singular pose; \
+                             `corrected` is the best that was seen.";
