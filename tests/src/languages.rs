@@ -62,42 +62,29 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(configuration).collect()
 }
 
-/// What a function takes of that.
-pub fn arguments(robot: &dyn Manipulator, signature: &Signature, given: &[f64]) -> Vec<f64> {
-    let description = robot.description();
-    let errors = 6 * description.frames.len();
-    let sizes = [
-        ("q", description.variables.len()),
-        ("s", description.parameters.len()),
-        ("u", description.inputs.len()),
-        ("errors", errors),
-        ("variances", errors),
-        ("magnitudes", description.sources.len()),
-    ];
-    let mut first = 0;
-    let mut taken = Vec::new();
-    for (name, size) in sizes {
-        if signature.arguments.iter().any(|array| array.name == name) {
-            taken.extend(&given[first..first + size]);
+/// The arrays that functions take, in the order in which a configuration has their numbers.
+pub fn given_arrays() -> Vec<&'static Array> {
+    let mut arrays: Vec<&Array> = Vec::new();
+    for array in Function::ALL.into_iter().flat_map(|function| function.signature().arguments) {
+        if !arrays.contains(&array) {
+            arrays.push(array);
         }
-        first += size;
     }
-    taken
+    arrays
 }
 
-/// What generated code has in another language: name, arguments, results, and what comes behind them.
-pub fn signatures(robot: &dyn Manipulator) -> Vec<(&'static str, Vec<&'static str>, Vec<&'static str>)> {
-    let description = robot.description();
-    let names = |arrays: &[Array]| arrays.iter().map(|array| array.name).collect::<Vec<_>>();
-    let one = |signature: &Signature, behind: Option<&'static str>| {
-        let results = names(signature.results).into_iter().chain(behind).collect();
-        (signature.name, names(signature.arguments), results)
-    };
-    let functions = Function::ALL.map(Function::signature);
-    let functions = functions
-        .into_iter()
-        .map(|signature| one(signature, signature.has_margin(description.orientation).then_some("margin")));
-    functions.chain([one(&COMPENSATED, Some("converged"))]).collect()
+/// What a function takes of a configuration.
+pub fn arguments(robot: &dyn Manipulator, signature: &Signature, given: &[f64]) -> Vec<f64> {
+    let mut rest = given;
+    let mut taken = Vec::new();
+    for array in given_arrays() {
+        let (numbers, others) = rest.split_at(array.len(robot.description()));
+        rest = others;
+        if signature.arguments.contains(array) {
+            taken.extend(numbers);
+        }
+    }
+    taken
 }
 
 /// Holds what functions gave in another language against what they give here, to 1e-13 of the largest number of a result, and

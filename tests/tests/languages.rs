@@ -9,15 +9,17 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-use abbe::Function;
+use abbe::function::{Array, COMPENSATED, Signature};
+use abbe::{Function, Manipulator};
 use abbe_codegen::print::Language;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
-use abbe_tests::languages::{NAMES, assert_alike, configurations, signatures};
+use abbe_tests::languages::{NAMES, assert_alike, configurations, given_arrays};
 use abbe_tests::needs::{Missing, python, run, tool};
 use abbe_tests::specs;
+use serde_json::{Value, json};
 
 fn main() -> ExitCode {
     run([
@@ -54,6 +56,26 @@ fn command(language: Language) -> Result<Vec<String>, Missing> {
     }
 }
 
+/// What scripts of other languages call: the arrays that are given, with their shapes, and of every function its name, its
+/// arguments, its results and what comes behind them.
+fn called(robot: &dyn Manipulator) -> Value {
+    let description = robot.description();
+    let shape = |array: &Array| array.shape.iter().map(|count| count.value(description)).collect::<Vec<_>>();
+    let arrays = given_arrays();
+    let arrays = arrays.iter().map(|array| json!({ "name": array.name, "shape": shape(array) }));
+    let names = |arrays: &[Array]| arrays.iter().map(|array| array.name).collect::<Vec<_>>();
+    let one = |signature: &Signature, behind: Option<&'static str>| {
+        let results: Vec<_> = names(signature.results).into_iter().chain(behind).collect();
+        json!([signature.name, names(signature.arguments), results])
+    };
+    let functions = Function::ALL.map(Function::signature);
+    let functions = functions
+        .into_iter()
+        .map(|signature| one(signature, signature.has_margin(description.orientation).then_some("margin")));
+    let functions = functions.chain([one(&COMPENSATED, Some("converged"))]);
+    json!({ "arrays": arrays.collect::<Vec<_>>(), "functions": functions.collect::<Vec<_>>() })
+}
+
 /// Equal to Rust in so many configurations.
 fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize) {
     let (name, file) = (spec.name.clone(), language.files(&spec).remove(0));
@@ -70,7 +92,7 @@ fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize
     fs::write(&source, &file.text).unwrap();
     fs::write(&input, given.concat().iter().flat_map(|value| value.to_ne_bytes()).collect::<Vec<u8>>())
         .unwrap();
-    fs::write(&functions, serde_json::to_string(&signatures(&robot)).unwrap()).unwrap();
+    fs::write(&functions, called(&robot).to_string()).unwrap();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("languages").join(script);
     let mut run = Command::new(&command[0]);
     let run = run.args(&command[1..]).arg(script).args([&source, &functions, &input, &output]).output();

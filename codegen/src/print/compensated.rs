@@ -6,7 +6,6 @@ use abbe_core::VariableKind;
 use abbe_core::compensator::{DAMPING, ITERATIONS, LEAST_SINE, LEVER, REST};
 use abbe_spec::Spec;
 
-
 /// Numbers that depend on how many digits there are.
 pub(super) struct Tolerances {
     /// What keeps steps bounded, in metres and rad: λ, or its root where no squares are made.

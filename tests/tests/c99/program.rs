@@ -9,6 +9,7 @@ use abbe::{Function, Manipulator};
 use abbe_codegen::print::{Language, Real};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_tests::languages::given_arrays;
 
 /// How it is compiled. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
 pub(crate) const STRICT: [&str; 9] = [
@@ -63,18 +64,12 @@ pub(crate) fn succeeds(command: &mut Command) -> Vec<u8> {
 /// A program that reads configurations and writes what the functions give.
 fn caller(robot: &Interpreter, real: Real) -> String {
     let description = robot.description();
-    let (name, errors) = (&description.name, 6 * description.frames.len());
-    let sizes = [
-        ("q", description.variables.len()),
-        ("s", description.parameters.len()),
-        ("u", description.inputs.len()),
-        ("errors", errors),
-        ("variances", errors),
-        ("magnitudes", description.sources.len()),
-    ];
+    let name = &description.name;
+    let sizes: Vec<(&str, usize)> =
+        given_arrays().into_iter().map(|array| (array.name, array.len(description))).collect();
     let count: usize = sizes.iter().map(|(_, size)| size).sum();
     let mut first = 0;
-    let given = sizes.map(|(name, size)| {
+    let given = sizes.into_iter().map(|(name, size)| {
         first += size;
         format!("    const {real} *{name} = given + {}; (void){name};\n", first - size)
     });
@@ -99,7 +94,7 @@ fn caller(robot: &Interpreter, real: Real) -> String {
          int main(void)\n{{\n    double read[{count}];\n    {real} given[{count}];\n    int status = {name}_self_test();\n    put_one(status);\n    \
          while (fread(read, sizeof(double), {count}, stdin) == {count}) {{\n    \
          for (int k = 0; k < {count}; k++) {{ given[k] = ({real})read[k]; }}\n{}{}    }}\n    return 0;\n}}\n",
-        given.concat(),
+        given.collect::<String>(),
         functions.map(call).collect::<String>(),
     )
 }
