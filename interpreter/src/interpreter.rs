@@ -77,10 +77,7 @@ impl Interpreter {
         let signature = function.signature();
         for (array, values) in signature.arguments.iter().zip(arguments) {
             count(array.quantity, array.len(&self.routines.description), values.len())?;
-            checks::finite(array.quantity, values)?;
-            if array.quantity == Quantity::Inputs {
-                checks::inputs(&self.routines.description.inputs, values)?;
-            }
+            checks::given(&self.routines.description, array.quantity, values)?;
         }
         let values = evaluated(self.tape(function), arguments.iter().copied().flatten());
         let mut rest = values.as_slice();
@@ -98,19 +95,16 @@ impl Interpreter {
         Ok(values)
     }
 
-    fn jacobian(
-        &self,
-        function: Function,
-        expected: usize,
-        q: &[f64],
-        s: &[f64],
-        columns: &mut [[f64; 6]],
-    ) -> Result<Pose, Error> {
-        count(Quantity::Jacobian, expected, columns.len())?;
-        let values = self.run(function, &[q, s])?;
-        let (pose, rest) = values.split_at(POSE);
-        columns.as_flattened_mut().copy_from_slice(&rest[..6 * expected]);
-        Ok(pose_of(pose))
+    /// Runs a function and fills a slice with its last result. Returns all that it gives.
+    fn fill(&self, function: Function, arguments: &[&[f64]], filled: &mut [f64]) -> Result<Vec<f64>, Error> {
+        let description = &self.routines.description;
+        let Some((last, others)) = function.signature().results.split_last() else { return Ok(Vec::new()) };
+        let row: usize = last.shape[1..].iter().map(|count| count.value(description)).product();
+        count(last.quantity, last.shape[0].value(description), filled.len() / row)?;
+        let values = self.run(function, arguments)?;
+        let first: usize = others.iter().map(|array| array.len(description)).sum();
+        filled.copy_from_slice(&values[first..][..filled.len()]);
+        Ok(values)
     }
 }
 
@@ -133,21 +127,19 @@ impl Manipulator for Interpreter {
     }
 
     fn error_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(Function::ErrorJacobian, 6 * self.routines.description.frames.len(), q, s, columns)
+        Ok(pose_of(&self.fill(Function::ErrorJacobian, &[q, s], columns.as_flattened_mut())?))
     }
 
     fn joint_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(Function::JointJacobian, self.routines.description.variables.len(), q, s, columns)
+        Ok(pose_of(&self.fill(Function::JointJacobian, &[q, s], columns.as_flattened_mut())?))
     }
 
     fn parameter_jacobian(&self, q: &[f64], s: &[f64], columns: &mut [[f64; 6]]) -> Result<Pose, Error> {
-        self.jacobian(Function::ParameterJacobian, self.routines.description.parameters.len(), q, s, columns)
+        Ok(pose_of(&self.fill(Function::ParameterJacobian, &[q, s], columns.as_flattened_mut())?))
     }
 
     fn effects(&self, q: &[f64], s: &[f64], u: &[f64], effects: &mut [f64]) -> Result<(), Error> {
-        count(Quantity::Effects, self.routines.description.effects.len(), effects.len())?;
-        effects.copy_from_slice(&self.run(Function::Effects, &[q, s, u])?);
-        Ok(())
+        self.fill(Function::Effects, &[q, s, u], effects).map(drop)
     }
 
     fn generalized_errors(
@@ -157,9 +149,7 @@ impl Manipulator for Interpreter {
         u: &[f64],
         errors: &mut [[f64; 6]],
     ) -> Result<(), Error> {
-        count(Quantity::Errors, self.routines.description.frames.len(), errors.len())?;
-        errors.as_flattened_mut().copy_from_slice(&self.run(Function::GeneralizedErrors, &[q, s, u])?);
-        Ok(())
+        self.fill(Function::GeneralizedErrors, &[q, s, u], errors.as_flattened_mut()).map(drop)
     }
 
     fn drawn_pose(&self, q: &[f64], s: &[f64], u: &[f64], magnitudes: &[f64]) -> Result<Option<Pose>, Error> {
@@ -200,6 +190,7 @@ fn count(quantity: Quantity, expected: usize, found: usize) -> Result<(), Error>
     if expected == found { Ok(()) } else { Err(Error::Count { quantity, expected, found }) }
 }
 
+/// The pose that the first numbers are.
 fn pose_of(values: &[f64]) -> Pose {
     Pose(std::array::from_fn(|column| std::array::from_fn(|row| values[3 * column + row])))
 }

@@ -1,33 +1,26 @@
-// node run.mjs MODULE FUNCTIONS INPUT OUTPUT: calls functions of a generated module.
+// node run.mjs MODULE NAMES INPUT OUTPUT: calls functions of a generated module.
 //
-// FUNCTIONS has JSON: a name, the names of the arguments and those of the results each. INPUT holds doubles, q, s, u, errors, variances and
-// magnitudes of one configuration after the other; OUTPUT gets what every function returns, in the order of the names.
+// NAMES has JSON: the arrays that are given, and of every function its name, the names of its arguments and those of its results. INPUT holds
+// doubles, the arrays of one configuration after the other; OUTPUT gets what every function returns, in the order of the names.
 import { readFileSync, writeFileSync } from "node:fs";
 
-const [module, functions, input, output] = process.argv.slice(2);
+const [module, names, input, output] = process.argv.slice(2);
 const robot = await import(module);
-const { frames, variables, parameters, inputs, sources } = robot.description;
-const sizes = {
-    q: variables.length,
-    s: parameters.length,
-    u: inputs.length,
-    errors: 6 * frames.length,
-    variances: 6 * frames.length,
-    magnitudes: sources.length,
-};
+const { arrays, functions } = JSON.parse(readFileSync(names));
+const sizes = arrays.map(({ name, shape }) => [name, shape.reduce((a, b) => a * b, 1)]);
 const bytes = readFileSync(input);
 const numbers = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
 const results = [];
 for (let at = 0; at < numbers.length; ) {
     const given = {};
-    for (const [name, size] of Object.entries(sizes)) {
+    for (const [name, size] of sizes) {
         given[name] = numbers.subarray(at, at + size);
         at += size;
     }
-    for (const [name, names] of JSON.parse(readFileSync(functions))) {
-        const result = robot[name](...names.map((argument) => given[argument]));
-        const arrays = result instanceof Float64Array ? [result] : Object.values(result);
-        for (const array of arrays) {
+    for (const [name, taken] of functions) {
+        const result = robot[name](...taken.map((argument) => given[argument]));
+        const filled = result instanceof Float64Array ? [result] : Object.values(result);
+        for (const array of filled) {
             results.push(...(array instanceof Float64Array ? array : [array]));
         }
     }

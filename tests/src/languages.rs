@@ -1,7 +1,9 @@
 //! What every generated language is held against: the same arguments, and names that mean something in one of them.
 
 use abbe::analysis::sampling::{arm_length, halton, joint_sample, nominal_inputs, nominal_parameters};
-use abbe::{Function, Manipulator};
+use abbe::compensator::compensate;
+use abbe::function::{Array, COMPENSATED, Signature};
+use abbe::{Function, Manipulator, Pose, VariableKind};
 
 /// Words of languages, and names that their functions use.
 pub const NAMES: &str = r#"
@@ -60,31 +62,34 @@ pub fn configurations(robot: &dyn Manipulator, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(configuration).collect()
 }
 
-/// What a function takes of that.
-pub fn arguments(robot: &dyn Manipulator, function: Function, given: &[f64]) -> Vec<f64> {
-    let description = robot.description();
-    let errors = 6 * description.frames.len();
-    let sizes = [
-        ("q", description.variables.len()),
-        ("s", description.parameters.len()),
-        ("u", description.inputs.len()),
-        ("errors", errors),
-        ("variances", errors),
-        ("magnitudes", description.sources.len()),
-    ];
-    let mut first = 0;
-    let mut taken = Vec::new();
-    for (name, size) in sizes {
-        if function.signature().arguments.iter().any(|array| array.name == name) {
-            taken.extend(&given[first..first + size]);
+/// The arrays that functions take, in the order in which a configuration has their numbers.
+pub fn given_arrays() -> Vec<&'static Array> {
+    let mut arrays: Vec<&Array> = Vec::new();
+    for array in Function::ALL.into_iter().flat_map(|function| function.signature().arguments) {
+        if !arrays.contains(&array) {
+            arrays.push(array);
         }
-        first += size;
+    }
+    arrays
+}
+
+/// What a function takes of a configuration.
+pub fn arguments(robot: &dyn Manipulator, signature: &Signature, given: &[f64]) -> Vec<f64> {
+    let mut rest = given;
+    let mut taken = Vec::new();
+    for array in given_arrays() {
+        let (numbers, others) = rest.split_at(array.len(robot.description()));
+        rest = others;
+        if signature.arguments.contains(array) {
+            taken.extend(numbers);
+        }
     }
     taken
 }
 
-/// Holds what functions gave in another language against what they give here, to 1e-13 of the largest number of a result.
-/// `found` has every function's results for the first configuration, then for the next. Returns the largest difference.
+/// Holds what functions gave in another language against what they give here, to 1e-13 of the largest number of a result, and
+/// corrected commands to 1e-9. `found` has every function's results for the first configuration, then for the next. Returns
+/// the largest difference, that of corrected commands apart.
 pub fn assert_alike(
     robot: &dyn Manipulator,
     evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
@@ -93,9 +98,10 @@ pub fn assert_alike(
 ) -> f64 {
     let mut found = found;
     let mut worst: f64 = 0.0;
+    let commands = COMPENSATED.results_len(robot.description());
     for given in given {
         for function in Function::ALL {
-            let expected = evaluate(function, &arguments(robot, function, given));
+            let expected = evaluate(function, &arguments(robot, function.signature(), given));
             let (results, rest) = found.split_at(expected.len());
             found = rest;
             let mut first = 0;
@@ -112,7 +118,48 @@ pub fn assert_alike(
                 first += len;
             }
         }
+        let (numbers, rest) = found.split_at(commands);
+        assert_compensated(robot, &evaluate, given, numbers, rest[0] == 1.0);
+        found = &rest[1..];
     }
     assert!(found.is_empty(), "{} numbers more", found.len());
     worst
+}
+
+/// Holds corrected commands, and what is wrong before and after, against the same in Rust: to 1e-9 of a metre or a rad.
+pub fn assert_compensated(
+    robot: &dyn Manipulator,
+    evaluate: impl Fn(Function, &[f64]) -> Vec<f64>,
+    given: &[f64],
+    found: &[f64],
+    converged: bool,
+) {
+    let description = robot.description();
+    let (name, count) = (&description.name, description.variables.len());
+    let given = arguments(robot, &COMPENSATED, given);
+    let (q, rest) = given.split_at(count);
+    let pose = |numbers: &[f64]| Pose(std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j])));
+    let configuration = &given[..count + description.parameters.len()];
+    let target = pose(&evaluate(Function::Pose, configuration));
+    let expected =
+        compensate(description, &target, &q.to_vec(), vec![[0.0; 6]; count], |q: &Vec<f64>, columns| {
+            let step = evaluate(Function::CompensatorStep, &[&q[..], rest].concat());
+            let (real, twists) = step.split_at(12);
+            columns.as_flattened_mut().copy_from_slice(twists);
+            Ok(pose(real))
+        });
+    let expected = expected.unwrap();
+    assert_eq!(converged, expected.converged, "{name}: converged");
+    let metre = 1.0 / description.length.in_metres();
+    let variables = description.variables.iter().map(|variable| match variable.kind {
+        VariableKind::Revolute => 1.0,
+        VariableKind::Prismatic => metre,
+    });
+    // One metre or one rad of each number.
+    let rows = [metre, metre, metre, 1.0, 1.0, 1.0];
+    let units = variables.chain(rows).chain(rows);
+    let expected = expected.q.iter().chain(&expected.before).chain(&expected.after);
+    for ((found, expected), unit) in found.iter().zip(expected).zip(units) {
+        assert!((found - expected).abs() <= 1e-9 * unit, "{name}: {found} and {expected}");
+    }
 }

@@ -2,11 +2,13 @@
 //!
 //! `statements` says what a routine does, one small `statement` after the other; `body` does so for a program, with
 //! an `expression` of a language's operators where a step needs no name, and `names` for everything. `layout` sets lines,
-//! `flat` has arrays as flat ones, `header` and `text` are what stands in comments, `records` what a manipulator has. A
-//! language is a folder: how it writes operators, numbers, statements, a function and what is around it.
+//! `flat` has arrays as flat ones, `compensated` the numbers of corrected commands, `header` and `text` are what stands in
+//! comments, `records` what a manipulator has. A language is a folder: how it writes operators, numbers, statements, a
+//! function, corrected commands, and what is around it.
 
 mod body;
 mod c;
+mod compensated;
 mod expression;
 mod flat;
 mod fmu;

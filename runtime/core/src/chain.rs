@@ -72,6 +72,9 @@ fn euler_yzx(pose: &Pose) -> [f64; 3] {
     [Scalar::atan2(-x[2], x[0]), Scalar::atan2(x[1], cosine), Scalar::atan2(-z[1], y[1])]
 }
 
+/// Below it twice the sine of an angle has no square; the angle is then half of it.
+pub const LEAST_SINE: f64 = 1e-150;
+
 /// The rotation vector of a rotation: its axis times its angle.
 pub fn rotation_vector(pose: &Pose) -> [f64; 3] {
     let [x, y, z, _] = pose.0;
@@ -79,7 +82,7 @@ pub fn rotation_vector(pose: &Pose) -> [f64; 3] {
     let twice_sine = Scalar::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     let angle = Scalar::atan2(twice_sine, x[0] + y[1] + z[2] - 1.0);
     // angle / (2 sin angle) → 1/2 for small angles.
-    let scale = if twice_sine < 1e-150 { 0.5 } else { angle / twice_sine };
+    let scale = if twice_sine < LEAST_SINE { 0.5 } else { angle / twice_sine };
     v.map(|component| component * scale)
 }
 

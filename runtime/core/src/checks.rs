@@ -1,11 +1,15 @@
 //! What every manipulator checks, generated or interpreted, before and after its arithmetic.
 
-use crate::{Error, Input, MINIMUM_MARGIN, Quantity, Scalar};
+use crate::{Description, Error, Input, MINIMUM_MARGIN, Quantity, Scalar};
 
-/// The values of an argument as an array, if there are exactly `N` and all are finite.
-pub fn argument<const N: usize>(quantity: Quantity, values: &[f64]) -> Result<&[f64; N], Error> {
+/// The values of an argument as an array, if there are exactly `N` and a function can be given them.
+pub fn argument<'v, const N: usize>(
+    description: &Description,
+    quantity: Quantity,
+    values: &'v [f64],
+) -> Result<&'v [f64; N], Error> {
     let array = values.try_into().map_err(|_| count(quantity, N, values.len()))?;
-    finite(quantity, values)?;
+    given(description, quantity, values)?;
     Ok(array)
 }
 
@@ -13,6 +17,45 @@ pub fn argument<const N: usize>(quantity: Quantity, values: &[f64]) -> Result<&[
 pub fn result<T, const N: usize>(quantity: Quantity, values: &mut [T]) -> Result<&mut [T; N], Error> {
     let found = values.len();
     values.try_into().map_err(|_| count(quantity, N, found))
+}
+
+/// Whether the numbers of an argument are finite, and, if they are inputs, within their ranges.
+pub fn given(description: &Description, quantity: Quantity, values: &[f64]) -> Result<(), Error> {
+    finite(quantity, values)?;
+    if quantity == Quantity::Inputs { inputs(&description.inputs, values) } else { Ok(()) }
+}
+
+/// An array that a function takes or fills.
+pub trait Numbers {
+    /// Zeros.
+    const ZERO: Self;
+
+    /// Its numbers, one after the other.
+    fn numbers(&self) -> &[f64];
+}
+
+impl<const N: usize> Numbers for [f64; N] {
+    const ZERO: Self = [0.0; N];
+
+    fn numbers(&self) -> &[f64] {
+        self
+    }
+}
+
+impl<const M: usize, const N: usize> Numbers for [[f64; M]; N] {
+    const ZERO: Self = [[0.0; M]; N];
+
+    fn numbers(&self) -> &[f64] {
+        self.as_flattened()
+    }
+}
+
+impl<const L: usize, const M: usize, const N: usize> Numbers for [[[f64; L]; M]; N] {
+    const ZERO: Self = [[[0.0; L]; M]; N];
+
+    fn numbers(&self) -> &[f64] {
+        self.as_flattened().as_flattened()
+    }
 }
 
 /// Whether all values are finite; if not, which is the first that is not.
@@ -65,23 +108,11 @@ pub fn inputs(description: &[Input], u: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether the joint variables and structural parameters are finite.
-pub fn configuration(q: &[f64], s: &[f64]) -> Result<(), Error> {
+/// Whether every joint variable, structural parameter and input is finite, and every input within its range.
+pub fn use_case(description: &Description, q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
     finite(Quantity::Variables, q)?;
-    finite(Quantity::Parameters, s)
-}
-
-/// The same, and whether every input is finite and within its range.
-pub fn use_case(description: &[Input], q: &[f64], s: &[f64], u: &[f64]) -> Result<(), Error> {
-    configuration(q, s)?;
-    finite(Quantity::Inputs, u)?;
-    inputs(description, u)
-}
-
-/// Whether a displacement or covariance exists at the margin that a raw function returned, and is finite.
-pub fn displacement(cosine: impl Margin<f64>, values: &[f64]) -> Result<(), Error> {
-    margin(cosine)?;
-    finite(Quantity::Displacement, values)
+    finite(Quantity::Parameters, s)?;
+    given(description, Quantity::Inputs, u)
 }
 
 fn count(quantity: Quantity, expected: usize, found: usize) -> Error {

@@ -21,10 +21,12 @@ pub const ITERATIONS: usize = 6;
 pub const REST: f64 = 1e-7;
 
 /// λ, in rad and metres: `√λ ‖d‖` bounds what it leaves, a nanometre where the correction is a millimetre.
-const DAMPING: f64 = 1e-14;
+pub const DAMPING: f64 = 1e-14;
 
 /// What a rad counts as, in metres: so little that the tool point comes first where not all can be had.
-const LEVER: f64 = 1e-3;
+pub const LEVER: f64 = 1e-3;
+
+pub use crate::chain::LEAST_SINE;
 
 /// Corrected joint commands, and what they gain.
 ///

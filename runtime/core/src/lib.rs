@@ -35,7 +35,7 @@ pub mod lanes;
 #[cfg(not(feature = "lanes"))]
 #[doc(hidden)]
 #[macro_export]
-macro_rules! lane_functions {
+macro_rules! evaluate_functions {
     ($($any:tt)*) => {};
 }
 #[cfg(feature = "laws")]

@@ -1,5 +1,6 @@
 //! Code generated for JavaScript, NumPy and Octave gives what Rust gives, to 1e-13 of the largest number of a result: every
-//! function of every shipped robot, of a long chain, and of one whose names mean something in these languages.
+//! function of every shipped robot, of a long chain, and of one whose names mean something in these languages. Corrected
+//! commands are the same to 1e-9 of a metre or a rad.
 //!
 //! `PYTHON` names a Python that has NumPy, if `python3` has none. Octave, which is slow, is asked for 20 configurations;
 //! `CONFIGURATIONS=1000` is for all.
@@ -8,15 +9,17 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use abbe::function::{Array, COMPENSATED, Signature};
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::Language;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
-use abbe_tests::languages::{NAMES, assert_alike, configurations};
+use abbe_tests::languages::{NAMES, assert_alike, configurations, given_arrays};
 use abbe_tests::needs::{Missing, Tests, python, tool};
 use abbe_tests::{is_tested, specs};
+use serde_json::{Value, json};
 
 pub(crate) const TESTS: Tests = &[
     ("javascript", (|| in_all(Language::JavaScript, 1000))),
@@ -51,6 +54,26 @@ fn command(language: Language) -> Result<Vec<String>, Missing> {
     }
 }
 
+/// What scripts of other languages call: the arrays that are given, with their shapes, and of every function its name, its
+/// arguments, its results and what comes behind them.
+fn called(robot: &dyn Manipulator) -> Value {
+    let description = robot.description();
+    let shape = |array: &Array| array.shape.iter().map(|count| count.value(description)).collect::<Vec<_>>();
+    let arrays = given_arrays();
+    let arrays = arrays.iter().map(|array| json!({ "name": array.name, "shape": shape(array) }));
+    let names = |arrays: &[Array]| arrays.iter().map(|array| array.name).collect::<Vec<_>>();
+    let one = |signature: &Signature, behind: Option<&'static str>| {
+        let results: Vec<_> = names(signature.results).into_iter().chain(behind).collect();
+        json!([signature.name, names(signature.arguments), results])
+    };
+    let functions = Function::ALL.map(Function::signature);
+    let functions = functions
+        .into_iter()
+        .map(|signature| one(signature, signature.has_margin(description.orientation).then_some("margin")));
+    let functions = functions.chain([one(&COMPENSATED, Some("converged"))]);
+    json!({ "arrays": arrays.collect::<Vec<_>>(), "functions": functions.collect::<Vec<_>>() })
+}
+
 /// Equal to Rust in so many configurations.
 fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize) {
     let (name, file) = (spec.name.clone(), language.files(&spec).remove(0));
@@ -67,15 +90,7 @@ fn assert_equal(language: Language, command: &[String], spec: Spec, count: usize
     fs::write(&source, &file.text).unwrap();
     fs::write(&input, given.concat().iter().flat_map(|value| value.to_ne_bytes()).collect::<Vec<u8>>())
         .unwrap();
-    let names = |function: Function| {
-        let signature = function.signature();
-        let names = |arrays: &[abbe::function::Array]| arrays.iter().map(|array| array.name).collect();
-        let (arguments, mut results): (Vec<_>, Vec<_>) =
-            (names(signature.arguments), names(signature.results));
-        results.extend(signature.has_margin(robot.description().orientation).then_some("margin"));
-        (signature.name, arguments, results)
-    };
-    fs::write(&functions, serde_json::to_string(&Function::ALL.map(names)).unwrap()).unwrap();
+    fs::write(&functions, called(&robot).to_string()).unwrap();
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("languages").join(script);
     let mut run = Command::new(&command[0]);
     let run = run.args(&command[1..]).arg(script).args([&source, &functions, &input, &output]).output();

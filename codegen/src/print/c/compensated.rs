@@ -1,83 +1,49 @@
 //! Corrected commands in C: the fixed number of steps of `abbe::compensator`, term by term.
 
-use abbe_core::VariableKind;
+use abbe_core::function::COMPENSATED;
 use abbe_spec::Spec;
 
+use super::functions::{documentation, head};
 use super::real::Real;
 use super::shortest::Solver;
+use crate::print::compensated::{numbered, units};
 use crate::print::layout::Writer;
+use crate::program::Routines;
 
-pub(super) fn declaration(writer: &mut Writer, spec: &Spec, real: Real) {
+pub(super) fn declaration(writer: &mut Writer, spec: &Spec, routines: &Routines, real: Real) {
     if spec.variables.is_empty() {
         return;
     }
-    let (name, upper) = (&spec.name, spec.name.to_ascii_uppercase());
     writer.blank();
-    writer.lines("/**");
-    writer.documentation(
-        "Commands that put the real tool where the ideal one is at `q`, within the limits of the variables: a fixed \
-         number of steps. Where not all can be had the tool point comes first.",
-    );
-    writer.documentation_line("");
-    for line in [
-        "@param[in] q The commands that were given: rad and the length unit.",
-        "@param[in] s Structural parameters.",
-        "@param[in] u Inputs.",
-        "@param[out] corrected The commands to be given instead: as many as `q`.",
-        "@param[out] before What is wrong at `q`, six numbers: where the real tool point is from the ideal one, x, y, z \
-         in `F_0`, and the rotation vector in rad.",
-        "@param[out] after The same at `corrected`.",
-    ] {
-        writer.documentation(line);
-    }
-    writer.documentation(&format!(
-        "@return `{upper}_OK`, `{upper}_NOT_FINITE`, `{upper}_OUT_OF_RANGE`, or `{upper}_NOT_CONVERGED`: more steps \
-         were needed, at a limit or near a singular pose; `corrected` is the best that was seen."
-    ));
-    writer.lines(" */");
-    writer.lines(&format!("{};", head(name, real, "ABBE_RESTRICT")));
-}
-
-fn head(name: &str, real: Real, restrict: &str) -> String {
-    format!(
-        "int {name}_compensated(const {real} *{restrict} q, const {real} *{restrict} s, const {real} *{restrict} u, \
-         {real} *{restrict} corrected, {real} *{restrict} before, {real} *{restrict} after)"
-    )
+    documentation(writer, &routines.description, &COMPENSATED, Some("NOT_CONVERGED"), None);
+    writer.lines(&format!("{};", head(&spec.name, &COMPENSATED, real, "ABBE_RESTRICT")));
 }
 
 pub(super) fn definition(writer: &mut Writer, spec: &Spec, real: Real) {
     if spec.variables.is_empty() {
         return;
     }
-    let metre = 1.0 / spec.length.in_metres();
-    let units = spec.variables.iter().map(|variable| match variable.kind {
-        VariableKind::Revolute => real.number(1.0),
-        VariableKind::Prismatic => real.number(metre),
-    });
     writer.blank();
     writer.lines("/* One rad or one metre in the unit of each variable. */");
-    let units: Vec<String> = units.collect();
+    let units: Vec<String> = units(spec).map(|unit| real.number(unit)).collect();
     writer.braces(&format!("static const {real} UNITS[{}] = ", units.len()), &units, ";");
     let more_than_six = units.len() > 6;
-    let Solver { texts, damping, rest, tiny } = Solver::of(real);
+    let Solver { texts, tolerances } = Solver::of(real);
     let [before, shortest] = [texts[0], texts[if more_than_six { 2 } else { 1 }]];
     let written = TEXT.replace("SHORTEST", &[before, shortest].concat());
     let placed = [
         ("FULL", units.len().max(6).to_string()),
         ("LONG", (6 + units.len()).to_string()),
         ("RANK", units.len().min(6).to_string()),
-        ("COUNT", units.len().to_string()),
-        ("METRE", real.number(1.0 / metre)),
-        ("DAMPING", real.number(damping)),
-        ("STILL", real.number(rest)),
-        ("TINY", real.number(tiny)),
         ("NAME", spec.name.clone()),
         ("UPPER", spec.name.to_ascii_uppercase()),
     ];
     let (before, after) = written.split_once("HEAD").unwrap_or((&written, ""));
-    let [before, after] = [before, after]
-        .map(|text| placed.iter().fold(real.text(text), |text, (what, value)| text.replace(what, value)));
-    let text = [before, head(&spec.name, real, "restrict"), after].concat();
+    let [before, after] = [before, after].map(|text| {
+        let text = numbered(&real.text(text), spec, &tolerances, |value| real.number(value));
+        placed.iter().fold(text, |text, (what, value)| text.replace(what, value))
+    });
+    let text = [before, head(&spec.name, &COMPENSATED, real, "restrict"), after].concat();
     writer.blank();
     writer.lines(text.trim_end());
 }
@@ -114,7 +80,7 @@ static void deviation(const double *ideal, const double *real, double *rows)
     v[2] = turn[1][0] - turn[0][1];
     const double twice_sine = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const double angle = atan2(twice_sine, turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
-    const double scale = (twice_sine < TINY) ? 0.5 : angle / twice_sine;
+    const double scale = (twice_sine < LEAST_SINE) ? 0.5 : angle / twice_sine;
     for (int i = 0; i < 3; i++) {
         rows[3 + i] = v[i] * scale;
     }
@@ -125,7 +91,7 @@ static void weigh(const double *rows, double factor, double *weighted)
 {
     for (int i = 0; i < 3; i++) {
         weighted[i] = rows[i] * factor * METRE;
-        weighted[3 + i] = rows[3 + i] * factor * 1e-3;
+        weighted[3 + i] = rows[3 + i] * factor * LEVER;
     }
 }
 
@@ -209,7 +175,7 @@ HEAD
     if (inside != 0) {
         least_cost = cost(before);
     }
-    for (int iteration = 0; iteration < 6; iteration++) {
+    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
         double from[COUNT];
         for (int j = 0; j < COUNT; j++) {
             from[j] = at[j];
@@ -235,6 +201,6 @@ HEAD
             }
         }
     }
-    return (moved <= STILL) ? UPPER_OK : UPPER_NOT_CONVERGED;
+    return (moved <= REST) ? UPPER_OK : UPPER_NOT_CONVERGED;
 }
 ";

@@ -1,12 +1,13 @@
 //! Routines as functions.
 
+use abbe_core::Description;
+use abbe_core::function::Signature;
 use abbe_spec::Spec;
 
 use super::operators::C;
 use super::real::Real;
 use crate::print::expression::Value;
 use crate::print::flat::{Flat, filled};
-use crate::print::header::operations;
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
@@ -14,26 +15,38 @@ use crate::print::text::harmless;
 use crate::program::{Place, Role, Routine, Routines, Row};
 
 /// The head of a function without its end: `int pps_pose(const double *restrict q, …)`.
-pub(super) fn head(prefix: &str, routine: &Routine, real: Real, restrict: &str) -> String {
-    let outside = routine.arrays.iter().filter_map(|array| match array.role {
-        Role::Argument => Some(format!("const {real} *{restrict} {}", array.name)),
-        Role::Result => Some(format!("{real} *{restrict} {}", array.name)),
-        Role::Margin | Role::Zeros => None,
-    });
-    let arguments = outside.collect::<Vec<_>>().join(", ");
-    match routine.function {
-        Some(_) => format!("int {prefix}_{}({arguments})", routine.name),
-        None => format!("static void {prefix}_{}({arguments})", routine.name),
-    }
+pub(super) fn head(prefix: &str, signature: &Signature, real: Real, restrict: &str) -> String {
+    let given = signature.arguments.iter().map(|array| (array.name, Role::Argument));
+    let filled = signature.results.iter().map(|array| (array.name, Role::Result));
+    format!("int {prefix}_{}({})", signature.name, arguments(given.chain(filled), real, restrict))
 }
 
-/// What stands above its declaration.
-pub(super) fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
-    let Some(function) = routine.function else { return };
-    let signature = function.signature();
-    let upper = routines.description.name.to_ascii_uppercase();
+/// The same of what only helps functions.
+fn helper_head(prefix: &str, routine: &Routine, real: Real) -> String {
+    let arrays = routine.arrays.iter().map(|array| (array.name, array.role));
+    format!("static void {prefix}_{}({})", routine.name, arguments(arrays, real, "restrict"))
+}
+
+fn arguments(arrays: impl Iterator<Item = (&'static str, Role)>, real: Real, restrict: &str) -> String {
+    let outside = arrays.filter_map(|(name, role)| match role {
+        Role::Argument => Some(format!("const {real} *{restrict} {name}")),
+        Role::Result => Some(format!("{real} *{restrict} {name}")),
+        Role::Margin | Role::Zeros => None,
+    });
+    outside.collect::<Vec<_>>().join(", ")
+}
+
+/// What stands above its declaration; a code of its own, and what is said at the end.
+pub(super) fn documentation(
+    writer: &mut Writer,
+    description: &Description,
+    signature: &Signature,
+    code: Option<&str>,
+    end: Option<&str>,
+) {
+    let upper = description.name.to_ascii_uppercase();
     writer.lines("/**");
-    writer.documentation(routine.documentation);
+    writer.documentation(signature.documentation);
     writer.documentation_line("");
     for (array, way) in signature
         .arguments
@@ -41,7 +54,7 @@ pub(super) fn documentation(writer: &mut Writer, routines: &Routines, routine: &
         .map(|array| (array, "in"))
         .chain(signature.results.iter().map(|array| (array, "out")))
     {
-        let shape = array.shape.iter().map(|count| count.value(&routines.description).to_string());
+        let shape = array.shape.iter().map(|count| count.value(description).to_string());
         writer.documentation(&format!(
             "@param[{way}] {} {} Numbers: {}; {}.",
             array.name,
@@ -51,13 +64,16 @@ pub(super) fn documentation(writer: &mut Writer, routines: &Routines, routine: &
         ));
     }
     let takes_inputs = signature.arguments.iter().any(|array| array.name == "u");
-    let has_margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
-    let mut codes = vec![format!("`{upper}_OK`, `{upper}_NOT_FINITE`")];
-    codes.extend(has_margin.then(|| format!("`{upper}_SINGULAR`")));
-    codes.extend(takes_inputs.then(|| format!("`{upper}_OUT_OF_RANGE`")));
+    let mut codes = vec!["OK", "NOT_FINITE"];
+    codes.extend(signature.has_margin(description.orientation).then_some("SINGULAR"));
+    codes.extend(takes_inputs.then_some("OUT_OF_RANGE"));
+    codes.extend(code);
+    let codes: Vec<String> = codes.into_iter().map(|code| format!("`{upper}_{code}`")).collect();
     writer.documentation(&format!("@return {}.", codes.join(", ")));
-    writer.documentation_line("");
-    writer.documentation(&format!("{}.", operations(routine)));
+    if let Some(end) = end {
+        writer.documentation_line("");
+        writer.documentation(&format!("{end}."));
+    }
     writer.lines(" */");
 }
 
@@ -70,7 +86,10 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     if routine.function.is_none() {
         comment(writer, routine.documentation);
     }
-    writer.lines(&head(prefix, routine, real, "restrict"));
+    writer.lines(&match routine.function {
+        Some(function) => head(prefix, function.signature(), real, "restrict"),
+        None => helper_head(prefix, routine, real),
+    });
     writer.open_alone();
     let mut printer = Printer { writer, flat: Flat { routines, routine }, prefix, real };
     printer.begin(&used, !list.is_empty());

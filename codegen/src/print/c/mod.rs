@@ -17,7 +17,7 @@ use abbe_spec::expr::Table;
 use self::functions::{comment, documentation, function, head};
 pub use self::real::Real;
 use self::support::{IS_FINITE, Support};
-use super::header::header;
+use super::header::{header, operations};
 use super::layout::Writer;
 use super::source_file::SourceFile;
 use super::text::escaped;
@@ -97,12 +97,14 @@ fn declarations(spec: &Spec, routines: &Routines, real: Real) -> String {
     counts(&mut writer, &upper, routines);
     indices(&mut writer, &upper, routines);
     values(&mut writer, spec, real, "extern ", false);
-    for routine in routines.list.iter().filter(|routine| routine.function.is_some()) {
+    for routine in &routines.list {
+        let Some(function) = routine.function else { continue };
         writer.blank();
-        documentation(&mut writer, routines, routine);
-        writer.lines(&format!("{};", head(&spec.name, routine, real, "ABBE_RESTRICT")));
+        let (signature, end) = (function.signature(), operations(routine));
+        documentation(&mut writer, &routines.description, signature, None, Some(&end));
+        writer.lines(&format!("{};", head(&spec.name, signature, real, "ABBE_RESTRICT")));
     }
-    compensated::declaration(&mut writer, spec, real);
+    compensated::declaration(&mut writer, spec, routines, real);
     self_test::declaration(&mut writer, spec);
     writer.lines(END);
     writer.finish()

@@ -2,34 +2,25 @@
 //! would have no digits left.
 
 use super::real::Real;
+use crate::print::compensated::Tolerances;
 
 /// How a step is found, and the numbers that depend on how many digits there are.
 pub(super) struct Solver {
     /// What is needed first, then the step of six joints or fewer, and that of more.
     pub(super) texts: [&'static str; 3],
-    /// What keeps steps bounded, in metres and rad: λ, or its root where no squares are made.
-    pub(super) damping: f64,
-    /// The step below which there is rest, in rad and metres.
-    pub(super) rest: f64,
-    /// Below this, twice the sine of an angle has no square, and is the angle's double.
-    pub(super) tiny: f64,
+    pub(super) tolerances: Tolerances,
 }
 
 impl Solver {
     pub(super) fn of(real: Real) -> Self {
         match real {
-            // As `abbe::compensator`.
-            Real::Double => {
-                Self { texts: [SOLVE, BY_COLUMNS, BY_ROWS], damping: 1e-14, rest: 1e-7, tiny: 1e-150 }
-            }
+            Real::Double => Self { texts: [SOLVE, BY_COLUMNS, BY_ROWS], tolerances: Tolerances::DOUBLE },
             // Steps are bounded where rounding, 6e-8 of a Jacobian of about one metre, would be taken for a direction in which
             // the tool moves; turns, which count a thousandth, are wanted down to a least singular value of 0.1, 1e-4: between
             // the two. A pose is known to about 1e-6 m, which such a singular value makes 1e-5.
             Real::Float => Self {
                 texts: [ORTHOGONALIZE, ORTHOGONAL_COLUMNS, ORTHOGONAL_ROWS],
-                damping: 3e-6,
-                rest: 1e-5,
-                tiny: 1e-18,
+                tolerances: Tolerances { damping: 3e-6, rest: 1e-5, least_sine: 1e-18 },
             },
         }
     }

@@ -1,5 +1,7 @@
 //! Routines as functions.
 
+use abbe_core::Description;
+use abbe_core::function::Signature;
 use abbe_spec::Spec;
 
 use super::operators::{JavaScript, number};
@@ -15,7 +17,16 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     let Statements { list, .. } =
         Statements::new(spec, &routines.description, routine, &JavaScript(&spec.tables));
     writer.blank();
-    documentation(writer, routines, routine);
+    writer.lines("/**");
+    if let Some(function) = routine.function {
+        let signature = function.signature();
+        let margin = ["margin", "`cos ρ`; where that is 0, rows 4–6 are not finite."];
+        let behind = signature.has_margin(routines.description.orientation).then_some(margin);
+        documentation(writer, &routines.description, signature, behind);
+        writer.documentation_line("");
+    }
+    writer.documentation(&format!("{}.", operations(routine)));
+    writer.lines(" */");
     let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
     let arguments: Vec<&str> = given.map(|array| array.name).collect();
     let export = if routine.function.is_some() { "export " } else { "" };
@@ -30,43 +41,34 @@ pub(super) fn function(writer: &mut Writer, spec: &Spec, routines: &Routines, ro
     writer.close("}");
 }
 
-fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
-    writer.lines("/**");
-    if let Some(function) = routine.function {
-        let signature = function.signature();
-        writer.documentation(routine.documentation);
-        writer.documentation_line("");
-        let numbers = |array: &abbe_core::function::Array| {
-            let shape = array.shape.iter().map(|count| count.value(&routines.description).to_string());
-            format!(
-                "{} Numbers: {}; {}.",
-                array.documentation,
-                shape.collect::<Vec<_>>().join(" × "),
-                array.unit
-            )
-        };
-        for array in signature.arguments {
-            writer.documentation(&format!("@param {{Float64Array}} {} {}", array.name, numbers(array)));
-        }
-        let margin = routine.arrays.iter().any(|array| array.role == Role::Margin);
-        match signature.results {
-            [array] if !margin => {
-                writer.documentation(&format!("@returns {{Float64Array}} {}", numbers(array)));
-            }
-            several => {
-                writer.documentation("@returns {object} These by their names:");
-                for array in several {
-                    writer.documentation(&format!("- `{}`: {}", array.name, numbers(array)));
-                }
-                if margin {
-                    writer.documentation("- `margin`: `cos ρ`; where that is 0, rows 4–6 are not finite.");
-                }
-            }
-        }
-        writer.documentation_line("");
+/// The documentation of a function: its signature, and what it returns behind the results.
+pub(super) fn documentation(
+    writer: &mut Writer,
+    description: &Description,
+    signature: &Signature,
+    behind: Option<[&str; 2]>,
+) {
+    writer.documentation(signature.documentation);
+    writer.documentation_line("");
+    let numbers = |array: &abbe_core::function::Array| {
+        let shape = array.shape.iter().map(|count| count.value(description).to_string());
+        format!("{} Numbers: {}; {}.", array.documentation, shape.collect::<Vec<_>>().join(" × "), array.unit)
+    };
+    for array in signature.arguments {
+        writer.documentation(&format!("@param {{Float64Array}} {} {}", array.name, numbers(array)));
     }
-    writer.documentation(&format!("{}.", operations(routine)));
-    writer.lines(" */");
+    match (signature.results, behind) {
+        ([array], None) => writer.documentation(&format!("@returns {{Float64Array}} {}", numbers(array))),
+        (several, behind) => {
+            writer.documentation("@returns {object} These by their names:");
+            for array in several {
+                writer.documentation(&format!("- `{}`: {}", array.name, numbers(array)));
+            }
+            if let Some([name, documentation]) = behind {
+                writer.documentation(&format!("- `{name}`: {documentation}"));
+            }
+        }
+    }
 }
 
 struct Printer<'p> {

@@ -1,8 +1,10 @@
 //! JavaScript: an ES module of pure functions on `Float64Array`.
 //!
 //! Every function makes its results anew, flat and in the order in which the Rust arrays have their numbers. One result
-//! is returned as it is, several by their names. `functions` prints routines, `operators` what expressions are made of.
+//! is returned as it is, several by their names. `functions` prints routines, `operators` what expressions are made of,
+//! `compensated` the corrected commands.
 
+mod compensated;
 mod functions;
 mod operators;
 
@@ -52,6 +54,7 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
     for routine in &routines.list {
         function(&mut writer, spec, routines, routine);
     }
+    compensated::compensated(&mut writer, spec, routines);
     writer.finish()
 }
 

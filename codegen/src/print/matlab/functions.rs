@@ -1,6 +1,7 @@
 //! Routines as functions.
 
-use abbe_core::function;
+use abbe_core::function::{self, Signature};
+use abbe_core::{Description, Function};
 use abbe_spec::Spec;
 
 use super::operators::{Matlab, number};
@@ -28,44 +29,74 @@ pub(super) fn function(
     writer.blank();
     let (name, arguments) = (routine.name, arguments.join(", "));
     writer.begin(&format!("function [{}] = {name}({arguments})", results.join(", ")));
-    documentation(writer, routines, routine);
+    match routine.function.map(Function::signature) {
+        Some(signature) => {
+            let margin = ["margin", "cos(rho); where that is 0, rows 4-6 are not finite."];
+            let behind = signature.has_margin(routines.description.orientation).then_some(margin);
+            documentation(writer, &routines.description, signature, behind);
+        }
+        None => writer.documentation(routine.documentation),
+    }
+    writer.documentation_line("");
+    writer.documentation(&format!("{}.", operations(routine)));
+    if routine.function.is_some() {
+        let given = routine.arrays.iter().filter(|array| array.role == Role::Argument);
+        checks(writer, class, given.map(|array| (array.name, array.len(&routines.description))));
+    }
     let mut printer = Printer { writer, class, flat: Flat { routines, routine } };
-    printer.begin();
     list.iter().for_each(|statement| printer.statement(statement));
     printer.end();
     writer.close("end");
 }
 
-fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
-    writer.documentation(routine.documentation);
-    if let Some(function) = routine.function {
-        let signature = function.signature();
-        let shape = |array: &function::Array| {
-            let counts = array.shape.iter().rev().map(|count| count.value(&routines.description).to_string());
-            let shape: Vec<String> = counts.collect();
-            match &shape[..] {
-                [one] => format!("{one} numbers"),
-                several => several.join(" x "),
-            }
-        };
-        let arrays = signature.arguments.iter().map(|array| (array, "takes"));
-        for (array, way) in arrays.chain(signature.results.iter().map(|array| (array, "gives"))) {
-            writer.documentation_line("");
-            writer.documentation(&format!(
-                "{way} {}: {} {}; {}.",
-                array.name,
-                array.documentation,
-                shape(array),
-                array.unit
-            ));
+/// What a function takes and gives, and what it gives behind its results.
+pub(super) fn documentation(
+    writer: &mut Writer,
+    description: &Description,
+    signature: &Signature,
+    behind: Option<[&str; 2]>,
+) {
+    let shape = |array: &function::Array| {
+        let counts = array.shape.iter().rev().map(|count| count.value(description).to_string());
+        let shape: Vec<String> = counts.collect();
+        match &shape[..] {
+            [one] => format!("{one} numbers"),
+            several => several.join(" x "),
         }
-        if signature.has_margin(routines.description.orientation) {
-            writer.documentation_line("");
-            writer.documentation("gives margin: cos(rho); where that is 0, rows 4-6 are not finite.");
+    };
+    writer.documentation(signature.documentation);
+    let arrays = signature.arguments.iter().map(|array| (array, "takes"));
+    for (array, way) in arrays.chain(signature.results.iter().map(|array| (array, "gives"))) {
+        writer.documentation_line("");
+        writer.documentation(&format!(
+            "{way} {}: {} {}; {}.",
+            array.name,
+            array.documentation,
+            shape(array),
+            array.unit
+        ));
+    }
+    if let Some([name, documentation]) = behind {
+        writer.documentation_line("");
+        writer.documentation(&format!("gives {name}: {documentation}"));
+    }
+}
+
+/// What is given must have its size; inputs must be in their ranges.
+pub(super) fn checks<'a>(
+    writer: &mut Writer,
+    class: &str,
+    arguments: impl Iterator<Item = (&'a str, usize)>,
+) {
+    for (name, count) in arguments {
+        writer.lines(&format!("{class}.is_given('{name}', {name}, {count});"));
+        if name == "u" && count > 0 {
+            let outside = format!("u(:) < {class}.ranges(:, 1) | u(:) > {class}.ranges(:, 2)");
+            writer.begin(&format!("if any({outside})"));
+            writer.lines("error('abbe:range', 'an input is not in its range');");
+            writer.close("end");
         }
     }
-    writer.documentation_line("");
-    writer.documentation(&format!("{}.", operations(routine)));
 }
 
 struct Printer<'p> {
@@ -101,26 +132,6 @@ impl Printer<'_> {
                 format!("{name}({}:{end})", begin + 1)
             }
             (_, [_, end]) => format!("{name}(1:{end})"),
-        }
-    }
-
-    /// What is given must have its size; inputs must be in their ranges.
-    fn begin(&mut self) {
-        if self.flat.routine.function.is_none() {
-            return;
-        }
-        for (index, array) in self.flat.routine.arrays.iter().enumerate() {
-            let (name, class) = (array.name, self.class);
-            if array.role == Role::Argument {
-                let count = self.flat.len(index);
-                self.writer.lines(&format!("{class}.is_given('{name}', {name}, {count});"));
-            }
-            if array.role == Role::Argument && name == "u" && self.flat.len(index) > 0 {
-                let outside = format!("u(:) < {class}.ranges(:, 1) | u(:) > {class}.ranges(:, 2)");
-                self.writer.begin(&format!("if any({outside})"));
-                self.writer.lines("error('abbe:range', 'an input is not in its range');");
-                self.writer.close("end");
-            }
         }
     }
 

@@ -1,8 +1,9 @@
 //! Matlab and Octave: a class of static functions, one configuration at a time.
 //!
 //! Arrays are matrices as Matlab keeps them, which is the order in which the Rust arrays have their numbers. `functions`
-//! prints routines, `operators` what expressions are made of.
+//! prints routines, `operators` what expressions are made of, `compensated` the corrected commands.
 
+mod compensated;
 mod functions;
 mod operators;
 
@@ -39,6 +40,7 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
     for routine in &routines.list {
         function(&mut writer, &class, spec, routines, routine);
     }
+    compensated::compensated(&mut writer, &class, spec, routines);
     writer.close("end");
     writer.close("end");
     SourceFile { name: format!("{class}.m"), text: writer.finish() }
@@ -48,6 +50,7 @@ pub(super) fn class(spec: &Spec, routines: &Routines) -> SourceFile {
 fn class_name(spec: &Spec, routines: &Routines) -> String {
     let mut name = spelled(&spec.name);
     let own = ["only_real", "side", "least", "greatest", "look_up", "is_given"];
+    let own = [&own[..], &compensated::FUNCTIONS].concat();
     let is_taken = |name: &str| {
         own.contains(&name)
             || PROPERTIES.contains(&name)

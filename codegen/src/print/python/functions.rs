@@ -1,21 +1,27 @@
 //! Routines as functions.
 
-use abbe_core::{Quantity, function};
+use abbe_core::function::{self, Signature};
+use abbe_core::{Description, Quantity};
 use abbe_spec::Spec;
 
 use super::operators::{Python, number};
 use crate::print::flat::Flat;
-use crate::print::header::operations;
 use crate::print::layout::Writer;
 use crate::print::statement::Statement;
 use crate::print::statements::Statements;
 use crate::print::text::harmless;
 use crate::program::{Array, Place, Role, Routine, Routines, Row};
 
-/// What is called from outside: it looks at shapes, and gives results the shapes that users expect.
-pub(super) fn face(writer: &mut Writer, routines: &Routines, routine: &Routine) {
-    let Some(function) = routine.function else { return };
-    let signature = function.signature();
+/// What is called from outside: it looks at shapes, and gives results the shapes that users expect. Behind the results there may
+/// be one more with a name and a documentation.
+pub(super) fn face(
+    writer: &mut Writer,
+    description: &Description,
+    signature: &Signature,
+    behind: Option<[&str; 2]>,
+    end: Option<&str>,
+) {
+    let name = signature.name;
     let optional = signature.arguments.iter().all(|array| matches!(array.name, "q" | "s" | "u"));
     let arguments: Vec<String> = signature
         .arguments
@@ -24,43 +30,51 @@ pub(super) fn face(writer: &mut Writer, routines: &Routines, routine: &Routine) 
         .collect();
     writer.blank();
     writer.blank();
-    writer.begin(&format!("def {}({}):", routine.name, arguments.join(", ")));
-    documentation(writer, routines, routine);
+    writer.begin(&format!("def {name}({}):", arguments.join(", ")));
+    documentation(writer, description, signature, behind, end);
     let shape = |array: &function::Array| {
-        let counts = array.shape.iter().map(|count| format!("{},", count.value(&routines.description)));
+        let counts = array.shape.iter().map(|count| format!("{},", count.value(description)));
         format!("({})", counts.collect::<Vec<_>>().join(" "))
     };
     let given = signature.arguments.iter().map(|array| format!("{0}=({0}, {1})", array.name, shape(array)));
     let names: Vec<&str> = signature.arguments.iter().map(|array| array.name).collect();
     let names = names.join(", ");
     writer.lines(&format!("batch, {names} = _given({})", given.collect::<Vec<_>>().join(", ")));
-    let has_margin = signature.has_margin(routines.description.orientation);
     let shaped = |array: &function::Array| {
         let reshaped = format!("{}.reshape(batch + {})", array.name, shape(array));
         if is_matrix(array) { format!("np.swapaxes({reshaped}, -1, -2)") } else { reshaped }
     };
-    let results = signature.results.iter().map(|array| array.name).chain(has_margin.then_some("margin"));
-    writer.lines(&format!("{} = _{}(batch, {names})", results.collect::<Vec<_>>().join(", "), routine.name));
+    let behind = behind.map(|[name, _]| name);
+    let results: Vec<&str> = signature.results.iter().map(|array| array.name).chain(behind).collect();
+    writer.lines(&format!("{} = _{name}(batch, {names})", results.join(", ")));
     let returned: Vec<String> =
-        signature.results.iter().map(shaped).chain(has_margin.then(|| "margin".to_owned())).collect();
+        signature.results.iter().map(shaped).chain(behind.map(str::to_owned)).collect();
     writer.lines(&format!("return {}", returned.join(", ")));
     writer.end();
 }
+
+/// The margin behind the results of a function, and what it is.
+pub(super) const MARGIN: [&str; 2] =
+    ["margin", "`cos ρ`; where that is 0, the rows of the orientation are not finite."];
 
 /// Whether the numbers of an array are columns of matrices.
 fn is_matrix(array: &function::Array) -> bool {
     array.quantity == Quantity::Pose || array.name == "columns"
 }
 
-fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
-    let Some(function) = routine.function else { return };
-    let signature = function.signature();
+fn documentation(
+    writer: &mut Writer,
+    description: &Description,
+    signature: &Signature,
+    behind: Option<[&str; 2]>,
+    end: Option<&str>,
+) {
     writer.lines("r\"\"\"");
-    writer.documentation(routine.documentation);
+    writer.documentation(signature.documentation);
     writer.documentation_line("");
     let shape = |array: &function::Array| {
         let mut shape: Vec<String> =
-            array.shape.iter().map(|count| count.value(&routines.description).to_string()).collect();
+            array.shape.iter().map(|count| count.value(description).to_string()).collect();
         if is_matrix(array) {
             let last = shape.len() - 1;
             shape.swap(last - 1, last);
@@ -71,19 +85,18 @@ fn documentation(writer: &mut Writer, routines: &Routines, routine: &Routine) {
         writer.documentation(&format!("{}: {} {}", array.name, array.documentation, shape(array)));
     }
     writer.documentation_line("");
-    let has_margin = signature.has_margin(routines.description.orientation);
-    let several = if signature.results.len() > 1 || has_margin { ", in this order" } else { "" };
+    let several = if signature.results.len() > 1 || behind.is_some() { ", in this order" } else { "" };
     writer.documentation(&format!("Returns{several}:"));
     for array in signature.results {
         writer.documentation(&format!("{}: {} {}", array.name, array.documentation, shape(array)));
     }
-    if has_margin {
-        writer.documentation(
-            "margin: `cos ρ`; where that is 0, the rows of the orientation are not finite. Shape (...).",
-        );
+    if let Some([name, documentation]) = behind {
+        writer.documentation(&format!("{name}: {documentation} Shape (...)."));
     }
-    writer.documentation_line("");
-    writer.documentation(&format!("{}.", operations(routine)));
+    if let Some(end) = end {
+        writer.documentation_line("");
+        writer.documentation(&format!("{end}."));
+    }
     writer.lines("\"\"\"");
 }
 

@@ -2,17 +2,18 @@
 //!
 //! Every function is two: one that looks at what it is given, says what is wrong with it and gives arrays the shapes that
 //! NumPy's users expect, and behind it the routine on flat arrays. `functions` prints both, `operators` what expressions are
-//! made of.
+//! made of, `compensated` the corrected commands.
 
+mod compensated;
 mod functions;
 mod operators;
 
 use abbe_spec::Spec;
 use abbe_spec::expr::Table;
 
-use self::functions::{face, kernel};
+use self::functions::{MARGIN, face, kernel};
 use self::operators::number;
-use super::header::header;
+use super::header::{header, operations};
 use super::layout::Writer;
 use super::records::{quoted, records};
 use super::text::{escaped, harmless};
@@ -62,11 +63,14 @@ pub(super) fn module(spec: &Spec, routines: &Routines) -> String {
         writer.paragraphs(LOOK_UP);
     }
     for routine in &routines.list {
-        if routine.function.is_some() {
-            face(&mut writer, routines, routine);
+        if let Some(function) = routine.function {
+            let (description, signature) = (&routines.description, function.signature());
+            let behind = signature.has_margin(description.orientation).then_some(MARGIN);
+            face(&mut writer, description, signature, behind, Some(&operations(routine)));
         }
         kernel(&mut writer, spec, routines, routine);
     }
+    compensated::compensated(&mut writer, spec, routines);
     writer.finish()
 }
 

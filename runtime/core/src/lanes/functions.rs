@@ -6,51 +6,26 @@ pub trait Named {
     const FUNCTION: crate::Function;
 }
 
-/// Every function, its name in generated code, and what it takes and fills, as its
-/// [`Signature`](crate::function::Signature) says; handed to the macro `$then`.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! lane_functions {
-    ($then:path $(, $manipulator:ident)?) => {
-        $then! {
-            $($manipulator)?:
-            Transforms transforms(q, s; transforms)
-            Pose pose(q, s; pose)
-            ErrorJacobian error_jacobian(q, s; pose, columns)
-            JointJacobian joint_jacobian(q, s; pose, columns)
-            ParameterJacobian parameter_jacobian(q, s; pose, columns)
-            Effects effects(q, s, u; effects)
-            GeneralizedErrors generalized_errors(q, s, u; errors)
-            ErrorJacobianDistinct error_jacobian_distinct(q, s; pose, distinct)
-            Displacement displacement(q, s, errors; displacement)
-            Covariance covariance(q, s, variances; covariance)
-            PredictedDisplacement predicted_displacement(q, s, u; displacement)
-            SourceDisplacements source_displacements(q, s, u; displacements)
-            RealPose real_pose(q, s, u; pose)
-            DrawnPose drawn_pose(q, s, u, magnitudes; pose)
-            CompensatorStep compensator_step(q, s, u; pose, columns)
-        }
-    };
-}
-
 /// Lets the functions of a generated module be named for batches.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! evaluate_functions {
-    ($manipulator:ident: $($function:ident $raw:ident($($argument:ident),+; $($result:ident),+))+) => {$(
+    ($manipulator:ident: $($function:ident = $name:ident($($argument:ident),+) -> ($($result:ident),+) $($oriented:ident)?:
+        $documentation:literal $(, $note:literal)?;)+) => {$(
         impl $crate::lanes::Evaluate<$crate::lanes::$function> for $manipulator {
             #[inline(always)]
             fn evaluate<T: $crate::Scalar>(&self, mut arguments: &[T], mut results: &mut [T]) -> Option<()> {
                 $(let $argument = $crate::lanes::Rows::<T>::take(&mut arguments)?;)+
                 $(let $result = $crate::lanes::Rows::<T>::fill(&mut results)?;)+
-                $crate::lanes::put_margin::<T, _>(raw::$raw::<T>($($argument,)+ $($result),+), results)
+                $crate::lanes::put_margin::<T, _>(raw::$name::<T>($($argument,)+ $($result),+), results)
             }
         }
     )+};
 }
 
-macro_rules! names {
-    (: $($function:ident $raw:ident $arrays:tt)+) => {
+macro_rules! types {
+    (: $($function:ident = $name:ident $arguments:tt -> $results:tt $($oriented:ident)?:
+        $documentation:literal $(, $note:literal)?;)+) => {
         $(
             #[doc = concat!("[`Function::", stringify!($function), "`](crate::Function::", stringify!($function), ").")]
             #[derive(Clone, Copy, Debug)]
@@ -87,4 +62,4 @@ macro_rules! names {
         }
     };
 }
-crate::lane_functions!(names);
+crate::for_each_function!(types);

@@ -5,14 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use abbe::compensator::compensate;
-use abbe::{Function, Manipulator, Orientation, Pose, VariableKind};
+use abbe::function::COMPENSATED;
+use abbe::{Function, Manipulator, Orientation};
 use abbe_codegen::print::{Language, Real};
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
 use abbe_spec::Spec;
 use abbe_tests::chains::{coupled_joints, long_chain};
-use abbe_tests::languages::{NAMES, arguments, configurations};
+use abbe_tests::languages::{NAMES, arguments, assert_compensated, configurations};
 use abbe_tests::needs::{Missing, Tests, tool};
 use abbe_tests::{is_tested, specs};
 
@@ -150,10 +150,11 @@ fn assert_equal(spec: Spec, count: usize) {
     let given = configurations(&robot, count);
     let mut found = called(&["cc"], folder.path(), &robot, Real::Double, &given).into_iter();
     assert_eq!(found.next(), Some(0.0), "{name}: the self-test");
+    let evaluate = |function: Function, given: &[f64]| robot.evaluate(function, given).unwrap();
     let euler = robot.description().orientation == Orientation::EulerYzx;
     for given in &given {
         for function in Function::ALL {
-            let mut expected = robot.evaluate(function, &arguments(&robot, function, given)).unwrap();
+            let mut expected = evaluate(function, &arguments(&robot, function.signature(), given));
             let has_margin = function.signature().has_margin(robot.description().orientation);
             expected.truncate(expected.len() - usize::from(has_margin));
             let status = found.next().unwrap();
@@ -167,44 +168,9 @@ fn assert_equal(spec: Spec, count: usize) {
                 );
             }
         }
-        assert_compensated(&robot, given, &mut found);
+        let status = found.next().unwrap();
+        let numbers: Vec<f64> = found.by_ref().take(COMPENSATED.results_len(robot.description())).collect();
+        assert_compensated(&robot, evaluate, given, &numbers, status == 0.0);
     }
     assert_eq!(found.next(), None, "{name}");
-}
-
-/// What C makes of commands, against the same in Rust.
-fn assert_compensated(robot: &Interpreter, given: &[f64], found: &mut impl Iterator<Item = f64>) {
-    let description = robot.description();
-    let [q, s, u] = arguments_of_step(robot, given);
-    let target = robot.pose(&q, &s).unwrap();
-    let expected = compensate(description, &target, &q, vec![[0.0; 6]; q.len()], |q: &Vec<f64>, columns| {
-        let step = robot.evaluate(Function::CompensatorStep, &[&q[..], &s, &u].concat())?;
-        let (pose, twists) = step.split_at(12);
-        columns.as_flattened_mut().copy_from_slice(twists);
-        Ok(Pose(std::array::from_fn(|i| std::array::from_fn(|j| pose[3 * i + j]))))
-    });
-    let expected = expected.unwrap();
-    let status = found.next().unwrap();
-    assert_eq!(status == 0.0, expected.converged, "{}: {status}", description.name);
-    let metre = 1.0 / description.length.in_metres();
-    let variables = description.variables.iter().map(|variable| match variable.kind {
-        VariableKind::Revolute => 1.0,
-        VariableKind::Prismatic => metre,
-    });
-    // One metre or one rad of each number.
-    let rows = [metre, metre, metre, 1.0, 1.0, 1.0];
-    let units = variables.chain(rows).chain(rows);
-    for (expected, unit) in expected.q.iter().chain(&expected.before).chain(&expected.after).zip(units) {
-        let number = found.next().unwrap();
-        let name = &description.name;
-        assert!((number - expected).abs() <= 1e-9 * unit, "{name}: {number} and {expected}");
-    }
-}
-
-fn arguments_of_step(robot: &Interpreter, given: &[f64]) -> [Vec<f64>; 3] {
-    let all = arguments(robot, Function::CompensatorStep, given);
-    let description = robot.description();
-    let (q, rest) = all.split_at(description.variables.len());
-    let (s, u) = rest.split_at(description.parameters.len());
-    [q.to_vec(), s.to_vec(), u.to_vec()]
 }

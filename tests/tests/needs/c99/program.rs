@@ -4,10 +4,12 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use abbe::function::{COMPENSATED, Signature};
 use abbe::{Function, Manipulator};
 use abbe_codegen::print::{Language, Real};
 use abbe_interpreter::Interpreter;
 use abbe_spec::Spec;
+use abbe_tests::languages::given_arrays;
 
 /// How it is compiled. Without `-ffp-contract=off` a compiler may round `a * b + c` once.
 pub(crate) const STRICT: [&str; 9] = [
@@ -62,23 +64,16 @@ pub(crate) fn succeeds(command: &mut Command) -> Vec<u8> {
 /// A program that reads configurations and writes what the functions give.
 fn caller(robot: &Interpreter, real: Real) -> String {
     let description = robot.description();
-    let (name, errors) = (&description.name, 6 * description.frames.len());
-    let sizes = [
-        ("q", description.variables.len()),
-        ("s", description.parameters.len()),
-        ("u", description.inputs.len()),
-        ("errors", errors),
-        ("variances", errors),
-        ("magnitudes", description.sources.len()),
-    ];
+    let name = &description.name;
+    let sizes: Vec<(&str, usize)> =
+        given_arrays().into_iter().map(|array| (array.name, array.len(description))).collect();
     let count: usize = sizes.iter().map(|(_, size)| size).sum();
     let mut first = 0;
-    let given = sizes.map(|(name, size)| {
+    let given = sizes.into_iter().map(|(name, size)| {
         first += size;
         format!("    const {real} *{name} = given + {}; (void){name};\n", first - size)
     });
-    let call = |function: Function| {
-        let signature = function.signature();
+    let call = |signature: &Signature| {
         let arrays = signature.results.iter().map(|array| (array.name, array.len(description)));
         let declared = arrays.clone().map(|(name, len)| format!("{real} {name}[{}]; ", len.max(1)));
         let names = signature.arguments.iter().chain(signature.results).map(|array| array.name);
@@ -91,17 +86,15 @@ fn caller(robot: &Interpreter, real: Real) -> String {
             written.collect::<String>()
         )
     };
-    let variables = description.variables.len();
+    let functions = Function::ALL.map(Function::signature).into_iter().chain([&COMPENSATED]);
     format!(
         "#include \"{name}.h\"\n#include <stdio.h>\n\
          static void put_one(double number) {{ fwrite(&number, sizeof number, 1, stdout); }}\n\
          static void put(const {real} *numbers, int count) {{ for (int k = 0; k < count; k++) {{ put_one((double)numbers[k]); }} }}\n\
          int main(void)\n{{\n    double read[{count}];\n    {real} given[{count}];\n    int status = {name}_self_test();\n    put_one(status);\n    \
          while (fread(read, sizeof(double), {count}, stdin) == {count}) {{\n    \
-         for (int k = 0; k < {count}; k++) {{ given[k] = ({real})read[k]; }}\n{}{}    \
-         {{ {real} corrected[{variables}]; {real} before[6]; {real} after[6]; status = {name}_compensated(q, s, u, corrected, before, after); \
-         put_one(status); put(corrected, {variables}); put(before, 6); put(after, 6); }}\n    }}\n    return 0;\n}}\n",
-        given.concat(),
-        Function::ALL.map(call).concat(),
+         for (int k = 0; k < {count}; k++) {{ given[k] = ({real})read[k]; }}\n{}{}    }}\n    return 0;\n}}\n",
+        given.collect::<String>(),
+        functions.map(call).collect::<String>(),
     )
 }
