@@ -87,10 +87,10 @@ function x = solve(m, b)
                 m(i, j) = rest / m(j, j);
             end
         end
-        x(i) = (x(i) - m(i, 1:i - 1) * x(1:i - 1)) / m(i, i);
+        x(i) = (x(i) - m(i, 1:i - 1) * x(1:i - 1, 1)) / m(i, i);
     end
     for i = count:-1:1
-        x(i) = (x(i) - m(i + 1:count, i)' * x(i + 1:count)) / m(i, i);
+        x(i) = (x(i) - m(i + 1:count, i)' * x(i + 1:count, 1)) / m(i, i);
     end
 end
 
