@@ -31,7 +31,7 @@ const BY_COMMAND: usize = 5;
 fn rows(robot: &Interpreter, classes: &[Class]) -> Vec<Row> {
     let given = configurations(robot, 2 * EACH);
     let row = |(index, given): (usize, &Vec<f64>)| {
-        let u = arguments(robot, &Function::RealPose.signature(), given);
+        let u = arguments(robot, Function::RealPose.signature(), given);
         let (q, rest) = u.split_at(robot.description().variables.len());
         let (s, u) = rest.split_at(robot.description().parameters.len());
         let drawn = &given[given.len() - classes.len()..];
