@@ -57,7 +57,7 @@ pub(crate) fn is_alone(report: &str) {
     assert_eq!(tag("<figure>"), tag("<svg"));
     for svg in report.split("<svg").skip(1) {
         let svg = &svg[..svg.find("</svg>").expect("its end")];
-        is_drawn("a figure of the page", &format!("<svg{svg}</svg>"));
+        is_drawn("a figure of the page", &format!("<svg xmlns=\"http://www.w3.org/2000/svg\"{svg}</svg>"));
     }
     assert!(report.len() < 1_000_000, "{} bytes", report.len());
 }

@@ -113,7 +113,7 @@ impl Errors<'_> {
             Mark::lines(colour, 1.1, lines),
             Mark::points(Colour::INK, 1.0, shown.iter().map(from).collect()),
         ];
-        Panel::equal_space(if self.names.before.is_empty() { 500.0 } else { 300.0 }, axes, 2, marks)
+        Panel::equal_space(if self.names.before.is_empty() { 500.0 } else { 270.0 }, axes, 2, marks)
     }
 
     fn over_rows(&self) -> Scene {

@@ -29,7 +29,7 @@ pub(super) fn scene(mesh: &Mesh, over: [Over; 2], figure: &Named, report: &Repor
         ];
         let view = View::Space { axes, up: 2, equal: false, marks: vec![Mark::surface(corners, range)] };
         let title = format!("{} {} ({})", figure.rows(report)[axis], figure.what(), errors.unit);
-        Panel { title, published: published(axis, mesh, figure, report), height: 330.0, view }
+        Panel { title, published: published(axis, mesh, figure, report), height: 270.0, view }
     });
     let subtitle =
         format!("The {} farthest from zero where others vary too{}", figure.what(), figure.remark());

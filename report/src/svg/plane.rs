@@ -18,11 +18,11 @@ pub(super) struct Plane<'a> {
 
 impl Plane<'_> {
     fn y_ticks(y: &Axis, height: f64) -> Vec<Tick> {
-        ticks(y, ((height / 42.0) as usize).clamp(2, 8))
+        ticks(y, ((height / 30.0) as usize).clamp(2, 8))
     }
 
     fn x_ticks(x: &Axis, width: f64) -> Vec<Tick> {
-        let each = if x.scale == Scale::Dates { 100.0 } else { 72.0 };
+        let each = if x.scale == Scale::Dates { 90.0 } else { 54.0 };
         ticks(x, ((width / each) as usize).clamp(2, 10))
     }
 

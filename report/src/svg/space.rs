@@ -75,7 +75,7 @@ impl Space<'_> {
     pub(super) fn draw(&self, canvas: &mut Canvas, area: &Area) {
         let camera = self.camera(area);
         let all: [Vec<Tick>; 3] = std::array::from_fn(|axis| {
-            let each = if axis == self.up { 34.0 } else { 40.0 };
+            let each = if axis == self.up { 26.0 } else { 34.0 };
             ticks(&self.axes[axis], ((camera.length(axis) / each) as usize).clamp(1, 8))
         });
         self.walls(canvas, &camera, &all);

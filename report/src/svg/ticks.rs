@@ -26,9 +26,9 @@ pub(super) fn ticks(axis: &Axis, about: usize) -> Vec<Tick> {
 
 fn linear([least, largest]: [f64; 2], unit: &str, about: usize) -> Vec<Tick> {
     let span = (largest - least) / about.max(1) as f64;
-    let step = if unit == "deg" && (1.0..90.0).contains(&span) {
-        let steps = [2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0];
-        steps.into_iter().find(|step| *step >= span).unwrap_or(90.0)
+    let step = if unit == "deg" && (1.0..180.0).contains(&span) {
+        let steps = [2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0];
+        steps.into_iter().find(|step| *step >= span).unwrap_or(180.0)
     } else {
         let power = 10f64.powf(span.log10().floor());
         let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
