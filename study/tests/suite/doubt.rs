@@ -55,13 +55,18 @@ fn arm() -> Machine {
 
 /// A map whose columns are called as the variables, in deg and m.
 fn map(machine: &Machine, base: &str) -> Map {
+    map_in("m", machine, base)
+}
+
+/// The same with points in another unit.
+fn map_in(unit: &str, machine: &Machine, base: &str) -> Map {
     let joints = machine.spec.variables.iter().map(|variable| {
         let name = &variable.name;
         format!("{name} = {{ column = \"{name}\", unit = \"deg\" }}\n")
     });
     let joints: String = joints.collect();
     let text = format!(
-        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"{base}\"\n\n[joints]\n{joints}\n[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"m\"\n"
+        "[data]\nuncertainty = \"0.02 mm\"\nbase = \"{base}\"\n\n[joints]\n{joints}\n[point]\ncolumns = [\"x\", \"y\", \"z\"]\nunit = \"{unit}\"\n"
     );
     Map::parse("map.toml", &text, &machine.spec).unwrap()
 }
@@ -214,7 +219,8 @@ fn what_draws_all_points_together_is_no_reading() {
         let said = measured(&machine, &map, &data).unwrap();
         assert!(said.len() == 1 && said[0].contains(DOUBT), "{seed}: {said:?}");
     }
-    // What is read so and was not meant so is found as before: in mm, and in rad.
+    // Points in m and joints in rad that the map calls mm and deg are found.
+    let map = map_in("mm", &machine, "unknown");
     let mut data = simulated(&machine, &map, 9);
     for row in &mut data.observations {
         row.q.iter_mut().for_each(|q| *q *= DEGREE);
