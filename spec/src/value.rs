@@ -15,7 +15,7 @@ use crate::expr::{
 ///
 /// ```
 /// # use abbe_spec::document::Document;
-/// # use abbe::LengthUnit;
+/// # use abbe_core::LengthUnit;
 /// # use abbe_spec::expr::Dimension;
 /// # use abbe_spec::value::parse_value;
 /// let mut document = Document::new("--q", "1.2m,1200");

@@ -90,7 +90,7 @@ fn what_cannot_be_reached_is_counted_by_reason() {
     let somewhere = listed(&Pps, configurations).unwrap();
     let mut visited = Vec::new();
     let budget = error_budget(&OneByOne(Pps), &somewhere, BudgetOptions::default(), &mut |row: &Row| {
-        visited.push(row.index)
+        visited.push(row.index);
     })
     .unwrap();
     assert_eq!((budget.configurations, visited), (1, vec![3500]));

@@ -90,7 +90,8 @@ fn better(setup: &Setup, map: &Map, rows: &[Observation], here: Option<Miss>) ->
 
 /// Rows with a pose or the point of one target, all from one station: the target and the station of which there are most.
 fn searched<'r>(setup: &Setup, rows: &'r [Observation]) -> Vec<(&'r Observation, Pose)> {
-    let mut groups: BTreeMap<(u32, Option<usize>), Vec<(&Observation, Pose)>> = BTreeMap::new();
+    type Seen<'r> = Vec<(&'r Observation, Pose)>;
+    let mut groups: BTreeMap<(u32, Option<usize>), Seen<'_>> = BTreeMap::new();
     for row in rows {
         seen(&setup.ideal, row, |target, point| {
             let pose = match &row.measured {
@@ -129,7 +130,7 @@ fn stages_of(setup: &Setup, rows: &[Observation]) -> impl Iterator<Item = Vec<Tr
     let several = move || {
         let all = signs.flat_map(|signs| {
             let reversed = reversed(signs);
-            exchanged.iter().map(move |order| [&order[..], &[reversed.clone()]].concat()).collect::<Vec<_>>()
+            exchanged.iter().map(move |order| [&order[..], std::slice::from_ref(&reversed)].concat()).collect::<Vec<_>>()
         });
         all.map(trial).collect()
     };
