@@ -2,17 +2,17 @@
 
 use std::process;
 
-use crate::output::temporary::Begun;
+use crate::output::folders;
 
-/// Ends the process with that status, without what was begun.
+/// Ends the process with that status, without folders that were made and are still empty.
 fn end(status: i32) -> ! {
-    // Held to the end, by a name: no other file is begun, and files that are going to their places are there.
-    let begun = Begun::hold();
-    begun.clear();
+    // Held to the end, by a name: no other folder is made, and files that are going to their places are there.
+    let made = folders::hold();
+    folders::remove_empty(&made);
     process::exit(status)
 }
 
-/// From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP remove the temporary files and end the process.
+/// From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP remove what was begun and end the process.
 ///
 /// To be called before there are other threads: the signals are blocked in all of them, and one waits.
 #[cfg(unix)]
@@ -25,7 +25,7 @@ pub(crate) fn clean_up_on_signals() {
     if !hangup_is_ignored() {
         signals.add(Signal::SIGHUP);
     }
-    // Without this the files stay behind as temporary ones; nothing else is lost.
+    // Without this folders stay behind, empty.
     if signals.thread_block().is_ok() {
         std::thread::spawn(move || {
             if let Ok(signal) = signals.wait() {
@@ -46,11 +46,11 @@ fn hangup_is_ignored() -> bool {
     ignored.is_some_and(|mask| mask & (1 << (nix::sys::signal::Signal::SIGHUP as u32 - 1)) != 0)
 }
 
-/// From now on Ctrl-C removes the temporary files and ends the process.
+/// From now on Ctrl-C removes what was begun and ends the process.
 #[cfg(not(unix))]
 pub(crate) fn clean_up_on_signals() {
     const INTERRUPTED: i32 = 130;
-    // Without a handler the files stay behind as temporary ones; nothing else is lost.
+    // Without a handler folders stay behind, empty.
     let _ = ctrlc::set_handler(|| end(INTERRUPTED));
 }
 
@@ -62,7 +62,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::output::temporary;
+    use crate::output::Outputs;
 
     /// In whose folder the process of this name is to work until it ends.
     const WORKING: &str = "ABBE_TEST_WORKING";
@@ -77,8 +77,10 @@ mod tests {
             // As commands do until they hear of the end.
             thread::spawn(move || {
                 loop {
-                    let _ = temporary::folder(&folder.join(name).join("inner"));
-                    let _ = temporary::file(&folder, None);
+                    let mut outputs = Outputs::new(&(), true);
+                    let _ = outputs.folder(&folder.join(name).join("inner"));
+                    let file = outputs.file(&folder.join(format!("{name}.csv")));
+                    let _ = file.and_then(|file| outputs.finish([file.fill("whole")?]));
                 }
             });
         }
@@ -97,9 +99,12 @@ mod tests {
                 .stderr(Stdio::null())
                 .status();
             assert_eq!(status.unwrap().code(), Some(STATUS));
-            let left: Vec<_> =
-                fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.path()).collect();
-            assert!(left.is_empty(), "round {round}: {left:?}");
+            for path in fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()) {
+                let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+                let whole = name == ".abbe-written"
+                    || name.ends_with(".csv") && fs::read_to_string(&path).unwrap() == "whole";
+                assert!(whole, "round {round}: {name}");
+            }
         }
     }
 }

@@ -1,12 +1,9 @@
 //! The closed form of a manipulator as source code.
 
-use std::io::{Cursor, Write};
-
 pub use abbe_codegen::print::{Fmi, Language, Real, SourceFile};
 use abbe_spec::diagnostic::Diagnostics;
-use zip::write::SimpleFileOptions;
-use zip::{DateTime, ZipWriter};
 
+pub use crate::archive::archive;
 use crate::machine::Machine;
 use crate::mistake;
 use crate::notes::Notes;
@@ -34,15 +31,4 @@ impl Generate {
             )),
         }
     }
-}
-
-/// A zip archive of files, as simulators load a functional mock-up unit. The same files give the same bytes: all are of 1980.
-pub fn archive(files: &[SourceFile]) -> Vec<u8> {
-    let options = SimpleFileOptions::DEFAULT.last_modified_time(DateTime::DEFAULT).unix_permissions(0o644);
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    for file in files {
-        archive.start_file(&*file.name, options).expect("there is room in memory, and names differ");
-        archive.write_all(file.text.as_bytes()).expect("there is room in memory");
-    }
-    archive.finish().expect("there is room in memory").into_inner()
 }

@@ -65,6 +65,7 @@ pub mod study_file;
 pub mod workspace;
 
 mod acceptance;
+mod archive;
 mod changes;
 mod extrapolated;
 mod finite;

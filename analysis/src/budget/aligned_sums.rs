@@ -1,5 +1,7 @@
 //! Sums that do not depend on how what is summed was divided.
 
+use core::ops::Range;
+
 /// Sums over consecutive chunks, added in pairs: 2i and 2i + 1, then pairs of pairs, and so on. Which numbers are added is the
 /// same however the chunks were divided, and so is every bit of the sums.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +36,16 @@ impl AlignedSums {
                 self.0.pop();
             }
         }
+    }
+
+    /// Whether these, which may come from a file, are sums of `count` numbers over these chunks.
+    pub(super) fn is_of(&self, chunks: Range<usize>, count: usize) -> bool {
+        let mut expected = Self::default();
+        chunks.for_each(|chunk| expected.append(Self::of(chunk, Vec::new())));
+        let is_alike = |(node, expected): (&Node, &Node)| {
+            (node.first, node.level, node.sums.len()) == (expected.first, expected.level, count)
+        };
+        self.0.len() == expected.0.len() && self.0.iter().zip(&expected.0).all(is_alike)
     }
 
     /// All of them; the last ones, which have no pair, are added first. Nothing if there were no chunks.

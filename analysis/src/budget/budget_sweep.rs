@@ -125,14 +125,22 @@ impl<'a> BudgetSweep<'a> {
         Ok(total)
     }
 
-    /// Whether a part, which may come from elsewhere, can be one of this sweep.
+    /// Whether a part, which may come from a file, can be one of this sweep.
     pub fn fits(&self, part: &PartialBudget) -> bool {
+        let PartialBudget { chunks, position, orientation, compensation, configurations, unreachable } = part;
+        let description = self.manipulator.description();
         let sources = self.classes.len();
-        part.chunks.start <= part.chunks.end
-            && part.chunks.end <= self.chunks()
-            && part.position.is_of(sources)
-            && part.orientation.is_of(sources)
-            && part.compensation.is_some() == self.residuals.is_some()
+        let mut indices = [position, orientation].into_iter().flat_map(Gathering::indices);
+        let mut remaining = compensation.iter().flat_map(RemainingErrors::indices);
+        chunks.start <= chunks.end
+            && chunks.end <= self.chunks()
+            && position.is_of(sources, chunks.clone())
+            && orientation.is_of(sources, chunks.clone())
+            && compensation.is_some() == self.residuals.is_some()
+            && configurations.checked_add(unreachable.count) == Some(self.configurations(chunks).len())
+            && unreachable.is_sound(description.variables.len())
+            && indices.all(|index| index < self.workspace.len())
+            && remaining.all(|index| index < self.workspace.len())
     }
 
     /// The budget of what was gathered.

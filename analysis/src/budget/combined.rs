@@ -121,6 +121,15 @@ impl PartialCombined {
         self.outline.merge(&other.outline);
     }
 
+    /// Indices of the configurations that it names.
+    pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
+        let combined = &self.combined;
+        let radii = [combined.repeatable_radius, combined.random_radius, combined.radius];
+        let others = [combined.standard_radius, combined.worst_case_radius, combined.bounded_radius];
+        let extremes = radii.into_iter().chain(others).map(|extreme| extreme.configuration);
+        extremes.chain([combined.ellipsoid.configuration]).flatten()
+    }
+
     /// Of the sum of the repeatable sources.
     pub(super) fn outline(&self) -> &Outline {
         &self.outline

@@ -1,5 +1,7 @@
 //! What is gathered of one measurand: position, or orientation.
 
+use core::ops::Range;
+
 use super::aligned_sums::AlignedSums;
 use super::combined::{self, PartialCombined};
 use super::gains::{self, Gains};
@@ -135,13 +137,20 @@ impl Gathering {
         (sources, combined, gains, self.least_likely.finish())
     }
 
-    /// Whether it is of so many sources.
-    pub(super) fn is_of(&self, sources: usize) -> bool {
+    /// Whether it, which may come from a file, can be of so many sources over these chunks.
+    pub(super) fn is_of(&self, sources: usize, chunks: Range<usize>) -> bool {
         let sound = self.outlines.iter().chain([self.combined.outline()]).all(Outline::is_sound);
         sound
             && self.tallies.len() == sources
             && self.outlines.len() == sources
             && self.gains.len() == sources
+            && self.squares.is_of(chunks, sources + 3)
+    }
+
+    /// Indices of the configurations that it names.
+    pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
+        let worst = self.tallies.iter().filter_map(Tally::worst);
+        worst.chain(self.combined.indices()).chain(self.least_likely.indices())
     }
 }
 

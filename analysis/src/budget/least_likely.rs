@@ -33,6 +33,11 @@ impl LeastLikely {
     }
 
     /// Indices of the configurations.
+    pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
+        self.0.iter().map(|(_, index)| *index)
+    }
+
+    /// Indices of the configurations.
     pub(super) fn finish(self) -> Vec<usize> {
         self.0.into_iter().map(|(_, index)| index).collect()
     }

@@ -107,9 +107,14 @@ impl Outline {
         }
     }
 
-    /// Whether cells have doubled their width no more often than they can.
+    /// Whether the cells, which may come from a file, are some of those of the cube.
     pub(super) fn is_sound(&self) -> bool {
-        self.doubled <= FINEST
+        let is_cell = |cell: &u64| {
+            let (face, place) = (cell >> (2 * FINEST), [cell >> FINEST, *cell]);
+            let edge = 1 << (FINEST - self.doubled);
+            face < 6 && place.iter().all(|place| place & ((1 << FINEST) - 1) < edge)
+        };
+        self.doubled <= FINEST && self.cells.len() <= MOST && self.cells.keys().all(is_cell)
     }
 
     /// The smallest sphere around the cloud, of which some points are known anyway.

@@ -34,6 +34,11 @@ impl RemainingErrors {
         Self::default()
     }
 
+    /// Indices of the configurations that it names.
+    pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
+        [self.residual, self.residual_sum, self.total].into_iter().filter_map(|extreme| extreme.configuration)
+    }
+
     /// Takes in what follows.
     pub(super) fn merge(&mut self, other: &Self) {
         for (here, other) in [

@@ -69,7 +69,13 @@ pub(super) struct Tally {
 impl Tally {
     /// Of no configurations.
     pub(super) fn new() -> Self {
-        Self { least: [f64::INFINITY; 3], largest: [f64::NEG_INFINITY; 4], worst: None, relative: 0.0 }
+        // Finite, so that JSON can hold them.
+        Self { least: [f64::MAX; 3], largest: [f64::MIN; 4], worst: None, relative: 0.0 }
+    }
+
+    /// Index of the configuration where the norm is largest.
+    pub(super) fn worst(&self) -> Option<usize> {
+        self.worst
     }
 
     /// Takes in what follows.
@@ -166,13 +172,13 @@ impl<R: Register> Lane<R> {
 
     /// What was gathered, with the index of the place that is worst; and the sum of the squares of the norm.
     pub(super) fn finish(self, index: impl Fn(usize) -> usize) -> (Tally, f64) {
+        let Some((square, place)) = self.square.finish() else { return (Tally::new(), 0.0) };
         let [a, b, c] = self.largest.map(peak::largest);
-        let worst = self.square.finish();
         let root = |square: f64| square.max(0.0).sqrt();
         let tally = Tally {
             least: self.least.map(peak::least),
-            largest: [a, b, c, worst.map_or(f64::NEG_INFINITY, |(square, _)| root(square))],
-            worst: worst.map(|(_, place)| index(place)),
+            largest: [a, b, c, root(square)],
+            worst: Some(index(place)),
             relative: root(peak::largest(self.relative)),
         };
         (tally, peak::sum(self.squares))

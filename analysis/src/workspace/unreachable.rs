@@ -44,6 +44,19 @@ impl UnreachableSummary {
         }
     }
 
+    /// Whether it, which may come from a file, can be of a manipulator with so many variables.
+    pub(in crate::analysis) fn is_sound(&self, variables: usize) -> bool {
+        let total = self.reasons.iter().try_fold(0, |sum: usize, (_, count)| sum.checked_add(*count));
+        let mut reasons =
+            self.reasons.iter().map(|(reason, _)| reason).chain(self.first.iter().map(|one| &one.reason));
+        total == Some(self.count)
+            && self.first.len() <= self.count.min(LISTED)
+            && reasons.all(|reason| match reason {
+                ReachError::OutsideLimits { variable, .. } => *variable < variables,
+                _ => true,
+            })
+    }
+
     /// Takes in what follows.
     pub(crate) fn append(&mut self, other: Self) {
         self.count += other.count;

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use abbe_study::analyze::parts::Shard;
+use abbe_study::analyze::parts::{Question, Shard};
 use clap::Args;
 
 use super::shared::{Running, Subject, Writing};
@@ -22,7 +22,7 @@ pub(crate) struct Analyze {
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
     /// Draw all errors this often at the worst configuration and at home, on the exact chain with true rotations
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=Question::MOST_DRAWS as u64))]
     pub(crate) monte_carlo: Option<u64>,
     /// Seed of everything random: the draws, and a study's random samples
     #[arg(long, value_name = "S")]

@@ -2,16 +2,19 @@
 
 mod text;
 
+use std::io;
+use std::path::Path;
+
 use abbe_report::Provenance;
 use abbe_spec::Spec;
 use abbe_study::compensate::{Compensate, Report, check_poses};
-use abbe_study::data::{Data, Map};
+use abbe_study::data::{Csv, Data, Map};
 
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, Outputs, Rows, json};
+use crate::output::{Outcome, Outputs, cannot_write, json};
 
 pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -25,14 +28,16 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     let job = Compensate { machine, map, data, poses: arguments.poses, tolerance };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let out = arguments.out.as_deref();
-    let mut commands = out.map(|file| outputs.rows(file, &job.heading())).transpose()?;
+    let failed = |error: io::Error| cannot_write(out.unwrap_or(Path::new("-")), &error);
+    let commands = outputs.wanted(out)?.map(|file| Csv::new(file, &job.heading()));
+    let mut commands = commands.transpose().map_err(failed)?;
     let page = outputs.wanted(arguments.page.report.as_deref())?;
     let mut rows = Vec::new();
     // JSON and pictures are of all rows; a file of commands needs one after the other.
     let keep = arguments.running.json || page.is_some();
     let report = job.each(&mut Console::default(), |row| {
         if let Some(csv) = &mut commands {
-            csv.row(job.label(&row), &row.numbers(&job.map))?;
+            csv.row(job.label(&row), &row.numbers(&job.map)).map_err(failed)?;
         }
         if keep {
             rows.push(row);
@@ -40,7 +45,7 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
         Ok::<_, Failure>(())
     })?;
     let report = Report { rows, ..report };
-    let commands = commands.map(Rows::finish).transpose()?;
+    let commands = commands.map(Csv::finish).transpose().map_err(failed)?;
     let page = page.map(|file| {
         let spec = &job.machine.spec;
         let map = arguments.map.as_ref().map(|_| &job.map);

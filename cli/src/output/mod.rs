@@ -1,17 +1,13 @@
 //! Where results go: stdout, and files that are whole or not there.
 //!
-//! Every file of every command is written by `Outputs`, which knows what the command has read. `place` is where a path
-//! leads, `identity` whether two paths lead to one file; `temporary` are files under names of their own, `pending` those that
-//! wait for their places, `places` puts them there, all or none, and `journal` also if the process is killed meanwhile; `record` knows which files abbe wrote.
+//! Every file of every command is written by `Outputs`, which knows what the command has read. `target` is where a path
+//! leads, `pending` a file that waits for its place; `folders` are those that were made, and `record` knows which files abbe wrote.
 
-mod identity;
-mod journal;
+pub(crate) mod folders;
 mod outputs;
 mod pending;
-mod place;
-mod places;
 mod record;
-pub(crate) mod temporary;
+mod target;
 
 use std::io::{self, ErrorKind, Read, Write, stderr, stdout};
 use std::path::Path;
@@ -22,7 +18,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 
 pub(crate) use outputs::Outputs;
-pub(crate) use pending::{Pending, Rows};
+pub(crate) use pending::Pending;
 
 /// What a command found out.
 #[derive(Debug)]

@@ -1,15 +1,16 @@
 //! `abbe simulate`: measurements of a machine whose errors are known.
 
+use std::io;
 use std::path::Path;
 
-use abbe_study::data::{Data, Map};
+use abbe_study::data::{Csv, Data, Map};
 use abbe_study::simulate::{Places, Simulate};
 
 use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::number::length;
-use crate::output::{Outcome, Outputs, json};
+use crate::output::{Outcome, Outputs, cannot_write, json};
 
 pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -37,9 +38,11 @@ pub(crate) fn run(arguments: &arguments::Simulate) -> Result<Outcome, Failure> {
         let printed = outputs.finish(out.map(|file| file.fill(&report.table.csv())).transpose()?)?;
         return Ok(Outcome::passed(json(&report)?).beside(printed));
     }
-    let mut csv = outputs.rows(arguments.out.as_deref().unwrap_or(Path::new("-")), &job.heading())?;
-    let count = job.each(&mut watch, |row| csv.row(row.label, &row.numbers))?;
-    let printed = outputs.finish([csv.finish()?])?;
+    let out = arguments.out.as_deref().unwrap_or(Path::new("-"));
+    let failed = |error: io::Error| cannot_write(out, &error);
+    let mut csv = Csv::new(outputs.file(out)?, &job.heading()).map_err(failed)?;
+    let count = job.each(&mut watch, |row| csv.row(row.label, &row.numbers).map_err(failed))?;
+    let printed = outputs.finish([csv.finish().map_err(failed)?])?;
     Ok(match &arguments.out {
         Some(file) => Outcome::passed(format!("{}: {count} rows\n", file.display())).beside(printed),
         None => Outcome::passed(String::new()),

@@ -168,8 +168,9 @@ fn what_does_not_belong_together_is_refused() {
         changed[at] ^= 4;
         damaged(&changed, &["damaged"]);
     }
-    let newer = [b"abbe part 2\n", &bytes[12..]].concat();
-    damaged(&newer, &["of format 2", "reads 1", "one version of abbe"]);
+    // CBOR, as 0.1 wrote it.
+    damaged(b"abbe part 1\n\xa1\x61a\x01\xff\xfe", &["of format 1", "reads 2", "one version of abbe"]);
+    damaged(&[&bytes[..12], b"\xff\xfe", &bytes[14..]].concat(), &["damaged"]);
     damaged(b"q1,q2\n0,0\n", &["no part of an analysis", "--shard I/N"]);
     damaged(b"", &["no part of an analysis"]);
     refused(&[&at.join("nowhere.part")], &["cannot read"]);
@@ -222,6 +223,6 @@ fn a_lost_part_is_made_again() {
     let first = fs::read(&file).unwrap();
     prints(&arguments);
     assert_eq!(first, fs::read(&file).unwrap());
-    // What the killed one left is gone, too: its folder has the study, the part and the record.
+    // The killed one left nothing: the folder has the study, the part and the record.
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
 }

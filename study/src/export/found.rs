@@ -15,6 +15,7 @@ use abbe_spec::{ChainNumber, DhConvention, Spec};
 
 use super::difference::Difference;
 use super::slides::Slide;
+use super::{ExportedFile, Report};
 use crate::machine::Machine;
 use crate::mistake;
 
@@ -34,6 +35,9 @@ pub(super) struct Found {
     magnitudes: Vec<f64>,
     pub(super) s: Vec<f64>,
     pub(super) configurations: Vec<Configuration>,
+    /// The seed of the configurations, and how many were asked for.
+    seed: u64,
+    samples: usize,
     /// Where the tool really is, and where it should be, at each.
     pub(super) real: Vec<Pose>,
     pub(super) ideal: Vec<Pose>,
@@ -112,6 +116,8 @@ impl Found {
             real: Vec::new(),
             ideal: Vec::new(),
             configurations: Vec::new(),
+            seed,
+            samples,
             spec,
             manipulator,
             of_frames,
@@ -227,13 +233,42 @@ impl Found {
         Ok((transforms.iter().enumerate().map(link).collect(), tool))
     }
 
+    /// Begins the report of a format: its name and files, the words for what is compared, what remains, and the sign. Whatever
+    /// else there is to say is added by the format.
+    pub(super) fn report(
+        &self,
+        format: String,
+        files: Vec<ExportedFile>,
+        compared: [&'static str; 2],
+        remains: Difference,
+        sign: String,
+    ) -> Report {
+        Report {
+            name: self.spec.name.clone(),
+            format,
+            length: self.spec.length.symbol(),
+            files,
+            changes: Vec::new(),
+            left_out: Vec::new(),
+            compared,
+            before: self.nominal(),
+            at_nodes: None,
+            remains,
+            placed: None,
+            turned: Vec::new(),
+            configurations: self.samples,
+            seed: self.seed,
+            sign,
+        }
+    }
+
     /// Whether nothing repeatable is wrong with it.
     pub(super) fn is_nominal(&self) -> bool {
         self.spec.enabled_sources().all(|source| source.class != Class::Repeatable)
     }
 
     /// What the nominal model is wrong by.
-    pub(super) fn nominal(&self) -> Difference {
+    fn nominal(&self) -> Difference {
         Difference::new(self.ideal.iter().zip(&self.real).map(|(ideal, real)| [*ideal, *real]))
     }
 

@@ -11,12 +11,12 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::found::Found;
 use super::slides::{Axes, Reference, Slide, axes, interpolated};
 use super::turning::{Kinematics, Turning};
-use super::{COMMANDS, ExportedFile, Written};
+use super::{COMMANDS, ExportedFile, Report};
 use crate::mistake;
 use crate::number::digits;
 
 /// The tables, and what remains of the errors with them.
-pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostics> {
+pub(super) fn report(found: &Found, nodes: usize) -> Result<Report, Diagnostics> {
     let axes = axes(found)?;
     let Axes { slides, turning } = &axes;
     let evaluated = |error: abbe::Error| mistake::whole(&found.origin, &error);
@@ -63,21 +63,13 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
             + &slides.iter().map(|slide| slide.letter().to_string()).collect::<Vec<_>>().join(", ")
             + ".",
     );
-    Ok(Written {
-        format: "tables of volumetric compensation (ISG CSV)".to_owned(),
-        files: vec![ExportedFile { name: format!("{}.volcomp.csv", found.spec.name), text }],
-        changes: Vec::new(),
-        left_out,
-        compared: COMMANDS,
-        before: found.nominal(),
-        at_nodes: None,
-        remains: found.of_commands(|q| Ok(tables.corrected(slides, q, mm))).map_err(evaluated)?,
-        placed: Kinematics::new(found, slides, turning)
-            .remains(|q| tables.corrected(slides, q, mm))
-            .map_err(evaluated)?,
-        turned,
-        sign: if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 },
-    })
+    let format = "tables of volumetric compensation (ISG CSV)".to_owned();
+    let files = vec![ExportedFile { name: format!("{}.volcomp.csv", found.spec.name), text }];
+    let corrected = |q: &[f64]| tables.corrected(slides, q, mm);
+    let remains = found.of_commands(|q| Ok(corrected(q))).map_err(evaluated)?;
+    let placed = Kinematics::new(found, slides, turning).remains(corrected).map_err(evaluated)?;
+    let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
+    Ok(Report { left_out, placed, turned, ..found.report(format, files, COMMANDS, remains, sign) })
 }
 
 fn sentence(letter: char, at: f64, direction: usize, error: f64) -> String {

@@ -12,7 +12,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::found::{Found, Link};
 use super::slides::{Axes, axes, interpolated};
 use super::turning::{Kinematics, Turning};
-use super::{COMMANDS, ExportedFile, Written};
+use super::{COMMANDS, ExportedFile, Report};
 use crate::mistake;
 use crate::number::digits;
 
@@ -20,7 +20,7 @@ use crate::number::digits;
 const MOST_NODES: usize = 256;
 
 /// One file for each slide, and what remains of the errors with them.
-pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostics> {
+pub(super) fn report(found: &Found, nodes: usize) -> Result<Report, Diagnostics> {
     if nodes > MOST_NODES {
         let message = format!("a file of LinuxCNC has {MOST_NODES} lines at most");
         return Err(mistake::with_help("--nodes", message, format!("ask for fewer: `--nodes {MOST_NODES}`")));
@@ -73,19 +73,11 @@ pub(super) fn written(found: &Found, nodes: usize) -> Result<Written, Diagnostic
         "The INI file names them, in mm: {}, each with `COMP_FILE_TYPE = 0`, in the section of its joint.",
         names.join(", ")
     ));
-    Ok(Written {
-        format: "files of compensation of LinuxCNC".to_owned(),
-        files,
-        changes: Vec::new(),
-        left_out,
-        compared: COMMANDS,
-        before: found.nominal(),
-        at_nodes: None,
-        remains: found.of_commands(|q| Ok(corrected(q))).map_err(evaluated)?,
-        placed: Kinematics::new(found, slides, turning).remains(corrected).map_err(evaluated)?,
-        turned,
-        sign: if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 },
-    })
+    let format = "files of compensation of LinuxCNC".to_owned();
+    let remains = found.of_commands(|q| Ok(corrected(q))).map_err(evaluated)?;
+    let sign = if largest.1.is_empty() { "All errors are 0.".to_owned() } else { largest.1 };
+    let placed = Kinematics::new(found, slides, turning).remains(corrected).map_err(evaluated)?;
+    Ok(Report { left_out, placed, turned, ..found.report(format, files, COMMANDS, remains, sign) })
 }
 
 /// What the tool point is off by along the axis, with the other slides at home, and what turns at 0.

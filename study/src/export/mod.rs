@@ -129,21 +129,6 @@ pub struct Report {
     pub sign: String,
 }
 
-/// What a format makes of a machine.
-struct Written {
-    format: String,
-    files: Vec<ExportedFile>,
-    changes: Vec<String>,
-    left_out: Vec<String>,
-    compared: [&'static str; 2],
-    before: Difference,
-    at_nodes: Option<Difference>,
-    remains: Difference,
-    placed: Option<Difference>,
-    turned: Vec<Turning>,
-    sign: String,
-}
-
 /// How the differences of a model are called: of what it says from where the tool really is.
 const MODEL: [&str; 2] = ["nominal", "exported"];
 
@@ -158,54 +143,25 @@ impl Export {
         if found.is_nominal() {
             notes.warn("this spec has no repeatable source: the nominal machine is exported");
         }
-        let written = match format {
-            Format::Dh => dh::written(&found)?,
+        let report = match format {
+            Format::Dh => dh::report(&found)?,
             Format::Urdf { file, base, tip } => {
-                urdf::written(&found, urdf::From { file, base: base.as_deref(), tip: tip.as_deref() })?
+                urdf::report(&found, urdf::From { file, base: base.as_deref(), tip: tip.as_deref() })?
             }
-            Format::UrCalibration => ur_calibration::written(&found)?,
-            Format::IsgCsv { nodes } => isg_csv::written(&found, *nodes)?,
-            Format::LinuxCnc { nodes } => linuxcnc::written(&found, *nodes)?,
-            Format::Table { nodes } => table::written(&found, *nodes, notes)?,
+            Format::UrCalibration => ur_calibration::report(&found)?,
+            Format::IsgCsv { nodes } => isg_csv::report(&found, *nodes)?,
+            Format::LinuxCnc { nodes } => linuxcnc::report(&found, *nodes)?,
+            Format::Table { nodes } => table::report(&found, *nodes, notes)?,
         };
-        let Written {
-            format,
-            files,
-            changes,
-            left_out,
-            compared,
-            before,
-            at_nodes,
-            remains,
-            placed,
-            turned,
-            sign,
-        } = written;
+        let Report { before, remains, .. } = &report;
         if remains.position.rms > before.position.rms && !found.is_nominal() {
-            let [before, remains] = [&before, &remains].map(|difference| digits(difference.position.rms, 3));
-            let unit = machine.spec.length.symbol();
+            let [before, remains] = [before, remains].map(|difference| digits(difference.position.rms, 3));
             notes.warn(&format!(
                 "with this the tool is farther off than without, {remains} {unit} against {before} {unit} (rms): do not load it; a table needs more nodes, or \
-                 joints with narrower `limits`"
+                 joints with narrower `limits`",
+                unit = report.length
             ));
         }
-        let report = Report {
-            name: machine.spec.name.clone(),
-            format,
-            length: machine.spec.length.symbol(),
-            files,
-            changes,
-            left_out,
-            compared,
-            before,
-            at_nodes,
-            remains,
-            placed,
-            turned,
-            configurations: *samples,
-            seed: *seed,
-            sign,
-        };
         finite(&machine.origin, report)
     }
 

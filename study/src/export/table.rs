@@ -7,7 +7,7 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use super::difference::Difference;
 use super::found::Found;
-use super::{COMMANDS, ExportedFile, Written};
+use super::{COMMANDS, ExportedFile, Report};
 use crate::notes::Notes;
 use crate::number::digits;
 use crate::{data, mistake};
@@ -22,11 +22,11 @@ const MARGIN: f64 = 0.01;
 const NODES: f64 = 10_000.0;
 
 /// The table, and what remains of the errors with it: at its nodes, and between them.
-pub(super) fn written(
+pub(super) fn report(
     found: &Found,
     nodes: Option<usize>,
     notes: &mut dyn Notes,
-) -> Result<Written, Diagnostics> {
+) -> Result<Report, Diagnostics> {
     let spec = &found.spec;
     let joints = spec.variables.len();
     let endless =
@@ -108,19 +108,12 @@ pub(super) fn written(
         "At the limits of the joints corrected commands go beyond them, by what is to be corrected there."
             .to_owned(),
     );
-    Ok(Written {
-        format: format!("corrections of the joints, {count} nodes for each of {joints}"),
-        files: vec![ExportedFile { name: format!("{}.corrections.csv", spec.name), text }],
-        changes: Vec::new(),
-        left_out,
-        compared: COMMANDS,
-        before: found.nominal(),
-        at_nodes: Some(Difference::new(at_nodes)),
-        remains: found.of_commands(corrected).map_err(evaluated)?,
-        placed: None,
-        turned: Vec::new(),
-        sign: if largest.1.is_empty() { "All corrections are 0.".to_owned() } else { largest.1 },
-    })
+    let format = format!("corrections of the joints, {count} nodes for each of {joints}");
+    let files = vec![ExportedFile { name: format!("{}.corrections.csv", spec.name), text }];
+    let remains = found.of_commands(corrected).map_err(evaluated)?;
+    let sign = if largest.1.is_empty() { "All corrections are 0.".to_owned() } else { largest.1 };
+    let at_nodes = Some(Difference::new(at_nodes));
+    Ok(Report { left_out, at_nodes, ..found.report(format, files, COMMANDS, remains, sign) })
 }
 
 /// The node of a number: the last joint goes fastest.

@@ -12,7 +12,7 @@ use abbe_spec::diagnostic::Diagnostics;
 use super::dh::Table;
 use super::found::{Found, about_x, about_z};
 use super::origins::{Joint, origins};
-use super::{ExportedFile, MODEL, Written};
+use super::{ExportedFile, MODEL, Report};
 use crate::import::described::{placed, roll_pitch_yaw};
 use crate::mistake;
 use crate::number::digits;
@@ -30,7 +30,7 @@ const JOINTS: [(&str, f64); 6] = [
 const KEYS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 
 /// The YAML, and what remains of the errors with it.
-pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
+pub(super) fn report(found: &Found) -> Result<Report, Diagnostics> {
     let refused = |message: String| {
         let help = "the chain is that of an arm of Universal Robots, from `base` (F_0) on; other robots have `--to urdf`";
         mistake::with_help(&found.origin, message, help)
@@ -87,19 +87,10 @@ pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
         "The hash is that of this spec. The driver compares it with that of the robot's own calibration, and warns where they differ."
             .to_owned(),
     );
-    Ok(Written {
-        format: "the calibration of an arm of Universal Robots (YAML)".to_owned(),
-        files: vec![ExportedFile { name: format!("{}.calibration.yaml", found.spec.name), text }],
-        changes: Vec::new(),
-        left_out,
-        compared: MODEL,
-        before: found.nominal(),
-        at_nodes: None,
-        remains: found.of_model(by_text),
-        placed: None,
-        turned: Vec::new(),
-        sign: sign(&joints, &new, metres),
-    })
+    let format = "the calibration of an arm of Universal Robots (YAML)".to_owned();
+    let files = vec![ExportedFile { name: format!("{}.calibration.yaml", found.spec.name), text }];
+    let sign = sign(&joints, &new, metres);
+    Ok(Report { left_out, ..found.report(format, files, MODEL, found.of_model(by_text), sign) })
 }
 
 /// The frames of the joints in `F_0`, with all variables 0.

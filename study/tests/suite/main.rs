@@ -7,6 +7,7 @@ mod instruments;
 mod jobs;
 mod measurements;
 mod monitor;
+mod parts;
 mod readings;
 mod round_trips;
 mod verdict;

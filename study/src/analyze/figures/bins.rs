@@ -65,6 +65,15 @@ impl<T: Merge> Bins<T> {
         }
     }
 
+    /// Whether other bins, which may come from a file, can be merged with these.
+    pub fn accepts(&self, other: &Self) -> bool {
+        let widest = f64::MAX_EXP + 1;
+        (other.finest, other.most) == (self.finest, self.most)
+            && (other.finest..=widest).contains(&other.exponent)
+            && other.bins.len() <= other.most
+            && other.bins.keys().all(|key| key.unsigned_abs() <= 1 << 53)
+    }
+
     /// Takes in other bins that began as fine as these.
     pub fn merge(&mut self, mut other: Self) {
         while self.exponent < other.exponent {

@@ -143,6 +143,12 @@ impl Grid {
         line.bins.at(second)
     }
 
+    /// Whether another one, which may come from a file, can be merged with this one.
+    pub(super) fn accepts(&self, other: &Self) -> bool {
+        let line = Line::default();
+        self.0.accepts(&other.0) && other.0.iter().all(|(_, other)| line.bins.accepts(&other.bins))
+    }
+
     /// Takes in another one.
     pub(super) fn merge(&mut self, other: Self) {
         self.0.merge(other.0);

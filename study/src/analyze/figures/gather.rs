@@ -24,13 +24,15 @@ pub(in crate::analyze) enum Data {
 }
 
 impl Data {
-    /// Takes in what follows; says whether both are of one kind.
+    /// Takes in what follows, which may come from a file; says whether it can follow.
     fn append(&mut self, other: Self) -> bool {
         match (self, other) {
-            (Self::Travel(here), Self::Travel(other)) => here.merge(other),
-            (Self::Surface(here), Self::Surface(other)) => here.merge(other),
-            (Self::Cloud(here), Self::Cloud(other)) => here.append(other),
-            (Self::Histogram(here), Self::Histogram(other)) => {
+            (Self::Travel(here), Self::Travel(other)) if here.accepts(&other) => here.merge(other),
+            (Self::Surface(here), Self::Surface(other)) if here.accepts(&other) => here.merge(other),
+            (Self::Cloud(here), Self::Cloud(other)) if here.accepts(&other) => here.append(other),
+            (Self::Histogram(here), Self::Histogram(other))
+                if here.iter().zip(&other).all(|(here, other)| here.accepts(other)) =>
+            {
                 here.iter_mut().zip(other).for_each(|(here, other)| here.merge(other));
             }
             (Self::Whole, Self::Whole) => {}

@@ -26,7 +26,7 @@ pub struct Count(pub usize);
 
 impl Merge for Count {
     fn merge(&mut self, other: Self) {
-        self.0 += other.0;
+        self.0 = self.0.saturating_add(other.0);
     }
 }
 

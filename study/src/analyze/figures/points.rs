@@ -50,13 +50,19 @@ impl Points {
         }
     }
 
+    /// Whether others, which may come from a file, can follow these.
+    pub(super) fn accepts(&self, other: &Self) -> bool {
+        let indices = self.kept.last().into_iter().chain(&other.kept).map(|point| point.index);
+        other.stride.is_power_of_two() && other.kept.len() <= Self::MOST && indices.is_sorted_by(|a, b| a < b)
+    }
+
     /// Takes in what follows.
     pub(super) fn append(&mut self, other: Self) {
         self.stride = self.stride.max(other.stride);
         self.kept.extend(other.kept);
         self.kept.retain(|point| point.index.is_multiple_of(self.stride));
         self.thin();
-        self.seen += other.seen;
+        self.seen = self.seen.saturating_add(other.seen);
         let norm = |worst: &Option<(f64, Point)>| worst.as_ref().map(|(norm, _)| *norm);
         if norm(&other.worst) > norm(&self.worst) {
             self.worst = other.worst;

@@ -1,40 +1,39 @@
 //! How parts are written: `docs/scale.md` has the format.
 
-use abbe_spec::bounded::{Bounded, Unfit};
-use abbe_spec::diagnostic::Diagnostics;
-use sha2::{Digest, Sha256};
 use std::path::Path;
 
+use abbe_spec::bounded::{Bounded, Unfit};
+use abbe_spec::diagnostic::Diagnostics;
+
 use super::part::Part;
-use crate::mistake;
+use crate::{hash, mistake};
 
 /// What every part begins with, and the version of the format.
 const BEGINNING: &str = "abbe part ";
-const VERSION: &str = "1";
-/// The length of the checksum at the end.
-const CHECKSUM: usize = 32;
+const VERSION: &str = "2";
+/// The length of the checksum at the end, with its line end.
+const CHECKSUM: usize = 65;
 /// The longest file that is read, in bytes.
 const LONGEST: u64 = 1 << 30;
 
 impl Part {
-    /// The bytes of its file: one line with the version of the format, the part in CBOR (RFC 8949), and the SHA-256 of both.
+    /// Returns the bytes of its file, three lines: the version of the format, the part in JSON, and the SHA-256 of both.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = format!("{BEGINNING}{VERSION}\n").into_bytes();
-        // Only a writer can fail, and this one is memory.
-        let _ = ciborium::into_writer(self, &mut bytes);
-        let checksum = Sha256::digest(&bytes);
-        bytes.extend_from_slice(&checksum);
-        bytes
+        // A part has finite numbers, and maps whose keys are integers.
+        let json = serde_json::to_string(self).expect("a part is JSON");
+        let content = format!("{BEGINNING}{VERSION}\n{json}\n");
+        let checksum = hash::of_text(&content);
+        format!("{content}{checksum}\n").into_bytes()
     }
 
     /// Reads what [`to_bytes`](Self::to_bytes) wrote; `name` is what mistakes are shown under.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Diagnostics> {
-        let wrong = |message: &str, help: &str| Err(mistake::with_help(name, message, help));
+        let wrong = |message: &str, help: &str| mistake::with_help(name, message, help);
         let Some(rest) = bytes.strip_prefix(BEGINNING.as_bytes()) else {
-            return wrong(
+            return Err(wrong(
                 "this is no part of an analysis",
                 "`abbe analyze SPEC --shard I/N --out FILE` writes one",
-            );
+            ));
         };
         let damaged = || {
             wrong(
@@ -42,26 +41,31 @@ impl Part {
                 "make it again, or copy it again from where it was made",
             )
         };
-        let Some(end) = rest.iter().take(20).position(|byte| *byte == b'\n') else { return damaged() };
+        let end = rest.iter().take(20).position(|byte| *byte == b'\n').ok_or_else(damaged)?;
         if &rest[..end] != VERSION.as_bytes() {
-            let version = String::from_utf8_lossy(&rest[..end]).into_owned();
+            let version = String::from_utf8_lossy(&rest[..end]);
             let message =
                 format!("this part is of format {version}, and this version of abbe reads {VERSION}");
-            return wrong(&message, "make and merge all parts with one version of abbe");
+            return Err(wrong(&message, "make and merge all parts with one version of abbe"));
         }
-        let Some(before) = bytes.len().checked_sub(CHECKSUM) else { return damaged() };
-        let (content, checksum) = bytes.split_at(before);
-        if Sha256::digest(content)[..] != *checksum {
-            return damaged();
+        let text = std::str::from_utf8(bytes).map_err(|_| damaged())?;
+        let (content, checksum) = text
+            .len()
+            .checked_sub(CHECKSUM)
+            .and_then(|end| text.split_at_checked(end))
+            .ok_or_else(damaged)?;
+        if hash::of_text(content) + "\n" != checksum {
+            return Err(damaged());
         }
-        let start = BEGINNING.len() + end + 1;
-        match content.get(start..).map(ciborium::from_reader) {
-            Some(Ok(part)) => Ok(part),
-            _ => wrong(
-                "this part was written by another version of abbe",
-                "make and merge all parts with one version of abbe",
-            ),
-        }
+        let json = &content[BEGINNING.len() + end + 1..];
+        let part: Result<Self, String> = serde_json::from_str(json).map_err(|error| error.to_string());
+        let checked = part.and_then(|part| part.question.check_draws().map(|()| part));
+        checked.map_err(|message| {
+            wrong(
+                &format!("this part holds what no part of this version of abbe does: {message}"),
+                "make it again; make and merge all parts with one version of abbe",
+            )
+        })
     }
 
     /// Reads a file.

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::question::Question;
 use super::shard::Shard;
 use crate::analyze::sweep::SweepData;
+use crate::finite::finite;
+use crate::mistake;
 use crate::notes::Notes;
 
 /// What was gathered over a share of a workspace, with the question that it is part of an answer to.
@@ -46,9 +48,12 @@ impl Part {
     /// Sweeps a share of the workspace.
     pub fn new(question: Question, shard: Shard, notes: &mut dyn Notes) -> Result<Self, Diagnostics> {
         let job = question.job(&mut ())?;
+        let refused = |message| mistake::with_help(&question.spec, message, "ask for fewer draws");
+        question.check_draws().map_err(refused)?;
         let identity = question.identity(&job)?;
         let gathered = job.gather(|count| shard.chunks(count), notes)?;
-        Ok(Self { made_by: Maker::here(), identity, question, shard, gathered })
+        let origin = job.machine().origin.clone();
+        finite(origin, Self { made_by: Maker::here(), identity, question, shard, gathered })
     }
 
     /// Which share it is.

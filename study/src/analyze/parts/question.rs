@@ -105,6 +105,17 @@ impl Question {
         })
     }
 
+    /// The most draws that are made.
+    pub const MOST_DRAWS: usize = 10_000_000;
+
+    /// What is wrong with the number of draws, if anything is.
+    pub(super) fn check_draws(&self) -> Result<(), String> {
+        match self.monte_carlo {
+            None | Some(1..=Self::MOST_DRAWS) => Ok(()),
+            Some(draws) => Err(format!("it asks for {draws} draws: from 1 to {} are made", Self::MOST_DRAWS)),
+        }
+    }
+
     /// The job that answers it.
     pub fn job(&self, notes: &mut dyn Notes) -> Result<Analyze, Diagnostics> {
         let machine = match &self.spec_text {

@@ -14,12 +14,12 @@ use abbe_spec::{DhConvention, DhNumber};
 
 pub(super) use self::rows::Table;
 use super::found::Found;
-use super::{ExportedFile, MODEL, UNCHANGED, Written, as_nominal};
+use super::{ExportedFile, MODEL, Report, UNCHANGED, as_nominal};
 use crate::mistake;
 use crate::number::{digits, short};
 
 /// The table, and what remains of the errors with it.
-pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
+pub(super) fn report(found: &Found) -> Result<Report, Diagnostics> {
     let nominal = Table::nominal(found)?;
     let mut table = nominal.clone();
     fit::fit(&mut table, found);
@@ -47,19 +47,11 @@ pub(super) fn written(found: &Found) -> Result<Written, Diagnostics> {
         "Of the six errors of the last frame a table holds what its own four numbers can do; the rest belongs to the tool."
             .to_owned(),
     );
-    Ok(Written {
-        format: format!("Denavit-Hartenberg numbers, {word}"),
-        files: vec![ExportedFile { name: format!("{}.dh.csv", found.spec.name), text }],
-        changes: Vec::new(),
-        left_out,
-        compared: MODEL,
-        before: found.nominal(),
-        at_nodes: None,
-        remains: found.of_model(|q| read.pose(q)),
-        placed: None,
-        turned: Vec::new(),
-        sign: sign(&nominal, &table, found),
-    })
+    let format = format!("Denavit-Hartenberg numbers, {word}");
+    let files = vec![ExportedFile { name: format!("{}.dh.csv", found.spec.name), text }];
+    let remains = found.of_model(|q| read.pose(q));
+    let sign = sign(&nominal, &table, found);
+    Ok(Report { left_out, ..found.report(format, files, MODEL, remains, sign) })
 }
 
 /// Neighbouring axes that are parallel.

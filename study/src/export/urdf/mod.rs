@@ -13,7 +13,7 @@ use self::edit::{Edited, Moved};
 use super::difference::Difference;
 use super::found::Found;
 use super::origins::{Joint, origins};
-use super::{ExportedFile, MODEL, UNCHANGED, Written, as_nominal};
+use super::{ExportedFile, MODEL, Report, UNCHANGED, as_nominal};
 use crate::import::described::{Described, placed};
 use crate::mistake;
 use crate::number::{digits, length};
@@ -30,7 +30,7 @@ pub(super) struct From<'a> {
 }
 
 /// The calibrated file, and what remains of the errors with it.
-pub(super) fn written(found: &Found, from: From<'_>) -> Result<Written, Diagnostics> {
+pub(super) fn report(found: &Found, from: From<'_>) -> Result<Report, Diagnostics> {
     let mut document = Document::read(from.file)?;
     let text = document.text.to_string();
     let described = Described::read(&mut document, from.base, from.tip);
@@ -84,19 +84,9 @@ pub(super) fn written(found: &Found, from: From<'_>) -> Result<Written, Diagnost
             digits(1e3 * distance, 4),
         )
     });
-    Ok(Written {
-        format: format!("URDF, {} of {} origins changed", changes.len(), joints.len()),
-        files: vec![ExportedFile { name, text }],
-        changes,
-        left_out,
-        compared: MODEL,
-        before: found.nominal(),
-        at_nodes: None,
-        remains,
-        placed: None,
-        turned: Vec::new(),
-        sign,
-    })
+    let format = format!("URDF, {} of {} origins changed", changes.len(), joints.len());
+    let files = vec![ExportedFile { name, text }];
+    Ok(Report { changes, left_out, ..found.report(format, files, MODEL, remains, sign) })
 }
 
 /// The chain of the file beside that of the spec.

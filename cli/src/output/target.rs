@@ -1,0 +1,114 @@
+//! Where a path leads that is to be written, and which file is there.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use super::cannot_write;
+use crate::failure::Failure;
+
+/// Where a path leads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Target {
+    /// `-`, or another name of stdout.
+    Stdout,
+    /// A device, a pipe or an open descriptor: it is written through, and stays what it is.
+    Stream(PathBuf),
+    /// A regular file, or one that is not there yet: its path without links.
+    File(PathBuf),
+}
+
+const STDOUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+
+/// Their names are links to whatever is open: what is there is not ours to replace.
+const DESCRIPTORS: [&str; 3] = ["/dev/fd", "/dev/stderr", "/proc/self/fd"];
+
+/// More links than any system follows.
+const LINKS: usize = 40;
+
+impl Target {
+    /// Follows a path; a folder is no place for a file.
+    pub(super) fn find(path: &Path) -> Result<Self, Failure> {
+        if is_stdout(path) {
+            return Ok(Self::Stdout);
+        }
+        let last = path.as_os_str().as_encoded_bytes().last();
+        let names_folder = last.is_some_and(|byte| std::path::is_separator((*byte).into()));
+        match fs::metadata(path) {
+            Ok(found) if found.is_file() && !DESCRIPTORS.iter().any(|name| path.starts_with(name)) => {
+                match is_open_as_stdout(path) {
+                    true => Ok(Self::Stdout),
+                    false => {
+                        fs::canonicalize(path).map(Self::File).map_err(|error| cannot_write(path, &error))
+                    }
+                }
+            }
+            Ok(found) if !found.is_dir() => Ok(Self::Stream(path.to_owned())),
+            Err(error) if error.kind() == ErrorKind::NotFound && !names_folder => new_file(path),
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(cannot_write(path, &error)),
+            _ => Err(Failure::of(path.display(), "this is a folder, not a file").help("name a file in it")),
+        }
+    }
+}
+
+pub(super) fn is_stdout(path: &Path) -> bool {
+    STDOUT.iter().any(|name| path == Path::new(name))
+}
+
+/// Returns the target of a path at which there is no file, at the end of links that lead nowhere.
+fn new_file(path: &Path) -> Result<Target, Failure> {
+    let mut end = path.to_owned();
+    for _ in 0..LINKS {
+        let Ok(to) = fs::read_link(&end) else { break };
+        end = parent(&end).join(to);
+    }
+    let folder = fs::canonicalize(parent(&end)).map_err(|error| {
+        let failure = cannot_write(path, &error);
+        if error.kind() == ErrorKind::NotFound { failure.help("make its folder first") } else { failure }
+    })?;
+    match end.file_name() {
+        Some(name) => Ok(Target::File(folder.join(name))),
+        None => Err(Failure::of(path.display(), "this names no file")),
+    }
+}
+
+/// The folder of a file: the current one if the path names none.
+pub(super) fn parent(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// What identifies a regular file under all its names: device and inode.
+#[cfg(unix)]
+pub(super) type Identity = (u64, u64);
+
+/// What identifies a regular file: its path without links.
+#[cfg(not(unix))]
+pub(super) type Identity = PathBuf;
+
+/// Returns the identity of the regular file at the end of a path, if there is one.
+pub(super) fn identity(path: &Path) -> Option<Identity> {
+    let found = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+    #[cfg(unix)]
+    return Some(device_and_inode(&found));
+    #[cfg(not(unix))]
+    return fs::canonicalize(path).ok().filter(|_| found.is_file());
+}
+
+#[cfg(unix)]
+fn device_and_inode(found: &fs::Metadata) -> Identity {
+    use std::os::unix::fs::MetadataExt;
+    (found.dev(), found.ino())
+}
+
+/// Whether stdout was sent to this file.
+fn is_open_as_stdout(file: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::fd::AsFd;
+        let open = std::io::stdout().as_fd().try_clone_to_owned();
+        let found = open.and_then(|open| fs::File::from(open).metadata());
+        found.is_ok_and(|found| identity(file) == Some(device_and_inode(&found)))
+    }
+    #[cfg(not(unix))]
+    false
+}

@@ -1,0 +1,113 @@
+//! Zip archives of files that are stored as they are (PKWARE's APPNOTE 6.3, sections 4.3.7, 4.3.12 and 4.3.16).
+
+use abbe_codegen::print::SourceFile;
+
+const LOCAL_HEADER: u32 = 0x0403_4b50;
+const CENTRAL_HEADER: u32 = 0x0201_4b50;
+const END_OF_DIRECTORY: u32 = 0x0605_4b50;
+
+/// Any reader understands what is stored.
+const VERSION_NEEDED: u16 = 10;
+const MADE_ON_UNIX: u16 = 3 << 8 | 20;
+const NAME_IS_UTF8: u16 = 1 << 11;
+const STORED: u16 = 0;
+/// The first of January 1980.
+const DATE: u16 = 1 << 5 | 1;
+/// `-rw-r--r--`, of a regular file.
+const MODE: u32 = 0o100_644 << 16;
+
+/// Returns a zip archive of files, as simulators load a functional mock-up unit. The same files give the same bytes: all are of
+/// 1980.
+pub fn archive(files: &[SourceFile]) -> Vec<u8> {
+    let (mut archive, mut directory) = (Vec::new(), Vec::new());
+    for SourceFile { name, text } in files {
+        let (start, size) = (size(archive.len()), size(text.len()));
+        let mut common = numbers16(&[VERSION_NEEDED, NAME_IS_UTF8, STORED, 0, DATE]);
+        common.extend(numbers32(&[crc32(text.as_bytes()), size, size]));
+        common.extend(numbers16(&[count(name.len()), 0]));
+        archive.extend(LOCAL_HEADER.to_le_bytes());
+        archive.extend(&common);
+        archive.extend(name.as_bytes());
+        archive.extend(text.as_bytes());
+        directory.extend(CENTRAL_HEADER.to_le_bytes());
+        directory.extend(MADE_ON_UNIX.to_le_bytes());
+        directory.extend(&common);
+        directory.extend(numbers16(&[0, 0, 0]));
+        directory.extend(numbers32(&[MODE, start]));
+        directory.extend(name.as_bytes());
+    }
+    let ends = numbers32(&[size(directory.len()), size(archive.len())]);
+    archive.extend(directory);
+    archive.extend(END_OF_DIRECTORY.to_le_bytes());
+    archive.extend(numbers16(&[0, 0, count(files.len()), count(files.len())]));
+    archive.extend(ends);
+    archive.extend(numbers16(&[0]));
+    archive
+}
+
+fn size(bytes: usize) -> u32 {
+    u32::try_from(bytes).expect("generated code is shorter than 4 GiB")
+}
+
+fn count(number: usize) -> u16 {
+    u16::try_from(number).expect("names are short and files are few")
+}
+
+fn numbers16(values: &[u16]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+fn numbers32(values: &[u32]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+/// The checksum of zip, reflected, with the polynomial 0x04c11db7.
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32| (crc >> 1) ^ (0xedb8_8320 * (crc & 1));
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_checksum_is_that_of_the_catalogue() {
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+        assert_eq!(crc32(b""), 0);
+    }
+
+    /// Reads the central directory, and from it every file.
+    fn read(archive: &[u8]) -> Vec<(String, String)> {
+        let at16 = |at: usize| u16::from_le_bytes(archive[at..at + 2].try_into().unwrap());
+        let at32 = |at: usize| u32::from_le_bytes(archive[at..at + 4].try_into().unwrap());
+        let text = |at: usize, len: usize| String::from_utf8(archive[at..at + len].to_vec()).unwrap();
+        let end = archive.len() - 22;
+        assert_eq!(at32(end), END_OF_DIRECTORY);
+        let mut at = at32(end + 16) as usize;
+        let mut files = Vec::new();
+        for _ in 0..at16(end + 10) {
+            assert_eq!((at32(at), at32(at + 38)), (CENTRAL_HEADER, MODE));
+            let (start, size) = (at32(at + 42) as usize, at32(at + 24) as usize);
+            let name = text(at + 46, at16(at + 28).into());
+            assert_eq!(at32(start), LOCAL_HEADER);
+            assert_eq!(archive[start + 4..start + 30], archive[at + 6..at + 32]);
+            let content = text(start + 30 + name.len(), size);
+            assert_eq!(crc32(content.as_bytes()), at32(at + 16));
+            at += 46 + name.len();
+            files.push((name, content));
+        }
+        assert_eq!(at, end);
+        files
+    }
+
+    #[test]
+    fn files_come_back_as_they_were() {
+        let file = |(name, text): &(&str, &str)| SourceFile { name: (*name).into(), text: (*text).into() };
+        let files = [("a.xml", "<a/>\n"), ("sources/größe.c", ""), ("b", "ÄÖ\0\n")];
+        let written = archive(&files.iter().map(file).collect::<Vec<_>>());
+        let read = read(&written);
+        assert!(read.iter().map(|(name, text)| (name.as_str(), text.as_str())).eq(files));
+        assert_eq!(archive(&[]).len(), 22);
+    }
+}

@@ -1,0 +1,156 @@
+//! Parts that claim what cannot be are mistakes with a way out, never a panic or an endless loop.
+
+use abbe_spec::diagnostic::Diagnostics;
+use abbe_study::analyze::parts::{Part, Question, Written, merge};
+use abbe_study::hash;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde_json::{Value, json};
+
+const FIGURES: &str = "[[figure]]\nkind = \"travel\"\nover = \"d1\"\n[[figure]]\nkind = \"surface\"\n\
+                       over = [\"d1\", \"q4\"]\n[[figure]]\nkind = \"cloud\"\n[[figure]]\nkind = \"histogram\"\n";
+
+/// All that parts can hold: repeatable and random sources, residuals, tolerances and figures, and what cannot be reached.
+fn questions() -> [Question; 2] {
+    let sampled = format!(
+        "[study]\ntitle = \"t\"\ntolerance = {{ position = \"5 mm\", orientation = \"2 mrad\" }}\n\
+         [workspace.random]\nsamples = 300\n[compensation]\ndefault = 0.1\n{FIGURES}"
+    );
+    let reached = "[study]\ntitle = \"t\"\n[workspace.box]\nx = { from = \"-1 m\", to = \"1 m\", count = 6 }\n\
+                   y = { from = \"0 m\", to = \"1 m\", count = 6 }\nz = { from = \"0 m\", to = \"1.2 m\", count = 6 }\n";
+    [("pps", sampled), ("puma560", reached.to_owned())].map(|(spec, text)| Question {
+        spec: spec.to_owned(),
+        spec_text: None,
+        study: Some(Written { name: "study.toml".to_owned(), folder: None, text }),
+        changes: Vec::new(),
+        monte_carlo: Some(10),
+        seed: None,
+        interpret: false,
+        figures: true,
+    })
+}
+
+fn halves(question: &Question) -> [Part; 2] {
+    ["1/2", "2/2"].map(|shard| Part::new(question.clone(), shard.parse().unwrap(), &mut ()).unwrap())
+}
+
+/// What is in the file of a part.
+fn content(part: &Part) -> Value {
+    let text = String::from_utf8(part.to_bytes()).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!((lines.len(), lines[0]), (3, "abbe part 2"));
+    serde_json::from_str(lines[1]).unwrap()
+}
+
+/// Reads a file with that in it, and the right checksum.
+fn read(content: &Value) -> Result<Part, Diagnostics> {
+    let text = format!("abbe part 2\n{content}\n");
+    let file = format!("{text}{}\n", hash::of_text(&text));
+    Part::from_bytes("a.part", file.as_bytes())
+}
+
+fn refused(content: &Value, says: &str) {
+    let mistakes = read(content).map(|_| ()).unwrap_err();
+    let text = mistakes.to_string();
+    assert!(text.contains(says), "{says}: {text}");
+    assert!(mistakes.list.iter().all(|mistake| mistake.help.is_some()), "{text}");
+}
+
+#[test]
+fn what_is_read_is_what_was_written() {
+    for question in questions() {
+        for part in halves(&question) {
+            let bytes = part.to_bytes();
+            assert!(Part::from_bytes("a.part", &bytes).unwrap().to_bytes() == bytes);
+            assert!(read(&content(&part)).is_ok());
+        }
+    }
+}
+
+#[test]
+fn a_share_and_draws_are_within_their_limits() {
+    let [question, _] = questions();
+    let [part, _] = halves(&question);
+    let with = |path: &str, value: Value| {
+        let mut content = content(&part);
+        *content.pointer_mut(path).unwrap() = value;
+        content
+    };
+    for shard in ["1/4294967295", "1/100001", "0/2", "3/2", "1/0", "-1/2", "1/2/3", ""] {
+        refused(&with("/shard", json!(shard)), "what no part of this version of abbe does");
+    }
+    refused(&with("/shard", json!({ "number": 1, "of": 4_294_967_295_u32 })), "what no part");
+    for draws in [json!(0), json!(10_000_001), json!(1_000_000_000_000_u64), json!(1_u64 << 63)] {
+        refused(&with("/question/monte_carlo", draws), "from 1 to 10000000 are made");
+    }
+    refused(&with("/question/monte_carlo", json!(-1)), "what no part");
+    let too_many = Question { monte_carlo: Some(10_000_001), ..question };
+    let refused = Part::new(too_many, "1/1".parse().unwrap(), &mut ()).map(|_| ()).unwrap_err();
+    assert!(refused.to_string().contains("from 1 to 10000000"), "{refused}");
+}
+
+/// The paths of all values.
+fn paths(value: &Value, path: &str, all: &mut Vec<String>) {
+    all.push(path.to_owned());
+    match value {
+        Value::Array(list) => {
+            list.iter().enumerate().for_each(|(i, value)| paths(value, &format!("{path}/{i}"), all));
+        }
+        Value::Object(map) => {
+            map.iter().for_each(|(key, value)| paths(value, &format!("{path}/{key}"), all));
+        }
+        _ => {}
+    }
+}
+
+/// Makes something else of a value: extreme numbers, fewer or more entries, other keys.
+fn damage(value: &mut Value, random: &mut Xoshiro256PlusPlus) {
+    let integers = [0, 1, 31, 63, 64, 1 << 31, 1 << 32, 1 << 53, 1 << 62, u64::MAX / 2, u64::MAX];
+    let numbers = [0.0, -1.0, 1e308, -1e308, 1e-308, f64::MAX, f64::MIN];
+    match value {
+        Value::Number(_) if random.random_bool(0.8) && !value.is_f64() => {
+            *value = json!(integers[random.random_range(0..integers.len())]);
+        }
+        Value::Number(_) => *value = json!(numbers[random.random_range(0..numbers.len())]),
+        Value::Array(list) if list.is_empty() || random.random_bool(0.3) => list.clear(),
+        Value::Array(list) if random.random_bool(0.5) => list.extend_from_within(..),
+        Value::Array(list) => _ = list.pop(),
+        Value::Object(map) => {
+            if let Some((key, content)) = map.clone().into_iter().next() {
+                let others = ["-9223372036854775808", "9223372036854775807", "18446744073709551615", "0"];
+                map.remove(&key);
+                map.insert(others[random.random_range(0..others.len())].to_owned(), content);
+            }
+        }
+        Value::Null => *value = json!(1_u64 << 40),
+        _ => *value = Value::Null,
+    }
+}
+
+#[test]
+fn whatever_a_part_claims_it_merges_or_is_refused() {
+    let times = if std::env::var_os("ABBE_THOROUGH").is_some() { 20_000 } else { 400 };
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(32);
+    let (mut merged, mut refused) = (0, 0);
+    for question in questions() {
+        let [one, other] = halves(&question);
+        let content = content(&one);
+        let mut all = Vec::new();
+        paths(&content["gathered"], "/gathered", &mut all);
+        for _ in 0..times {
+            let mut damaged = content.clone();
+            let path = &all[random.random_range(0..all.len())];
+            damage(damaged.pointer_mut(path).unwrap(), &mut random);
+            let parts =
+                read(&damaged).map(|part| vec![("a".to_owned(), part), ("b".to_owned(), other.clone())]);
+            match parts.and_then(|parts| merge(parts, &mut ())) {
+                Ok(_) => merged += 1,
+                Err(mistakes) => {
+                    refused += 1;
+                    assert!(mistakes.list.iter().all(|mistake| mistake.help.is_some()), "{path}: {mistakes}");
+                }
+            }
+        }
+    }
+    assert!(merged > times / 10 && refused > times / 10, "{merged} {refused}");
+}
