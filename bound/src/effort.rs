@@ -11,10 +11,14 @@ pub struct Effort {
     pub at_most: f64,
 }
 
-impl Default for Effort {
+impl Effort {
     /// 1 %, and 300,000 boxes.
+    pub const DEFAULT: Self = Self { gap: 0.01, boxes: 300_000, at_most: f64::INFINITY };
+}
+
+impl Default for Effort {
     fn default() -> Self {
-        Self { gap: 0.01, boxes: 300_000, at_most: f64::INFINITY }
+        Self::DEFAULT
     }
 }
 

@@ -16,7 +16,7 @@ pub(crate) fn run(arguments: &arguments::Bound) -> Result<Outcome, Failure> {
     let changes = arguments.subject.changes(&machine.spec)?;
     let mut job = Bound::new(machine, study);
     job.change(&changes);
-    job.effort = Effort { gap: arguments.gap, boxes: arguments.boxes as usize, ..job.effort };
+    job.effort = Effort { gap: arguments.gap.share(), boxes: arguments.boxes, ..job.effort };
     job.least = arguments.least;
     job.time = arguments.time;
     let report = job.run(&mut Console::default())?;

@@ -12,9 +12,7 @@ pub(crate) fn run(arguments: &arguments::Import) -> Result<Outcome, Failure> {
     let arguments::Import { file, base, tip, out, .. } = arguments;
     let format = match arguments.dh {
         None => Format::Urdf { base: base.clone(), tip: tip.clone(), fold: arguments.fold },
-        Some(convention) => {
-            Format::Table { convention: convention.into(), units: arguments.units.unwrap_or_default() }
-        }
+        Some(convention) => Format::Table { convention, units: arguments.units.unwrap_or_default() },
     };
     let job = Import { file: file.clone(), format, round_angles: arguments.round_angles };
     let mut outputs = Outputs::new(&job, arguments.writing.force);

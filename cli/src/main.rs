@@ -1,7 +1,7 @@
 //! The `abbe` command: predicts, ranks and checks the errors of a manipulator from its spec.
 //!
 //! `arguments` is what it is told. Then one module per command: arguments into a job of `abbe_study`, its report into
-//! text, JSON and files. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
+//! text (of `abbe_report`), JSON and files. Results go to stdout, everything else to stderr; the exit status is 0, 1 if a check
 //! failed, 2 for wrong usage or input, 128 + n if signal n ended it.
 
 mod analyze;

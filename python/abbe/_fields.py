@@ -43,18 +43,6 @@ class Figure:
         return f"<abbe figure: {self.title}>"
 
 
-def text(fields):
-    """What is a number or a text, line by line; of the rest, how much there is."""
-    lines = []
-    for name, value in vars(fields).items():
-        if isinstance(value, list):
-            value = f"[{len(value)}]"
-        elif isinstance(value, Fields):
-            value = ", ".join(vars(value))
-        lines.append(f"{name}: {value}")
-    return "\n".join(lines) + "\n"
-
-
 def html(columns, most=60):
     """The first rows of a table."""
     head = "".join(f"<th>{markup.escape(name)}</th>" for name in columns)

@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use abbe::lanes::{Batches, ErrorJacobian, InstructionSet, Tiles, run};
 use abbe::{Description, Error, Function, Manipulator};
-use abbe_spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::ur5;
+use abbe_spec::Spec;
 
 /// How many are evaluated at a time, as in the Python package.
 const TILE: usize = 64;

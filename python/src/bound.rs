@@ -1,19 +1,18 @@
 //! How large the errors of a machine are at most.
 
 use std::path::PathBuf;
-use std::time::Duration;
+use std::sync::Arc;
 
-use abbe_spec::document::Document;
 use abbe_bound::Effort;
 use abbe_report::text;
-use abbe_study::Study;
 use abbe_study::bound::Bound as Job;
+use abbe_study::bound::options::{BOXES, Gap};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::failure::guarded;
 use crate::job::run;
 use crate::machine::Machine;
+use crate::options::{self, seconds, within};
 use crate::report::Report;
 
 #[pymethods]
@@ -50,24 +49,19 @@ impl Machine {
         threads: Option<usize>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Report> {
-        if !(gap > 0.0 && gap.is_finite()) {
-            return Err(PyValueError::new_err("`gap` is more than 0, such as 0.01"));
-        }
-        let time = time.map(Duration::try_from_secs_f64).transpose();
-        let time = time.map_err(|error| PyValueError::new_err(format!("`time`: {error}")))?;
+        let gap =
+            Gap::new(gap).map_err(|message| PyValueError::new_err(format!("`gap`: {message}")))?.share();
+        let boxes = within("boxes", boxes, BOXES.range)?;
+        let time = seconds("time", time)?;
         let (report, notes) = run(py, threads, progress, |notes| {
             let machine = self.unchanged.clone();
-            let study = match (study_text, &study) {
-                (Some(text), None) => Study::read(Document::new("study_text", text), &machine.spec)?,
-                (_, file) => Study::find(file.as_deref(), &machine)?,
-            };
-            let mut job = Job::new(machine, study);
+            let mut job = Job::new(machine.clone(), options::study(study.as_deref(), study_text, &machine)?);
             self.changes()?.iter().for_each(|changes| job.change(changes));
             job.effort = Effort { gap, boxes, ..job.effort };
             job.least = least;
             job.time = time;
             job.run(notes)
         })?;
-        Ok(Report::new("bound", &report, notes)?.printed(guarded(|| Ok(text::bound(&report)))?))
+        Report::new("bound", &Arc::new(report), notes, text::bound)
     }
 }

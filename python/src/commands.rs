@@ -1,19 +1,19 @@
 //! Joints for a pose, and commands for the real tool.
 
-use abbe::{Function, Pose};
 use abbe::analysis::{Target, inverse};
+use abbe::{Function, Pose};
 use abbe_study::{compensate, mistake};
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyString};
 
 use crate::arrays::{empty, numbers, room, tuple};
-use crate::asked::length;
 use crate::failure::guarded;
 use crate::functions::vec_of;
 use crate::job::run;
 use crate::machine::Machine;
+use crate::options::length;
 
 /// Corrected commands: `q` (…, nq) within the limits, `left` (…, 6) of ΔX in F_0 (length unit, rad), and `reason`: None where
 /// all is compensated to the tolerance, else why not; a list where there are many configurations.
@@ -90,10 +90,8 @@ impl Machine {
         inputs: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Commands> {
         let description = abbe::Manipulator::description(&self.interpreter);
-        let tolerance = match tolerance {
-            Some(value) => length("tolerance", value, &self.machine.spec)?,
-            None => 1e-6 / description.length.in_metres(),
-        };
+        let usual = PyString::new(py, compensate::options::TOLERANCE).into_any();
+        let tolerance = length("tolerance", tolerance.unwrap_or(&usual), &self.machine.spec)?;
         let names = self.variable_names.bind(py);
         let signature = Function::RealPose.signature();
         let given = vec_of(numbers(q, "q", Some(names))?, "q", &signature.arguments[0], description)?;

@@ -1,14 +1,16 @@
 //! Which convention some rows of joints and poses are in.
 
+use std::sync::Arc;
+
 use abbe_report::text;
 use abbe_study::doctor::Doctor;
 use pyo3::prelude::*;
 
-use crate::asked::length;
 use crate::failure::{guarded, spec_error};
 use crate::job::run;
 use crate::machine::Machine;
 use crate::measured::Measured;
+use crate::options::length;
 use crate::report::{Pages, Report};
 
 /// The spec as a reading has it.
@@ -57,7 +59,7 @@ impl Machine {
         let corrected = || report.corrected(&self.unchanged.spec, &self.text()?, CORRECTED);
         let corrected = guarded(|| corrected().map_err(|mistakes| spec_error(py, &mistakes)))?;
         pages.extend(corrected.map(|spec| (CORRECTED.to_owned(), spec)));
-        let found = Report::new("doctor", &report, notes)?.printed(guarded(|| Ok(text::doctor(&report)))?);
+        let found = Report::new("doctor", &Arc::new(report), notes, text::doctor)?;
         Ok(found.with_spec(CORRECTED).with_pages(move || Ok(pages.clone())))
     }
 }

@@ -1,18 +1,19 @@
 //! Robots of other programs as specs, and machines as files that other programs load.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use abbe_spec::document::Document;
-use abbe_spec::DhConvention;
 use abbe_report::text;
-use abbe_study::export::{Export, Format as Exported};
+use abbe_spec::document::Document;
+use abbe_study::export::{Export, Format as Exported, SAMPLES_RANGE};
 use abbe_study::import::{Format, Import, Units};
+use abbe_study::options::CONVENTIONS;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::failure::guarded;
 use crate::job::run;
 use crate::machine::Machine;
+use crate::options::{named, one_of, within};
 use crate::report::Report;
 
 /// The spec of a robot that a URDF file describes: `file`, or the `text` of one.
@@ -69,14 +70,7 @@ pub(crate) fn import_dh(
     units: Option<&str>,
     round_angles: bool,
 ) -> PyResult<Report> {
-    let convention = match convention {
-        "standard" => DhConvention::Standard,
-        "modified" => DhConvention::Modified,
-        other => {
-            let message = format!("convention={other:?}: \"standard\" or \"modified\"");
-            return Err(PyValueError::new_err(message));
-        }
-    };
+    let convention = named("convention", convention, CONVENTIONS)?;
     let units: Units = units
         .map_or(Ok(Units::default()), str::parse)
         .map_err(|message| PyValueError::new_err(format!("`units`: {message}")))?;
@@ -100,7 +94,7 @@ fn imported(py: Python<'_>, job: Import, text: Option<String>) -> PyResult<Repor
         Some(text) => job.read(Document::new(job.file.display().to_string(), text), notes),
     })?;
     let (name, spec) = (format!("{}.toml", report.manipulator), report.spec.clone());
-    let found = Report::new("import", &report, notes)?.printed(guarded(|| Ok(text::imported(&report)))?);
+    let found = Report::new("import", &Arc::new(report), notes, text::imported)?;
     Ok(found.with_spec(&name).with_pages(move || Ok(vec![(name.clone(), spec.clone())])))
 }
 
@@ -130,10 +124,8 @@ impl Machine {
         samples: usize,
         seed: u64,
     ) -> PyResult<Report> {
-        if !(1..=1_000_000).contains(&samples) || !nodes.is_none_or(|nodes| (2..=1_000_000).contains(&nodes))
-        {
-            return Err(PyValueError::new_err("`samples` is from 1 to 1000000, `nodes` from 2 to 1000000"));
-        }
+        let samples = within("samples", samples, SAMPLES_RANGE)?;
+        let nodes = nodes.map(|nodes| within("nodes", nodes, Exported::NODES_RANGE)).transpose()?;
         let needless = |given: bool, name: &str| match given {
             true => Err(PyValueError::new_err(format!("`{name}` is not for to={to:?}: leave it out"))),
             false => Ok(()),
@@ -154,15 +146,15 @@ impl Machine {
             ("ur-calibration", _) => Exported::UrCalibration,
             ("dh", _) => Exported::Dh,
             _ => {
-                let known = Exported::NAMES.map(|name| format!("\"{name}\"")).join(", ");
-                return Err(PyValueError::new_err(format!("to={to:?}: {known}")));
+                let names = one_of(Exported::NAMES.into_iter());
+                return Err(PyValueError::new_err(format!("to={to:?}: {names}")));
             }
         };
-        needless(nodes.is_some() && !["isg-csv", "linuxcnc", "table"].contains(&to), "nodes")?;
+        needless(nodes.is_some() && !Exported::WITH_NODES.contains(&to), "nodes")?;
         let job = Export { machine: self.machine.clone(), format, samples, seed };
         let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
         let files: Vec<_> = report.files.iter().map(|file| (file.name.clone(), file.text.clone())).collect();
-        let found = Report::new("export", &report, notes)?.printed(guarded(|| Ok(text::exported(&report)))?);
+        let found = Report::new("export", &Arc::new(report), notes, text::exported)?;
         Ok(found.with_pages(move || Ok(files.clone())))
     }
 }

@@ -8,10 +8,12 @@ use std::time::{Duration, Instant};
 
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::Notes;
+use abbe_study::options::THREADS;
 use pyo3::exceptions::{PyRuntimeError, PyUserWarning};
 use pyo3::prelude::*;
 
 use crate::failure::{panicked, spec_error};
+use crate::options::within;
 
 /// How often Python looks at its signals, and is told of the progress.
 const OFTEN: Duration = Duration::from_millis(50);
@@ -65,7 +67,8 @@ pub(crate) fn run<R: Send>(
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&mut dyn Notes) -> Result<R, Diagnostics> + Send,
 ) -> PyResult<(R, Vec<String>)> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).stack_size(STACK).build();
+    let threads = threads.map(|threads| within("threads", threads, THREADS)).transpose()?.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
     let (stop, (said, heard)) = (AtomicBool::new(false), channel());
     let (mut result, heard) = (None, Mutex::new(heard));

@@ -1,27 +1,35 @@
 //! The Python package `abbe`: what `abbe-study` and `abbe-interpreter` do, for NumPy arrays.
 //!
-//! `machine` is the class that users hold, `evaluated` its functions, `asked` its jobs, `bound` what is certified of it,
-//! `doctor` and `exchange` what takes and gives what is of others, `commands` single commands. `functions`
+//! `machine` is the class that users hold, `evaluated` its functions, `commands` single commands. A job of the same name as
+//! the command has a file of that name; `exchange` are imports and exports. `options` reads what jobs are given. `functions`
 //! evaluates: `layout` says where numbers go, `arrays` reads what users give, `measured` what they measured, `batch` runs over many
 //! configurations. `job` runs a job beside Python, `report` is what it found, `table` what Arrow reads of it, `part` a part of an
 //! analysis; `failure` makes exceptions of mistakes.
 
+mod analyze;
 mod arrays;
-mod asked;
 mod batch;
 mod bound;
+mod check;
 mod commands;
 mod doctor;
 mod evaluated;
 mod exchange;
 mod failure;
 mod functions;
+mod generate;
+mod identify;
 mod job;
 mod layout;
 mod machine;
+mod measure;
 mod measured;
+mod monitor;
+mod options;
 mod part;
+mod plan;
 mod report;
+mod simulate;
 mod table;
 
 /// The compiled part of the package `abbe`.

@@ -3,10 +3,10 @@
 use std::sync::OnceLock;
 
 use abbe::{Function, Manipulator};
-use abbe_spec::diagnostic::Diagnostics;
-use abbe_spec::Spec;
 use abbe_interpreter::Interpreter;
 use abbe_manipulators::SHIPPED;
+use abbe_spec::Spec;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::Changes;
 use abbe_study::analyze::parts;
 use pyo3::exceptions::PyTypeError;

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use abbe_spec::diagnostic::Diagnostics;
-use abbe_study::data::{Cells, Columns, Map, Source};
+use abbe_study::Notes;
+use abbe_study::data::{Cells, Columns, Data, Map, Source};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
@@ -64,6 +65,13 @@ impl Machine {
     pub(crate) fn map(&self, py: Python<'_>, map: &std::path::Path) -> PyResult<Map> {
         let find = || -> Result<Map, Diagnostics> { Map::find(map, &self.machine.spec) };
         guarded(|| py.detach(find).map_err(|mistakes| spec_error(py, &mistakes)))
+    }
+}
+
+/// Notes which rows cannot be used, as the command does.
+pub(crate) fn unusable(data: &Data, notes: &mut dyn Notes) {
+    if !data.unusable.is_empty() {
+        notes.note(&data.summary().lines().join("\n"));
     }
 }
 

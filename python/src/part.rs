@@ -7,7 +7,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::asked::analysis;
+use crate::analyze::analysis;
 use crate::failure::{guarded, spec_error};
 use crate::job::run;
 use crate::report::Report;

@@ -3,9 +3,10 @@
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use abbe_spec::diagnostic::Diagnostics;
 use abbe_report::Picture;
+use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::data;
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -24,12 +25,12 @@ pub(crate) type Pages = Vec<(String, String)>;
 /// Makes something, when it is asked for.
 type Make<T> = Box<dyn Fn() -> Result<T, Diagnostics> + Send + Sync>;
 
-/// What a job found: its fields have the names of `abbe … --json`, nested ones too. `str` of it is its text.
+/// What a job found: its fields have the names of `abbe … --json`, nested ones too. `print` shows the same text as the command.
 #[pyclass(frozen, module = "abbe")]
 pub(crate) struct Report {
     kind: &'static str,
     json: String,
-    text: Option<String>,
+    text: Box<dyn Fn() -> String + Send + Sync>,
     html: Option<String>,
     notes: Vec<String>,
     pages: Option<Make<Pages>>,
@@ -41,22 +42,24 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    /// A report that is shown by its fields.
-    pub(crate) fn new(kind: &'static str, report: &impl Serialize, notes: Vec<String>) -> PyResult<Self> {
-        let json =
-            serde_json::to_string(report).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        let (text, html, pages, figures, rows, spec) = (None, None, None, None, None, None);
-        Ok(Self { kind, json, text, html, notes, pages, figures, rows, spec, fields: PyOnceLock::new() })
+    /// A report with its fields and its text.
+    pub(crate) fn new<R: Serialize + Send + Sync + 'static>(
+        kind: &'static str,
+        report: &Arc<R>,
+        notes: Vec<String>,
+        text: impl Fn(&R) -> String + Send + Sync + 'static,
+    ) -> PyResult<Self> {
+        let json = serde_json::to_string(&**report);
+        let json = json.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let report = Arc::clone(report);
+        let (text, fields) = (Box::new(move || text(&report)), PyOnceLock::new());
+        let (html, pages, figures, rows, spec) = (None, None, None, None, None);
+        Ok(Self { kind, json, text, html, notes, pages, figures, rows, spec, fields })
     }
 
-    /// With a text, and tables for notebooks.
-    pub(crate) fn shown(self, text: String, html: String) -> Self {
-        Self { text: Some(text), html: Some(html), ..self }
-    }
-
-    /// With a text.
-    pub(crate) fn printed(self, text: String) -> Self {
-        Self { text: Some(text), ..self }
+    /// With tables for notebooks.
+    pub(crate) fn with_html(self, html: String) -> Self {
+        Self { html: Some(html), ..self }
     }
 
     /// With files.
@@ -73,10 +76,7 @@ impl Report {
     }
 
     /// With figures.
-    pub(crate) fn with_figures(
-        self,
-        figures: impl Fn() -> Vec<Picture> + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn with_figures(self, figures: impl Fn() -> Vec<Picture> + Send + Sync + 'static) -> Self {
         Self { figures: Some(Box::new(figures)), ..self }
     }
 
@@ -161,7 +161,8 @@ impl Report {
         let pictures = guarded(|| Ok(py.detach(make)))?;
         let figure = py.import("abbe._fields")?.getattr("Figure")?;
         for Picture { name, scene, svg } in pictures {
-            let data = serde_json::to_string(&scene).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+            let data =
+                serde_json::to_string(&scene).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
             found.set_item(name, figure.call1((scene.title, svg, data))?)?;
         }
         Ok(found)
@@ -222,10 +223,7 @@ impl Report {
     }
 
     fn __str__(&self, py: Python<'_>) -> PyResult<String> {
-        match &self.text {
-            Some(text) => Ok(text.clone()),
-            None => py.import("abbe._fields")?.call_method1("text", (self.fields(py)?,))?.extract(),
-        }
+        guarded(|| Ok(py.detach(&self.text)))
     }
 
     fn __repr__(&self) -> String {

@@ -49,6 +49,26 @@ def test_the_same_as_the_command():
     assert "int scara_pose(const float *ABBE_RESTRICT q" in abbe.load("scara").generate("c", real="float")
 
 
+@pytest.mark.skipif(not COMMAND, reason="the environment variable ABBE does not name the abbe command")
+def test_print_shows_the_text_of_the_command(tmp_path):
+    def printed(*arguments):
+        return subprocess.run([COMMAND, *arguments], check=True, capture_output=True, text=True).stdout
+
+    data = str(tmp_path / "data.csv")
+    simulated = ur5.simulate("ur5", samples=60, seed=4)
+    assert str(simulated) == printed("simulate", "ur5", "--map", "ur5", "--samples", "60", "--seed", "4")
+    Path(data).write_text(str(simulated))
+    assert str(ur5.check()) == printed("check", "ur5")
+    assert str(ur5.measure(data, "ur5")) == printed("measure", "ur5", data, "--map", "ur5")
+    assert str(ur5.identify(data, "ur5")) == printed("identify", "ur5", data, "--map", "ur5")
+    plan = ur5.plan("ur5", count=20, candidates=60)
+    assert str(plan) == printed("plan", "ur5", "--map", "ur5", "--optimal", "20", "--candidates", "60")
+    dated = [str(tmp_path / f"2026-03-0{day}.csv") for day in (1, 2, 3)]
+    for day in dated:
+        Path(day).write_text(str(ur5.simulate("ur5", data=data, seed=int(day[-5]))))
+    assert str(ur5.monitor(dated, "ur5")) == printed("monitor", "ur5", *dated, "--map", "ur5")
+
+
 def test_report(tmp_path):
     report = pps.analyze()
     written = report.report(tmp_path / "new")

@@ -3,7 +3,7 @@
 //! Everything comes back as texts with the names of their files; nothing here writes. `figures` builds a [`scene::Scene`] for each
 //! figure of a report, `svg` draws it, and `html` writes the pages that hold it: [`analysis`], [`measurement()`],
 //! [`identification()`], [`compensation()`] and [`monitoring()`]. [`figures()`] returns the figures of an analysis one by one.
-//! [`text`] is what a terminal shows.
+//! [`text`] is what a terminal and Python's `print` show.
 
 mod figures;
 mod html;

@@ -7,6 +7,7 @@ pub use crate::archive::archive;
 use crate::machine::Machine;
 use crate::mistake;
 use crate::notes::Notes;
+use crate::options::Choices;
 
 /// What is the code of this manipulator?
 #[derive(Clone)]
@@ -17,7 +18,23 @@ pub struct Generate {
     pub language: Language,
 }
 
+/// One entry for each value of a constant `ALL`.
+macro_rules! all {
+    ($type:ident: $($i:literal)*) => {
+        Choices(&[$(($type::ALL[$i], $type::ALL[$i].name(), "")),*])
+    };
+}
+
 impl Generate {
+    /// Languages; C and the functional mock-up unit as they are if nothing else is said.
+    pub const LANGUAGES: Choices<Language> = all!(Language: 0 1 2 3 4 5);
+
+    /// Types of numbers of C.
+    pub const REALS: Choices<Real> = all!(Real: 0 1);
+
+    /// Versions of FMI.
+    pub const VERSIONS: Choices<Fmi> = all!(Fmi: 0 1);
+
     /// The files: one, or several that belong together. The same spec gives the same bytes. An error if the language's numbers
     /// cannot hold one of the manipulator's.
     pub fn run(&self, _: &mut dyn Notes) -> Result<Vec<SourceFile>, Diagnostics> {

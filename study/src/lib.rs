@@ -61,6 +61,7 @@ pub mod data;
 pub mod hash;
 pub mod mistake;
 pub mod number;
+pub mod options;
 pub mod study_file;
 pub mod workspace;
 

@@ -2,9 +2,9 @@
 
 use core::ops::{ControlFlow, Range};
 
-use super::gathering::{self, Beginning, Scattered};
+use super::gathering::{self, Beginning, Gathering, Scattered};
 use super::partial_budget::PartialBudget;
-use super::{Budget, BudgetOptions, OrientationErrors, Residual, Watch, remaining_errors};
+use super::{Budget, BudgetOptions, OrientationErrors, RemainingErrors, Residual, Watch, remaining_errors};
 use crate::sweep::{BLOCK, Block, Unevaluated, in_order_until, ready, sweep};
 use crate::workspace::One;
 use crate::{Measurand, Subset, Workspace};

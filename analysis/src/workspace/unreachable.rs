@@ -45,7 +45,7 @@ impl UnreachableSummary {
     }
 
     /// Whether it, which may come from a file, can be of a manipulator with so many variables.
-    pub(in crate::analysis) fn is_sound(&self, variables: usize) -> bool {
+    pub(crate) fn is_sound(&self, variables: usize) -> bool {
         let total = self.reasons.iter().try_fold(0, |sum: usize, (_, count)| sum.checked_add(*count));
         let mut reasons =
             self.reasons.iter().map(|(reason, _)| reason).chain(self.first.iter().map(|one| &one.reason));

@@ -84,7 +84,7 @@ fn part(
     let machine = arguments.subject.as_written()?;
     let question = Question {
         changes: arguments.subject.each_change(),
-        monte_carlo: arguments.monte_carlo.map(|draws| draws as usize),
+        monte_carlo: arguments.monte_carlo,
         seed: arguments.seed,
         interpret: arguments.interpret,
         figures: !arguments.no_figures,
@@ -111,7 +111,7 @@ fn job(arguments: &arguments::Analyze, console: &mut Console) -> Result<Analyze,
     let changes = arguments.subject.changes(&machine.spec)?;
     let mut job = Analyze::new(machine, study);
     job.change(&changes, console);
-    job.monte_carlo = arguments.monte_carlo.map(|draws| draws as usize);
+    job.monte_carlo = arguments.monte_carlo;
     job.seed = arguments.seed;
     job.interpret = arguments.interpret;
     job.figures = arguments.out.is_some();

@@ -1,9 +1,11 @@
 use std::path::PathBuf;
 
-use abbe_study::analyze::parts::{Question, Shard};
+use abbe_study::analyze::options::DRAWS;
+use abbe_study::analyze::parts::Shard;
 use clap::Args;
 
 use super::shared::{Running, Subject, Writing};
+use super::values::whole;
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -22,8 +24,8 @@ pub(crate) struct Analyze {
     #[arg(long, value_name = "FILE")]
     pub(crate) study: Option<PathBuf>,
     /// Draw all errors this often at the worst configuration and at home, on the exact chain with true rotations
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=Question::MOST_DRAWS as u64))]
-    pub(crate) monte_carlo: Option<u64>,
+    #[arg(long, value_name = "N", value_parser = whole(DRAWS))]
+    pub(crate) monte_carlo: Option<usize>,
     /// Seed of everything random: the draws, and a study's random samples
     #[arg(long, value_name = "S")]
     pub(crate) seed: Option<u64>,

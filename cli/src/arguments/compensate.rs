@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use abbe_study::compensate::options::TOLERANCE;
 use clap::{Args, ValueHint};
 
 use super::shared::{Page, Running, Subject, Writing};
@@ -23,7 +24,7 @@ pub(crate) struct Compensate {
     #[arg(long, requires = "map")]
     pub(crate) poses: bool,
     /// What may be left at the tool point; of an angle, 1 rad counts as 1 m
-    #[arg(long, value_name = "LENGTH", default_value = "0.001mm", allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = TOLERANCE, allow_hyphen_values = true)]
     pub(crate) tolerance: String,
     /// Write the corrected commands and what they leave: a CSV file
     #[arg(long, value_name = "FILE")]

@@ -1,10 +1,11 @@
 use std::path::PathBuf;
 
-use abbe_study::export::{Format, SAMPLES};
+use abbe_study::export::{Format, SAMPLES, SAMPLES_RANGE};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
 
 use super::shared::{Subject, Writing};
+use super::values::whole;
 use crate::failure::Failure;
 
 #[derive(Args, Debug)]
@@ -32,13 +33,13 @@ pub(crate) struct Export {
     #[arg(long, value_name = "LINK", requires = "from")]
     tip: Option<String>,
     /// How many values of each axis or joint a table has. If not given, 101 of an axis, and about 10,000 of all joints together
-    #[arg(long, value_name = "N", value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(2..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = whole(Format::NODES_RANGE))]
     nodes: Option<usize>,
     /// Write to this file instead of stdout; several files, to this folder
     #[arg(long, short, value_name = "PATH", value_hint = ValueHint::AnyPath)]
     pub(crate) out: Option<PathBuf>,
     /// Over how many random configurations the differences are taken
-    #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = SAMPLES, value_parser = whole(SAMPLES_RANGE))]
     pub(crate) samples: usize,
     /// Of these configurations
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -55,7 +56,7 @@ impl Export {
     pub(crate) fn format(&self) -> Result<Format, Failure> {
         let Self { to, from, base, tip, nodes, .. } = self;
         let of_axis = nodes.unwrap_or(Format::NODES);
-        let has_nodes = ["isg-csv", "linuxcnc", "table"].contains(&to.as_str());
+        let has_nodes = Format::WITH_NODES.contains(&to.as_str());
         if nodes.is_some() && !has_nodes {
             let failure = Failure::of("--nodes", format!("`--to {to}` has no nodes"));
             return Err(failure.help("leave `--nodes` out"));

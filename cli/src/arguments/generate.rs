@@ -1,11 +1,11 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-use abbe_codegen::print::{Fmi, Language, Real};
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use abbe_study::generate::{self, Fmi, Language, Real};
 use clap::{Args, ValueHint};
 
 use super::shared::Writing;
+use super::values::named;
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -22,36 +22,17 @@ pub(crate) struct Generate {
     #[arg(value_hint = ValueHint::FilePath)]
     pub(crate) spec: OsString,
     /// Language of the code
-    #[arg(long, value_parser = language(), default_value = Language::Rust.name())]
+    #[arg(long, value_parser = named(generate::Generate::LANGUAGES), default_value = Language::Rust.name())]
     pub(crate) lang: Language,
     /// Numbers that C computes in: `float` is for units of single precision [default: double]
-    #[arg(long, value_parser = real())]
+    #[arg(long, value_parser = named(generate::Generate::REALS))]
     pub(crate) real: Option<Real>,
     /// Version of FMI that --lang fmu follows. 3 if not given
-    #[arg(long, value_name = "VERSION", value_parser = fmi())]
+    #[arg(long, value_name = "VERSION", value_parser = named(generate::Generate::VERSIONS))]
     pub(crate) fmi: Option<Fmi>,
     /// Write to this file instead of stdout; C, which is two files, to this folder
     #[arg(long, value_name = "PATH")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) writing: Writing,
-}
-
-/// The languages by their names.
-fn language() -> impl TypedValueParser<Value = Language> {
-    PossibleValuesParser::new(Language::ALL.map(Language::name)).try_map(|name| {
-        Language::ALL.into_iter().find(|language| language.name() == name).ok_or("no such language")
-    })
-}
-
-/// The types of numbers by their names.
-fn real() -> impl TypedValueParser<Value = Real> {
-    PossibleValuesParser::new(Real::ALL.map(Real::name))
-        .try_map(|name| Real::ALL.into_iter().find(|real| real.name() == name).ok_or("no such type"))
-}
-
-/// The versions of FMI by their names.
-fn fmi() -> impl TypedValueParser<Value = Fmi> {
-    PossibleValuesParser::new(Fmi::ALL.map(Fmi::name))
-        .try_map(|name| Fmi::ALL.into_iter().find(|fmi| fmi.name() == name).ok_or("no such version"))
 }

@@ -1,11 +1,13 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use abbe_study::identify::Prior;
-use clap::{Args, ValueEnum};
+use abbe::identify::Loss;
+use abbe_study::identify::options::{FOLDS, LOSSES, TERMS};
+use abbe_study::identify::{Family, Prior};
+use clap::Args;
 
 use super::shared::{Measured, Page, Running, Subject, Writing};
-use super::values::{duration, folds, prior};
+use super::values::{duration, named, whole};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -22,8 +24,8 @@ pub(crate) struct Identify {
     #[arg(long, value_name = "FILE")]
     pub(crate) test: Option<PathBuf>,
     /// Richer terms to try beside constant errors; those stay that help on rows left out in turn
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "FAMILY,…")]
-    pub(crate) terms: Vec<Terms>,
+    #[arg(long, value_parser = named(TERMS), value_delimiter = ',', value_name = "FAMILY,…")]
+    pub(crate) terms: Vec<&'static [Family]>,
     /// Gear ratios: errors of a joint so many times per turn of it are tried as well: `--harmonics q2=1,2,101`
     #[arg(long, value_name = "JOINT=N,…")]
     pub(crate) harmonics: Vec<String>,
@@ -32,18 +34,18 @@ pub(crate) struct Identify {
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
     /// A loss that gross errors cannot pull at
-    #[arg(long, value_enum, default_value_t = Robust::None)]
-    pub(crate) robust: Robust,
+    #[arg(long, value_parser = named(LOSSES), default_value = LOSSES.name(Loss::default()))]
+    pub(crate) robust: Loss,
     /// How large errors are expected to be, as a share of the arm's length and in rad, 0 for no expectation; `spec`: as its
     /// random sources have them; `auto`: as rows left out in turn fit best
-    #[arg(long, value_name = "SHARE", default_value = "0.01", value_parser = prior)]
+    #[arg(long, value_name = "SHARE", default_value_t)]
     pub(crate) prior: Prior,
     /// Limits for rows that nothing is fitted to, `mean 0.15 mm, max 0.3 mm`: of mean, rms, p95 and max. End with status 1 if
     /// they are not met
     #[arg(long, value_name = "LIMITS")]
     pub(crate) accept: Option<String>,
     /// Into how many parts the rows are dealt, each left out in turn
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
+    #[arg(long, value_name = "N", default_value_t = FOLDS.default, value_parser = whole(FOLDS.range))]
     pub(crate) folds: usize,
     /// Write the spec with the errors found, as repeatable sources; beside it, as FILE.map.toml, the map with where the
     /// machine stands and what is mounted on its tool
@@ -58,29 +60,4 @@ pub(crate) struct Identify {
     pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Terms {
-    /// All that follow
-    Auto,
-    /// Errors that change with a frame's own joint: one to four times per turn, or with its travel
-    Joint,
-    /// Errors in proportion to an input: a load, a temperature, a motor's current
-    Load,
-    /// Turns in proportion to the moment of weights
-    Elastic,
-    /// Errors of joints by the direction they came from, row by row, or in which a weight pulls
-    Backlash,
-    /// Errors of joints with another joint, or with two
-    Product,
-    /// Errors that grow or settle from row to row: they are of the file, not of the machine
-    Drift,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Robust {
-    None,
-    Huber,
-    Tukey,
 }

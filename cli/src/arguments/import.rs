@@ -2,9 +2,11 @@ use std::path::PathBuf;
 
 use abbe_spec::DhConvention;
 use abbe_study::import::Units;
-use clap::{Args, ValueEnum, ValueHint};
+use abbe_study::options::CONVENTIONS;
+use clap::{Args, ValueHint};
 
 use super::shared::Writing;
+use super::values::named;
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -29,8 +31,8 @@ pub(crate) struct Import {
     pub(crate) fold: bool,
     /// The file is a table with the columns theta, d, a and alpha, of this convention: standard is Rz(theta) Tz(d) Tx(a) Rx(alpha),
     /// modified (Craig) Rx(alpha) Tx(a) Rz(theta) Tz(d)
-    #[arg(long, value_name = "CONVENTION")]
-    pub(crate) dh: Option<Convention>,
+    #[arg(long, value_name = "CONVENTION", value_parser = named(CONVENTIONS))]
+    pub(crate) dh: Option<DhConvention>,
     /// The units of the table where its heading does not say them, as `mm,deg` or `m,rad`
     #[arg(long, value_name = "UNITS", requires = "dh")]
     pub(crate) units: Option<Units>,
@@ -45,20 +47,4 @@ pub(crate) struct Import {
     /// Print JSON
     #[arg(long, display_order = 111)]
     pub(crate) json: bool,
-}
-
-/// Which product of the four numbers a row is.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Convention {
-    Standard,
-    Modified,
-}
-
-impl From<Convention> for DhConvention {
-    fn from(convention: Convention) -> Self {
-        match convention {
-            Convention::Standard => Self::Standard,
-            Convention::Modified => Self::Modified,
-        }
-    }
 }

@@ -31,7 +31,7 @@ pub(crate) use completions::Completions;
 pub(crate) use doctor::Doctor;
 pub(crate) use export::Export;
 pub(crate) use generate::Generate;
-pub(crate) use identify::{Identify, Robust, Terms};
+pub(crate) use identify::Identify;
 pub(crate) use import::Import;
 pub(crate) use jacobian::Jacobian;
 pub(crate) use list::List;
@@ -39,7 +39,7 @@ pub(crate) use man::Man;
 pub(crate) use measure::Measure;
 pub(crate) use merge::Merge;
 pub(crate) use monitor::Monitor;
-pub(crate) use plan::{Criterion, Plan};
+pub(crate) use plan::Plan;
 pub(crate) use shared::study;
 pub(crate) use simulate::Simulate;
 

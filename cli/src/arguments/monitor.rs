@@ -1,8 +1,10 @@
 use std::path::PathBuf;
 
+use abbe_study::monitor::options::FALSE_ALARM;
 use clap::{Args, ValueHint};
 
 use super::shared::{Page, Running, Subject, Writing};
+use super::values::whole;
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -25,8 +27,8 @@ pub(crate) struct Monitor {
     #[arg(long, value_name = "DATE", allow_hyphen_values = true)]
     pub(crate) since: Option<String>,
     /// On average no more than one false alarm in so many checks, over all charts together
-    #[arg(long, value_name = "CHECKS", default_value_t = 365, value_parser = clap::value_parser!(u32).range(10..=100_000))]
-    pub(crate) false_alarm: u32,
+    #[arg(long, value_name = "CHECKS", default_value_t = FALSE_ALARM.default, value_parser = whole(FALSE_ALARM.range))]
+    pub(crate) false_alarm: usize,
     /// End with status 1 if there is an alarm
     #[arg(long)]
     pub(crate) check: bool,

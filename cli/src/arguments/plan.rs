@@ -1,9 +1,11 @@
 use std::path::PathBuf;
 
-use clap::builder::RangedU64ValueParser;
-use clap::{Args, ValueEnum};
+use abbe::identify::Criterion;
+use abbe_study::plan::options::{CANDIDATES, COUNT, CRITERIA, CRITERION};
+use clap::Args;
 
 use super::shared::{Running, Subject, Writing};
+use super::values::{named, whole};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -20,14 +22,14 @@ pub(crate) struct Plan {
     #[arg(long, value_name = "FILE", conflicts_with = "optimal")]
     pub(crate) sets: Option<PathBuf>,
     /// The N configurations that tell most
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=5000))]
-    pub(crate) optimal: Option<u16>,
+    #[arg(long, value_name = "N", value_parser = whole(COUNT.range))]
+    pub(crate) optimal: Option<usize>,
     /// What is best: the smallest mean variance of the tool point where the machine is used, or the largest determinant of
     /// the information
-    #[arg(long, value_enum, default_value_t = Criterion::V)]
+    #[arg(long, value_parser = named(CRITERIA), default_value = CRITERIA.name(CRITERION))]
     pub(crate) criterion: Criterion,
     /// From how many samples within the limits these are chosen
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = CANDIDATES.default, value_parser = whole(CANDIDATES.range))]
     pub(crate) candidates: usize,
     /// Seed of the samples: random ones. If not given they are spread evenly
     #[arg(long, value_name = "S", conflicts_with = "sets")]
@@ -47,12 +49,4 @@ pub(crate) struct Plan {
     pub(crate) writing: Writing,
     #[command(flatten)]
     pub(crate) running: Running,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Criterion {
-    /// V-optimal: the tool point is known best where it is used
-    V,
-    /// D-optimal
-    D,
 }

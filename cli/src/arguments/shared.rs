@@ -8,9 +8,11 @@ use std::path::{Path, PathBuf};
 use abbe_spec::Spec;
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_study::analyze::parts::Change;
+use abbe_study::options::THREADS;
 use abbe_study::{Machine, Study};
 use clap::{Args, ValueHint};
 
+use super::values::whole;
 use crate::failure::Failure;
 use crate::output::note;
 
@@ -100,8 +102,8 @@ pub(crate) struct Writing {
 #[derive(Args, Debug)]
 pub(crate) struct Running {
     /// How many threads work; the results are the same for any number. All cores if not given
-    #[arg(long, value_name = "N", display_order = 110, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[arg(long, value_name = "N", display_order = 110, value_parser = whole(THREADS))]
+    threads: Option<usize>,
     /// Print JSON
     #[arg(long, display_order = 111)]
     pub(crate) json: bool,
@@ -111,7 +113,7 @@ impl Running {
     /// Sets the number of threads; to be called once, before there is work.
     pub(crate) fn start(&self) -> Result<(), Failure> {
         let Some(threads) = self.threads else { return Ok(()) };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build_global().map_err(|error| Failure::of("--threads", error))
     }
 }

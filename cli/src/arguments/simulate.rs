@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 
-use clap::builder::RangedU64ValueParser;
+use abbe_study::simulate::options::{OUTLIERS, SAMPLES};
 use clap::{Args, ValueHint};
 
 use super::shared::{Running, Subject, Writing};
-use super::values::share;
+use super::values::{share, whole};
 
 #[derive(Args, Debug)]
 #[command(after_help = after_help!(
@@ -21,13 +21,13 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "FILE")]
     pub(crate) map: PathBuf,
     /// How many random configurations, if no file says which
-    #[arg(long, value_name = "N", default_value_t = 100, conflicts_with = "data", value_parser = RangedU64ValueParser::<usize>::new().range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = SAMPLES.default, conflicts_with = "data", value_parser = whole(SAMPLES.range))]
     pub(crate) samples: usize,
     /// One standard deviation of a coordinate: `0.04mm`. That of the map if not given
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub(crate) noise: Option<String>,
     /// Which share of the rows is grossly wrong
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    #[arg(long, value_name = "SHARE", default_value_t = OUTLIERS.default, value_parser = share)]
     pub(crate) outliers: f64,
     /// Draw the random sources of the spec too, anew in every row
     #[arg(long)]

@@ -1,15 +1,27 @@
 //! Values of options.
 
+use std::ops::RangeInclusive;
 use std::time::Duration;
 
-use abbe_study::identify::Prior;
+use abbe_study::options::{self, Choices};
+use clap::builder::{PossibleValue, PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
-pub(super) fn prior(text: &str) -> Result<Prior, String> {
-    match text {
-        "spec" => Ok(Prior::Spec),
-        "auto" => Ok(Prior::Auto),
-        text => share(text).map(Prior::Share),
-    }
+/// Reads whole numbers of a range.
+pub(super) fn whole(range: RangeInclusive<usize>) -> RangedI64ValueParser<usize> {
+    let (least, most) = range.into_inner();
+    RangedI64ValueParser::new().range(least as i64..=most as i64)
+}
+
+/// Reads values by their names, which help lists.
+pub(super) fn named<T>(choices: Choices<T>) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + PartialEq + Send + Sync + 'static,
+{
+    let possible = choices.0.iter().map(|(_, name, help)| match *help {
+        "" => PossibleValue::new(*name),
+        help => PossibleValue::new(*name).help(help),
+    });
+    PossibleValuesParser::new(possible).try_map(move |name| choices.find(&name).ok_or("no such value"))
 }
 
 pub(super) fn duration(text: &str) -> Result<Duration, String> {
@@ -26,21 +38,5 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
 
 pub(super) fn share(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().map_err(|error| error.to_string())?;
-    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a share is from 0 to 1".to_owned()) }
-}
-
-/// `1%` or `0.01`.
-pub(super) fn gap(text: &str) -> Result<f64, String> {
-    let (digits, unit) = match text.trim().strip_suffix('%') {
-        Some(digits) => (digits, 0.01),
-        None => (text, 1.0),
-    };
-    let value = digits.trim().parse::<f64>().map_err(|error| error.to_string())? * unit;
-    let is_gap = value > 0.0 && value < 10.0;
-    if is_gap { Ok(value) } else { Err("a gap is more than 0: `1%`, `0.1%`".to_owned()) }
-}
-
-pub(super) fn folds(text: &str) -> Result<usize, String> {
-    let value = text.parse::<usize>().map_err(|error| error.to_string())?;
-    if (2..=1000).contains(&value) { Ok(value) } else { Err("from 2 to 1000 parts".to_owned()) }
+    Ok(options::share(value)?)
 }

@@ -105,6 +105,7 @@ fn accuracy_and_repeatability_are_those_put_in() {
     let text = prints(&["measure", "pps", path(&data), "--map", "pps", "--out", path(&out)]);
     narrow(&text);
     assert!(text.contains("ISO 9283"));
+    assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains("as it should be"), "{text}");
     assert_eq!(fs::read_to_string(out.join("errors.csv")).unwrap().lines().count(), 301);
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     for expected in ["cf. Figure 13", "cf. Figure 14", "Repeatability: how often"] {

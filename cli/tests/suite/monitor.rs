@@ -78,6 +78,10 @@ fn the_elbow_of_the_chapter_is_found() {
     let of_map = json(&["monitor", &spec, &checks, "--map", limited, "--disable", "wear", "--json"]);
     assert_eq!((&of_map["tolerance"], &of_map["finding"]), (&0.1.into(), &report["finding"]));
 
+    let used_up =
+        prints(&["monitor", &spec, &checks, "--map", &map, "--disable", "wear", "--tolerance", "0.01mm"]);
+    assert!(used_up.contains("more than the tolerance of 0.01 mm"), "{used_up}");
+
     assert_eq!(call(&["--check"]).status, 1);
     assert_eq!(call(&[]).status, 0);
     assert!(call(&["--since", "88"]).stdout.contains("No alarm"));

@@ -63,7 +63,7 @@ impl Language {
     ];
 
     /// Its name on the command line.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Rust => "rust",
             Self::C(_) => "c",

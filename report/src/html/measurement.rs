@@ -9,6 +9,7 @@ use super::figure::figures;
 use super::provenance::{Provenance, instrument};
 use super::{document, escaped, section};
 use crate::figures::measured;
+use crate::text::measurement::sentences;
 
 /// The page of a measurement; `spec` and `map` are those of the job.
 pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
@@ -17,7 +18,7 @@ pub fn measurement(spec: &Spec, map: &Map, report: &Report, provenance: &Provena
         escaped(&spec.title),
         escaped(&report.title)
     );
-    let sentences = report.sentences();
+    let sentences = sentences(report);
     let words: String = sentences.iter().map(|sentence| format!("<p>{}</p>\n", escaped(sentence))).collect();
     let lines: String = report.file.lines().iter().map(|line| format!("{}<br>\n", escaped(line))).collect();
     let drawn = figures(&measured::scenes(report, spec), 0);

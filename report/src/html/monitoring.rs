@@ -9,6 +9,7 @@ use super::figure::figures;
 use super::provenance::{Provenance, instrument};
 use super::{document, escaped, section};
 use crate::figures::charts;
+use crate::text::monitoring::{findings, watched};
 
 /// The page of a machine that is watched; `spec` and `map` are those of the job.
 pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenance) -> String {
@@ -21,7 +22,7 @@ pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenan
         sentences.iter().map(|said| format!("<p>{}</p>\n", escaped(said))).collect::<String>()
     };
     let class = if report.alarm.is_some() { "missed" } else { "met" };
-    let mut findings = report.findings();
+    let mut findings = findings(report);
     let first = if findings.is_empty() { String::new() } else { findings.remove(0) };
     let verdict = format!(
         "<section class=\"verdict\">\n<h2 class=\"{class}\">{}</h2>\n{}</section>\n",
@@ -33,7 +34,7 @@ pub fn monitoring(spec: &Spec, map: &Map, report: &Report, provenance: &Provenan
     let body = [
         heading,
         verdict,
-        section("What was watched", &paragraphs(report.watched())),
+        section("What was watched", &paragraphs(watched(report))),
         section("Charts", &(table(report) + &figures(&charts::scenes(report), 0))),
         section("Instrument", &instrument(spec, map)),
         if unusable.is_empty() {

@@ -66,6 +66,14 @@ pub enum DhConvention {
 }
 
 impl DhConvention {
+    /// Returns its name, as options and tables have it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Modified => "modified",
+        }
+    }
+
     /// The numbers in the order of the frame's factors, one factor each.
     pub const fn order(self) -> [DhNumber; 4] {
         match self {

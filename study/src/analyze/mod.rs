@@ -15,6 +15,7 @@ pub mod figures;
 mod first_order;
 mod job;
 mod ledger;
+pub mod options;
 pub mod parts;
 mod report;
 mod summary;

@@ -7,6 +7,7 @@
 mod domain;
 mod least;
 mod norms;
+pub mod options;
 mod remainder;
 mod report;
 

@@ -2,6 +2,7 @@
 
 mod commands;
 mod in_f0;
+pub mod options;
 mod reason;
 mod rows;
 

@@ -15,6 +15,7 @@ mod turning;
 mod ur_calibration;
 mod urdf;
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use abbe_spec::diagnostic::Diagnostics;
@@ -30,6 +31,9 @@ use crate::number::digits;
 
 /// How many configurations the differences are of, if nobody says.
 pub const SAMPLES: usize = 1000;
+
+/// How many they may be of.
+pub const SAMPLES_RANGE: RangeInclusive<usize> = 1..=1_000_000;
 
 /// What is the file of this machine in another format?
 #[derive(Clone)]
@@ -83,6 +87,12 @@ impl Format {
 
     /// How many values a table over one axis has, if nobody says.
     pub const NODES: usize = 101;
+
+    /// How many it may have.
+    pub const NODES_RANGE: RangeInclusive<usize> = 2..=1_000_000;
+
+    /// The names of those that have nodes.
+    pub const WITH_NODES: [&str; 3] = ["isg-csv", "linuxcnc", "table"];
 }
 
 /// A file to be written.

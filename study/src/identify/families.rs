@@ -23,18 +23,6 @@ impl Family {
     /// All.
     pub const ALL: [Self; 6] =
         [Self::Joint, Self::Load, Self::Elastic, Self::Backlash, Self::Product, Self::Drift];
-
-    /// Its name, as it is asked for.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Joint => "joint",
-            Self::Load => "load",
-            Self::Elastic => "elastic",
-            Self::Backlash => "backlash",
-            Self::Product => "product",
-            Self::Drift => "drift",
-        }
-    }
 }
 
 /// How often per turn of a joint errors are looked for, beside 1 to 4: gear ratios.

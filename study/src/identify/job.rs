@@ -26,6 +26,7 @@ use super::indistinguishable::indistinguishable;
 use super::instruments::{estimate, instrument_fits};
 use super::magnitude::{OwnMagnitude, own_magnitudes};
 use super::misread::check_interpretation;
+use super::options::Settings;
 use super::plausibility::check_plausibility;
 use super::point_residuals::{PointResidual, Valued};
 use super::report::{
@@ -34,7 +35,7 @@ use super::report::{
 };
 use super::scale::scale_note;
 use super::setup::Setup;
-use super::solve::{Settings, Solved, solve};
+use super::solve::{Solved, solve};
 use super::terms::Term;
 use super::train_test_overlap::{sentence, train_test_overlap};
 use super::weakly_determined::WeaklyDetermined;

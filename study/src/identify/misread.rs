@@ -130,7 +130,10 @@ fn stages_of(setup: &Setup, rows: &[Observation]) -> impl Iterator<Item = Vec<Tr
     let several = move || {
         let all = signs.flat_map(|signs| {
             let reversed = reversed(signs);
-            exchanged.iter().map(move |order| [&order[..], std::slice::from_ref(&reversed)].concat()).collect::<Vec<_>>()
+            exchanged
+                .iter()
+                .map(move |order| [&order[..], std::slice::from_ref(&reversed)].concat())
+                .collect::<Vec<_>>()
         });
         all.map(trial).collect()
     };

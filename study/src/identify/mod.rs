@@ -1,6 +1,6 @@
 //! The generalized errors of a real machine, from measurements.
 //!
-//! `setup` places the machine before the instrument, `line_of_sight` moves it to where instruments can be read, `instruments` fits
+//! `options` are what can be chosen. `setup` places the machine before the instrument, `line_of_sight` moves it to where instruments can be read, `instruments` fits
 //! their uncertainties. `misread` tests whether the data are read as they are meant, against what the map has `stated`;
 //! `plausibility` finds errors that no machine has, `train_test_overlap` test rows that were fitted.
 //!
@@ -33,6 +33,7 @@ mod line_of_sight;
 mod magnitude;
 mod map_writer;
 mod misread;
+pub mod options;
 mod outliers;
 mod placed;
 mod plausibility;
@@ -60,6 +61,7 @@ pub use found::{FoundError, FoundMagnitude, FoundModel, FoundTerm};
 pub use indistinguishable::Indistinguishable;
 pub use instruments::InstrumentFit;
 pub use job::Identify;
+pub use options::Settings;
 pub use outliers::shown_lines;
 pub use placed::{Placed, PlacedInstrument, PlacedStation};
 pub use point_residuals::PointResidual;
@@ -68,7 +70,6 @@ pub use report::{
     Certainty, Compared, CrossValidation, Gain, Held, Indices, Kind, LeftOut, Magnitude, Pair, Parameter,
     Report, TermGain,
 };
-pub use solve::Settings;
 pub use spec_writer::IdentifiedSpec;
 pub use terms::{Angle, Basis, ErrorSite, Term, Wave};
 pub use weakly_determined::WeaklyDetermined;

@@ -16,17 +16,20 @@ pub enum Prior {
 }
 
 /// The shares that are tried.
-const SHARES: [f64; 6] = [3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4];
+const SHARES: [f64; 6] = [3e-2, Prior::DEFAULT_SHARE, 3e-3, 1e-3, 3e-4, 1e-4];
 
 /// Another share is better if rows left out are by more than this.
 const BETTER: f64 = 0.01;
 
 impl Prior {
+    /// What is expected if nothing is said, as a share of the arm's length and in rad.
+    pub(crate) const DEFAULT_SHARE: f64 = 0.01;
+
     /// What is expected of errors of which nothing else is said; 0 for no expectation.
     pub(super) fn share(self) -> f64 {
         match self {
             Self::Share(share) => share,
-            Self::Spec | Self::Auto => SHARES[1],
+            Self::Spec | Self::Auto => Self::DEFAULT_SHARE,
         }
     }
 
@@ -35,9 +38,9 @@ impl Prior {
         match self {
             Self::Share(share) if share > 0.0 => model.priors(share),
             Self::Share(_) => Ok(Vec::new()),
-            Self::Auto => model.priors(SHARES[1]),
+            Self::Auto => model.priors(Self::DEFAULT_SHARE),
             Self::Spec => {
-                let mut priors = model.priors(SHARES[1])?;
+                let mut priors = model.priors(Self::DEFAULT_SHARE)?;
                 let stated = stated(model.manipulator, &model.s).map_err(Failure::Machine)?;
                 for (unknown, prior) in model.unknowns.iter().zip(&mut priors) {
                     if let Unknown::Error(frame, component) = unknown

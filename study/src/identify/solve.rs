@@ -1,13 +1,12 @@
 //! Fitted and judged: by the data alone.
 
-use std::time::Duration;
-
 use abbe::VariableKind;
 use abbe::identify::{Distances, Failure, Fit, Loss, Model, Options, Unknown, cross_validate, fit};
 use abbe_spec::diagnostic::Diagnostics;
 use abbe_spec::expr::Motion;
 
 use super::magnitude::OwnMagnitude;
+use super::options::Settings;
 use super::outliers;
 use super::priors::Prior;
 use super::setup::Setup;
@@ -15,22 +14,6 @@ use super::terms::{Basis, ErrorSite, Term};
 use crate::data::Data;
 use crate::number::digits;
 use crate::{Notes, mistake};
-
-/// How it is done.
-#[derive(Clone, Debug)]
-pub struct Settings {
-    /// What a residual costs.
-    pub loss: Loss,
-    /// How large errors are expected to be.
-    pub prior: Prior,
-    /// Into how many parts the rows are dealt, each left out in turn.
-    pub folds: usize,
-    /// How long richer terms are tried; then no further ones are, and what comes out depends on the computer. As long as it
-    /// takes if there is none.
-    pub time: Option<Duration>,
-    /// Whether what is left of every point is kept, for pictures.
-    pub points: bool,
-}
 
 /// What the data say.
 pub(super) struct Solved<'a> {

@@ -1,13 +1,12 @@
 //! How good a machine is: accuracy, repeatability, and what the sources of its spec explain.
 //!
 //! `errors` are ΔX of every row; `iso9283` what the standard says of configurations that were visited again; `explained`
-//! compares with the prediction; `readings` are the same of instruments that are read one by one; `sentences` says the last two in words.
+//! compares with the prediction; `readings` are the same of instruments that are read one by one.
 
 mod errors;
 mod explained;
 mod iso9283;
 mod readings;
-mod sentences;
 
 use std::borrow::Cow;
 

@@ -4,7 +4,7 @@ use abbe::control::{SelfStarting, ewma_limit};
 use serde::Serialize;
 
 use super::numbers::Numbers;
-use super::settings::Settings;
+use super::options::Settings;
 use super::single_errors::SingleErrors;
 use super::vectors::{norm, product};
 

@@ -7,8 +7,8 @@ use super::charts::{Chart, Limit, charts};
 use super::checks::Checks;
 use super::finding::finding;
 use super::numbers::Numbers;
+use super::options::Settings;
 use super::report::{Alarm, Report};
-use super::settings::Settings;
 use super::single_errors::SingleErrors;
 use crate::data::Map;
 use crate::{Machine, Notes, finite};
@@ -38,7 +38,8 @@ impl Monitor {
         let (charts, left) = charts(&errors, &numbers, &limit);
         let date = |check: usize| checks.calendar.show(checks.list[check].time);
         let alarm = alarm(&charts, &left, date);
-        let found = alarm.as_ref().and_then(|_| finding(&errors, &numbers, checks, settings.tolerance));
+        let tolerance = settings.tolerance.or(map.accept.largest());
+        let found = alarm.as_ref().and_then(|_| finding(&errors, &numbers, checks, tolerance));
         let report = Report {
             name: spec.name.clone(),
             length: spec.length.symbol(),
@@ -56,7 +57,7 @@ impl Monitor {
             unseen: errors.unseen,
             finding: found,
             alarm,
-            tolerance: settings.tolerance,
+            tolerance,
             files: checks.list.iter().map(|check| check.data.summary()).collect(),
         };
         finite("abbe monitor", report)

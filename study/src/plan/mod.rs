@@ -1,6 +1,7 @@
 //! Where to measure, and how well the errors of the machine will then be known where it is used.
 
 mod keys;
+pub mod options;
 mod report;
 mod sets;
 
@@ -15,7 +16,8 @@ use abbe_spec::diagnostic::Diagnostics;
 
 use crate::data::{Instruments, Map};
 use crate::identify::{
-    Counts, Setup, WeaklyDetermined, indistinguishable, nothing_readable, readable_configurations, scale_note,
+    Counts, Prior, Setup, WeaklyDetermined, indistinguishable, nothing_readable, readable_configurations,
+    scale_note,
 };
 use crate::workspace::has_range;
 use crate::{Machine, Notes, Study, finite, mistake};
@@ -26,10 +28,6 @@ pub use sets::{Counted, Sets};
 
 /// The most configurations of the workspace of use that are looked at.
 const USED: usize = 1000;
-
-/// How large errors are expected to be, as a share of the arm's length and in rad: what an identification expects that is
-/// told nothing else.
-const EXPECTED: f64 = 0.01;
 
 /// Where should this machine be measured?
 pub struct Plan {
@@ -111,7 +109,7 @@ impl Plan {
         };
         let spread = tool_points.deviations(judged, covariance);
         let spread = Figures::from_norms(spread.into_iter().map(|deviation| deviation.hypot(own)).collect());
-        let sizes = model.priors(EXPECTED).map_err(fail)?;
+        let sizes = model.priors(Prior::DEFAULT_SHARE).map_err(fail)?;
         let unseen = tool_points.unseen(judged, |k| sizes[k].unwrap_or(1.0));
         // A millionth of what the instrument can tell is rounding.
         let matters =
@@ -258,7 +256,7 @@ impl Plan {
 }
 
 fn determined(model: &Model, rows: &[Observation]) -> Result<Identifiable, Failure> {
-    let expected = model.expected(&model.priors(EXPECTED)?)?;
+    let expected = model.expected(&model.priors(Prior::DEFAULT_SHARE)?)?;
     knowable(model, rows, &vec![0.0; model.unknowns.len()], &expected, 1.0)
 }
 

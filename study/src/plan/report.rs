@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::sets::Counted;
 use crate::data::{Map, Table};
 use crate::identify::{Counts, Indistinguishable, WeaklyDetermined};
-use crate::number;
 
 /// What is to be measured, and what it will tell.
 #[derive(Clone, Debug, Serialize)]
@@ -62,17 +61,6 @@ pub struct Input {
     pub unit: String,
     /// Its least and its largest value: the same of one that stays where it is.
     pub between: [f64; 2],
-}
-
-impl Input {
-    /// `payload goes from 0 kg to 5 kg`, or `payload stays at 0 kg`.
-    pub fn sentence(&self) -> String {
-        let [least, largest] = self.between.map(|value| number::quantity(value, &self.unit));
-        match self.between[0] == self.between[1] {
-            true => format!("{} stays at {least}", self.name),
-            false => format!("{} goes from {least} to {largest}", self.name),
-        }
-    }
 }
 
 /// Figures of a standard deviation.

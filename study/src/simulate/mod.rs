@@ -1,5 +1,7 @@
 //! Measurements of a machine whose errors are known.
 
+pub mod options;
+
 use std::borrow::Cow;
 
 use abbe::Manipulator;

@@ -22,7 +22,7 @@ impl Real {
     pub const ALL: [Self; 2] = [Self::Double, Self::Float];
 
     /// Its name in C, and on the command line.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Double => "double",
             Self::Float => "float",

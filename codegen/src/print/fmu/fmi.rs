@@ -14,7 +14,7 @@ impl Fmi {
     pub const ALL: [Self; 2] = [Self::Two, Self::Three];
 
     /// Its name on the command line.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Two => "2",
             Self::Three => "3",

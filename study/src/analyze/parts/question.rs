@@ -9,6 +9,7 @@ use abbe_spec::document::Document;
 use serde::{Deserialize, Serialize};
 
 use crate::analyze::Analyze;
+use crate::analyze::options::DRAWS;
 use crate::changes::Changes;
 use crate::hash;
 use crate::machine::Machine;
@@ -105,14 +106,12 @@ impl Question {
         })
     }
 
-    /// The most draws that are made.
-    pub const MOST_DRAWS: usize = 10_000_000;
-
     /// What is wrong with the number of draws, if anything is.
     pub(super) fn check_draws(&self) -> Result<(), String> {
         match self.monte_carlo {
-            None | Some(1..=Self::MOST_DRAWS) => Ok(()),
-            Some(draws) => Err(format!("it asks for {draws} draws: from 1 to {} are made", Self::MOST_DRAWS)),
+            None => Ok(()),
+            Some(draws) if DRAWS.contains(&draws) => Ok(()),
+            Some(draws) => Err(format!("it asks for {draws} draws: from 1 to {} are made", DRAWS.end())),
         }
     }
 

@@ -28,10 +28,7 @@ pub(super) fn report(found: &Found) -> Result<Report, Diagnostics> {
         mistake::with_help("abbe export", message, "this is a mistake of abbe: please report the spec")
     })?;
     let read = Table { rows: read, ..table.clone() };
-    let word = match table.convention {
-        DhConvention::Standard => "standard",
-        DhConvention::Modified => "modified",
-    };
+    let word = table.convention.name();
     let mut left_out: Vec<String> = found.held_at_mean().into_iter().collect();
     let ends = [("base", nominal.base), ("tool", nominal.tool)];
     let ends: Vec<&str> =

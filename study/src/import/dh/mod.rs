@@ -115,10 +115,7 @@ fn contradicted(text: &Text, convention: DhConvention, document: &mut Document) 
     if *stated == convention {
         return Some(());
     }
-    let other = match stated {
-        DhConvention::Standard => "standard",
-        DhConvention::Modified => "modified",
-    };
+    let other = stated.name();
     let mistake = Diagnostic::new(span.clone(), format!("this table says that it is {other}"));
     document.mistake(mistake.help(format!("read it so: `--dh {other}`")));
     None

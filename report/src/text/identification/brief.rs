@@ -1,17 +1,17 @@
 //! What comes out, on a page: how good it is, what was found, what cannot be known, and what to do.
 
-use abbe_report::text::{Table, wrapped};
 use abbe_spec::Spec;
 use abbe_study::identify::{JointError, Kind, Parameter, Report, Sizes, TermGain};
 use abbe_study::number::{digits, error_decimals, fixed};
 
-use super::text::{comparison, instruments, judged, left, outside, sizes, table};
+use super::super::{Table, wrapped};
+use super::full::{self, comparison, instruments, judged, left, outside, sizes, table};
 
 /// How many errors, sentences and terms are shown.
 const SHOWN: usize = 6;
 
-/// `written` says what was written, if anything was.
-pub(super) fn text(spec: &Spec, report: &Report, written: Option<&str>) -> String {
+/// Returns what `abbe identify` prints, except what is written.
+pub fn identification(spec: &Spec, report: &Report) -> String {
     let mut head = format!("{}: errors from measurements\n{}", spec.title, answer(spec, report));
     for line in report.files.iter().flat_map(|file| file.lines()) {
         head += &format!("{}\n", wrapped(&line, 2));
@@ -22,7 +22,9 @@ pub(super) fn text(spec: &Spec, report: &Report, written: Option<&str>) -> Strin
     }
     parts.push(not_known(report));
     let notes = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect::<String>();
-    parts.extend([notes, written.unwrap_or_default().to_owned()].into_iter().filter(|part| !part.is_empty()));
+    if !notes.is_empty() {
+        parts.push(notes);
+    }
     parts.join("\n")
 }
 
@@ -118,7 +120,7 @@ fn few(sentences: &[String]) -> String {
 
 fn terms(spec: &Spec, report: &Report) -> String {
     if report.terms.is_empty() {
-        return super::text::terms(spec, report);
+        return full::terms(spec, report);
     }
     let decimals = error_decimals(spec.length);
     let mut table = Table::new(&["richer terms, as they came in", "before", "after"]);

@@ -1,26 +1,19 @@
 //! `abbe identify`: the generalized errors of a real machine, from measurements.
 
-mod alike;
-mod brief;
-mod text;
-
 use std::path::{Path, PathBuf};
 
 use abbe::VariableKind;
-use abbe::identify::Loss;
 use abbe_report::Provenance;
-use abbe_report::text::wrapped;
+use abbe_report::text::{self, wrapped};
 use abbe_spec::Spec;
 use abbe_study::Acceptance;
 use abbe_study::data::{Data, Map};
-use abbe_study::identify::{Family, Harmonics, Identify, Report, Settings};
+use abbe_study::identify::{Harmonics, Identify, Report, Settings};
 
-use crate::arguments::{self, Robust, Terms};
+use crate::arguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::output::{Outcome, Outputs, Pending, json, note};
-
-pub(crate) use alike::table as alike_table;
 
 pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     arguments.running.start()?;
@@ -38,7 +31,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     let data = Data::read(&arguments.measured.data, &map)?;
     let test = arguments.test.as_ref().map(|file| Data::read(file, &map)).transpose()?;
     let settings = Settings {
-        loss: loss(arguments.robust),
+        loss: arguments.robust,
         prior: arguments.prior,
         folds: arguments.folds,
         time: arguments.time,
@@ -46,7 +39,7 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
     };
     let accept = accept(arguments.accept.as_deref(), &machine.spec, &map)?;
     let harmonics = harmonics(&arguments.harmonics, &machine.spec)?;
-    let terms = families(&arguments.terms);
+    let terms = arguments.terms.concat();
     let mut job = Identify { machine, map, data, test, terms, harmonics, settings, accept };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let out = arguments.out.as_deref().map(|file| begin(file, &mut outputs)).transpose()?;
@@ -73,8 +66,11 @@ pub(crate) fn run(arguments: &arguments::Identify) -> Result<Outcome, Failure> {
             report.notes.iter().for_each(|line| note(line));
             json(&report)?
         }
-        false if arguments.full => text::text(&job.machine.spec, &report, written.as_deref()),
-        false => brief::text(&job.machine.spec, &report, written.as_deref()),
+        false => {
+            let text = if arguments.full { text::full_identification } else { text::identification };
+            let written = written.map(|written| format!("\n{written}"));
+            text(&job.machine.spec, &report) + &written.unwrap_or_default()
+        }
     };
     Ok(Outcome::checked(text, accepted).beside(printed))
 }
@@ -143,27 +139,6 @@ fn found(file: &Path, job: &Identify, report: &Report) -> Result<Found, Failure>
     );
     let (file, beside) = (file.display().to_string(), wrapped(&beside, 0));
     Ok(Found { spec: spec.text, map, file, beside, lines: lines.collect() })
-}
-
-fn loss(robust: Robust) -> Loss {
-    match robust {
-        Robust::None => Loss::Squares,
-        Robust::Huber => Loss::Huber,
-        Robust::Tukey => Loss::Tukey,
-    }
-}
-
-fn families(terms: &[Terms]) -> Vec<Family> {
-    let families = terms.iter().flat_map(|terms| match terms {
-        Terms::Auto => Family::ALL.to_vec(),
-        Terms::Joint => vec![Family::Joint],
-        Terms::Load => vec![Family::Load],
-        Terms::Elastic => vec![Family::Elastic],
-        Terms::Backlash => vec![Family::Backlash],
-        Terms::Product => vec![Family::Product],
-        Terms::Drift => vec![Family::Drift],
-    });
-    families.collect()
 }
 
 /// Reads `q2=1,2,101`.

@@ -1,12 +1,17 @@
-//! The results for people.
+//! How good a machine is, as text.
+
+mod sentences;
 
 use abbe_spec::Spec;
 use abbe_study::measure::{InstrumentErrors, Report, Size};
 use abbe_study::number::{digits, fixed};
 
-use abbe_report::text::{Table, wrapped};
+use super::{Table, wrapped};
+use sentences::decimals;
+pub(crate) use sentences::sentences;
 
-pub(super) fn text(spec: &Spec, report: &Report) -> String {
+/// Returns what `abbe measure` prints.
+pub fn measurement(spec: &Spec, report: &Report) -> String {
     let mut parts = vec![format!("{}: measured\n\n", spec.title)];
     for line in report.file.lines() {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
@@ -28,14 +33,14 @@ pub(super) fn text(spec: &Spec, report: &Report) -> String {
         true => parts.push(format!(
             "ΔX = measured − ideal, {} and mrad\n{}",
             report.length,
-            errors(&report.errors, report.decimals())
+            errors(&report.errors, decimals(report))
         )),
         false => parts.push(format!(
             "Reading − prediction with the repeatable sources of the spec; in brackets the rms without them\n{}",
             instruments(&report.instruments)
         )),
     }
-    parts.extend(report.sentences().into_iter().map(|sentence| wrapped(&sentence, 0) + "\n"));
+    parts.extend(sentences(report).into_iter().map(|sentence| wrapped(&sentence, 0) + "\n"));
     parts.join("\n")
 }
 

@@ -2,7 +2,7 @@
 
 use abbe_study::identify::Indistinguishable;
 
-use abbe_report::text::Table;
+use super::Table;
 
 /// Groups that have the same reason.
 struct Sentence<'r> {
@@ -12,7 +12,7 @@ struct Sentence<'r> {
 }
 
 /// What cannot be told apart, and why; nothing if all can.
-pub(crate) fn table(groups: &[Indistinguishable]) -> String {
+pub(super) fn table(groups: &[Indistinguishable]) -> String {
     let mut table = Table::new(&["because", "these cannot be told apart"]);
     for sentence in sentences(groups) {
         table.row(vec![wrapped_at(sentence.reason, 38), sentence.groups.join("\n")]);

@@ -1,14 +1,14 @@
-//! The results for people.
-
-use std::path::Path;
+//! Corrected commands and what they leave, as text.
 
 use abbe::{Class, Description, VariableKind};
 
-use abbe_report::text::{Table, wrapped};
 use abbe_study::compensate::{Report, Size, Told};
 use abbe_study::number::{counted, error_decimals, fixed, length, short};
 
-pub(super) fn text(description: &Description, report: &Report, out: Option<&Path>) -> String {
+use super::{Table, wrapped};
+
+/// Returns what `abbe compensate` prints, except where the commands are written.
+pub fn compensation(description: &Description, report: &Report) -> String {
     let mut parts = vec![format!("{}: compensated\n\n", description.title)];
     for line in report.file.lines() {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
@@ -36,9 +36,6 @@ pub(super) fn text(description: &Description, report: &Report, out: Option<&Path
                 instrument, and not where targets are mounted.";
     parts.push(wrapped(from, 0) + "\n");
     parts.push(commands(description, report));
-    if let Some(file) = out {
-        parts.push(format!("{}: {} rows\n", file.display(), report.told.rows));
-    }
     parts.join("\n")
 }
 

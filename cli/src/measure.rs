@@ -1,8 +1,6 @@
 //! `abbe measure`: how good a machine is.
 
-mod text;
-
-use abbe_report::Provenance;
+use abbe_report::{Provenance, text};
 use abbe_spec::Spec;
 use abbe_study::data::{Data, Map};
 use abbe_study::measure::{Measure, Report};
@@ -47,6 +45,6 @@ pub(crate) fn run(arguments: &arguments::Measure) -> Result<Outcome, Failure> {
 
 fn outcome(arguments: &arguments::Measure, spec: &Spec, report: &Report) -> Result<Outcome, Failure> {
     let accepted = report.accepted.as_ref().is_none_or(|accepted| accepted.met);
-    let text = if arguments.running.json { json(report)? } else { text::text(spec, report) };
+    let text = if arguments.running.json { json(report)? } else { text::measurement(spec, report) };
     Ok(Outcome::checked(text, accepted))
 }

@@ -1,14 +1,13 @@
-//! All that comes out, for people: `--full`.
+//! Every error that was found, what acts alike, and how well each is known: `--full`.
 
 use abbe_spec::Spec;
 use abbe_study::identify::{Gain, Kind, Parameter, Report, Sizes, WeaklyDetermined, shown_lines};
 use abbe_study::number::{self, counted, digits, fixed};
 
-use super::alike;
-use abbe_report::text::{Table, wrapped};
+use super::super::{Table, alike, wrapped};
 
-/// `written` says what was written, if anything was.
-pub(super) fn text(spec: &Spec, report: &Report, written: Option<&str>) -> String {
+/// Returns what `abbe identify --full` prints, except what is written.
+pub fn full_identification(spec: &Spec, report: &Report) -> String {
     let mut parts = vec![format!("{}: errors from measurements\n\n", spec.title)];
     for line in report.files.iter().flat_map(|file| file.lines()) {
         parts[0] += &format!("{}\n", wrapped(&line, 2));
@@ -23,9 +22,6 @@ pub(super) fn text(spec: &Spec, report: &Report, written: Option<&str>) -> Strin
     let notes = report.notes.iter().map(|note| wrapped(note, 0) + "\n").collect::<String>();
     if !notes.is_empty() {
         parts.push(notes);
-    }
-    if let Some(written) = written {
-        parts.push(written.to_owned());
     }
     parts.join("\n")
 }

@@ -1,32 +1,16 @@
-//! `abbe check`: whether a spec is right, and what follows from it.
+//! Whether a spec is right and what follows from it, as text.
 
 mod chain;
 
 use abbe::VariableKind;
 use abbe_spec::Spec;
-use abbe_study::Notes;
-use abbe_study::check::{self, Identifiable, Law, Report};
+use abbe_study::check::{Identifiable, Law, Report};
 use abbe_study::number::{quantity, short};
 
-use crate::arguments::Check;
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::output::{Outcome, json};
-use abbe_report::text::{Table, wrapped};
+use super::{Table, wrapped};
 
-pub(crate) fn run(arguments: &Check) -> Result<Outcome, Failure> {
-    let job = check::Check { machine: arguments.subject.machine()? };
-    let mut console = Console::default();
-    let report = job.run(&mut console)?;
-    for warning in &report.warnings {
-        let line = warning.line.map(|line| format!(":{line}")).unwrap_or_default();
-        console.warn(&format!("{}{line}: {}", report.facts.spec, warning.message));
-    }
-    let shown = if arguments.json { json(&report)? } else { text(&report) };
-    Ok(Outcome::checked(shown, report.passed()))
-}
-
-fn text(report: &Report) -> String {
+/// Returns what `abbe check` prints.
+pub fn check(report: &Report) -> String {
     let spec = &report.spec;
     let length = spec.length.symbol();
     let mut parts = vec![format!("{} ({})\n", spec.title, report.facts.spec)];

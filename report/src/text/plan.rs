@@ -1,59 +1,21 @@
-//! `abbe plan`: where to measure, and how well the errors of the machine will then be known where it is used.
+//! Where to measure, as text.
 
-use std::path::Path;
-
-use abbe::identify::Criterion;
 use abbe_spec::Spec;
 use abbe_study::data::Map;
-use abbe_study::number::{digits, short};
-use abbe_study::plan::{Choice, Input, Plan, Report, Sets, Unseen};
+use abbe_study::number::{digits, quantity, short};
+use abbe_study::plan::{Input, Report, Unseen};
 
-use crate::arguments;
-use crate::console::Console;
-use crate::failure::Failure;
-use crate::identify::alike_table;
-use crate::number::length;
-use crate::output::{Outcome, Outputs, json};
-use abbe_report::text::wrapped;
+use super::{alike, wrapped};
 
-pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
-    arguments.running.start()?;
-    let machine = arguments.subject.machine()?;
-    let map = Map::find(&arguments.map, &machine.spec)?;
-    let choice = match &arguments.sets {
-        Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
-        None => Choice::Optimal {
-            criterion: match arguments.criterion {
-                arguments::Criterion::V => Criterion::Variance,
-                arguments::Criterion::D => Criterion::Determinant,
-            },
-            count: usize::from(arguments.optimal.unwrap_or(50)),
-            candidates: arguments.candidates,
-        },
-    };
-    let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
-    let study = arguments::study(arguments.study.as_deref(), &machine)?;
-    let job = Plan { machine, map, choice, study, model_error, seed: arguments.seed };
-    let mut outputs = Outputs::new(&job, arguments.writing.force);
-    let out = outputs.wanted(arguments.out.as_deref())?;
-    let report = job.run(&mut Console::default())?;
-    let out = out.map(|file| file.fill(&report.table(&job.map).csv())).transpose()?;
-    let printed = outputs.finish(out)?;
-    let text = match arguments.running.json {
-        true => json(&report)?,
-        false => text(&job.machine.spec, &job.map, &report, arguments.out.as_deref()),
-    };
-    Ok(Outcome::passed(text).beside(printed))
-}
-
-fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
+/// Returns what `abbe plan` prints, except where the configurations are written.
+pub fn plan(spec: &Spec, map: &Map, report: &Report) -> String {
     let unit = report.length;
     let mut text = format!("{}: where to measure\n\n{}\n", spec.title, wrapped(&report.title, 0));
     let sets: Vec<String> = report.sets.iter().map(|set| format!("{} {}", set.rows, set.name)).collect();
     if !sets.is_empty() {
         text += &format!("{} rows: {}.\n", report.rows, sets.join(", "));
     }
-    let inputs: Vec<String> = report.inputs.iter().map(Input::sentence).collect();
+    let inputs: Vec<String> = report.inputs.iter().map(input).collect();
     if !inputs.is_empty() {
         text += &format!("{}\n", wrapped(&format!("Inputs: {}.", inputs.join(", ")), 0));
     }
@@ -99,11 +61,16 @@ fn text(spec: &Spec, map: &Map, report: &Report, out: Option<&Path>) -> String {
         );
         text += &format!("{}\n", wrapped(&line, 0));
     }
-    text += &format!("\n{}\n", alike_table(&report.groups));
-    if let Some(file) = out {
-        text += &format!("Written to {}.\n", file.display());
+    text + &format!("\n{}\n", alike::table(&report.groups))
+}
+
+/// `payload goes from 0 kg to 5 kg`, or `payload stays at 0 kg`.
+fn input(Input { name, unit, between }: &Input) -> String {
+    let [least, largest] = between.map(|value| quantity(value, unit));
+    match between[0] == between[1] {
+        true => format!("{name} stays at {least}"),
+        false => format!("{name} goes from {least} to {largest}"),
     }
-    text
 }
 
 /// How many errors are named.

@@ -1,17 +1,21 @@
-//! What the checks say, for people.
+//! What the checks of a machine say, as text.
+
+mod sentences;
 
 use abbe_spec::Spec;
 use abbe_study::monitor::{Chart, Report};
 use abbe_study::number::{fixed, percent};
 
-use abbe_report::text::{Table, wrapped};
+use super::{Table, wrapped};
+pub(crate) use sentences::{findings, watched};
 
 /// How many charts are shown.
 const SHOWN: usize = 12;
 /// How many errors that act alike are named.
 const ALIKE: usize = 4;
 
-pub(super) fn text(spec: &Spec, report: &Report) -> String {
+/// Returns what `abbe monitor` prints.
+pub fn monitoring(spec: &Spec, report: &Report) -> String {
     let mut parts = vec![format!("{}: watched\n\n", spec.title)];
     for file in report.files.iter().filter(|file| !file.unusable.is_empty()) {
         for line in file.lines() {
@@ -20,8 +24,8 @@ pub(super) fn text(spec: &Spec, report: &Report) -> String {
     }
     let paragraphs =
         |sentences: &[String]| sentences.iter().map(|said| wrapped(said, 0) + "\n").collect::<String>();
-    parts[0] += &paragraphs(&report.findings());
-    parts.push(paragraphs(&report.watched()));
+    parts[0] += &paragraphs(&findings(report));
+    parts.push(paragraphs(&watched(report)));
     parts.push(charts(report));
     parts.join("\n")
 }

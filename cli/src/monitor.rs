@@ -1,8 +1,6 @@
 //! `abbe monitor`: whether a machine that is checked again and again is still what it was.
 
-mod text;
-
-use abbe_report::Provenance;
+use abbe_report::{Provenance, text};
 use abbe_study::data::Map;
 use abbe_study::monitor::{Checks, Monitor, Settings};
 
@@ -22,11 +20,8 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     }
     let tolerance =
         arguments.tolerance.as_ref().map(|text| length("--tolerance", text, &machine.spec)).transpose()?;
-    let settings = Settings {
-        checks_per_false_alarm: f64::from(arguments.false_alarm),
-        tolerance: tolerance.or(map.accept.largest()),
-        ..Settings::default()
-    };
+    let settings =
+        Settings { checks_per_false_alarm: arguments.false_alarm as f64, tolerance, ..Settings::default() };
     let job = Monitor { machine, map, checks, settings };
     let mut outputs = Outputs::new(&job, arguments.writing.force);
     let page = outputs.wanted(arguments.page.report.as_deref())?;
@@ -38,6 +33,7 @@ pub(crate) fn run(arguments: &arguments::Monitor) -> Result<Outcome, Failure> {
     });
     let printed = outputs.finish(page.transpose()?)?;
     let passed = !arguments.check || report.alarm.is_none();
-    let text = if arguments.running.json { json(&report)? } else { text::text(&job.machine.spec, &report) };
+    let text =
+        if arguments.running.json { json(&report)? } else { text::monitoring(&job.machine.spec, &report) };
     Ok(Outcome::checked(text, passed).beside(printed))
 }

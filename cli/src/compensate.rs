@@ -1,11 +1,9 @@
 //! `abbe compensate`: joint commands that put the real tool where the ideal one should be.
 
-mod text;
-
 use std::io;
 use std::path::Path;
 
-use abbe_report::Provenance;
+use abbe_report::{Provenance, text};
 use abbe_spec::Spec;
 use abbe_study::compensate::{Compensate, Report, check_poses};
 use abbe_study::data::{Csv, Data, Map};
@@ -57,8 +55,9 @@ pub(crate) fn run(arguments: &arguments::Compensate) -> Result<Outcome, Failure>
     let text = match arguments.running.json {
         true => json(&report)?,
         false => {
+            let file = out.map(|file| format!("\n{}: {} rows\n", file.display(), report.told.rows));
             let manipulator = job.machine.evaluator(true);
-            text::text(manipulator.description(), &report, arguments.out.as_deref())
+            text::compensation(manipulator.description(), &report) + &file.unwrap_or_default()
         }
     };
     Ok(Outcome::checked(text, report.complete()).beside(printed))

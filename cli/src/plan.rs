@@ -1,0 +1,42 @@
+//! `abbe plan`: where to measure, and how well the errors of the machine will then be known where it is used.
+
+use abbe_report::text;
+use abbe_study::data::Map;
+use abbe_study::plan::options::COUNT;
+use abbe_study::plan::{Choice, Plan, Sets};
+
+use crate::arguments;
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::number::length;
+use crate::output::{Outcome, Outputs, json};
+
+pub(crate) fn run(arguments: &arguments::Plan) -> Result<Outcome, Failure> {
+    arguments.running.start()?;
+    let machine = arguments.subject.machine()?;
+    let map = Map::find(&arguments.map, &machine.spec)?;
+    let choice = match &arguments.sets {
+        Some(file) => Choice::Sets(Sets::find(file, &machine.spec)?),
+        None => Choice::Optimal {
+            criterion: arguments.criterion,
+            count: arguments.optimal.unwrap_or(COUNT.default),
+            candidates: arguments.candidates,
+        },
+    };
+    let model_error = length("--model-error", &arguments.model_error, &machine.spec)?;
+    let study = arguments::study(arguments.study.as_deref(), &machine)?;
+    let job = Plan { machine, map, choice, study, model_error, seed: arguments.seed };
+    let mut outputs = Outputs::new(&job, arguments.writing.force);
+    let out = outputs.wanted(arguments.out.as_deref())?;
+    let report = job.run(&mut Console::default())?;
+    let out = out.map(|file| file.fill(&report.table(&job.map).csv())).transpose()?;
+    let printed = outputs.finish(out)?;
+    let mut text = match arguments.running.json {
+        true => json(&report)?,
+        false => text::plan(&job.machine.spec, &job.map, &report),
+    };
+    if let (Some(file), false) = (&arguments.out, arguments.running.json) {
+        text += &format!("Written to {}.\n", file.display());
+    }
+    Ok(Outcome::passed(text).beside(printed))
+}

@@ -1,0 +1,27 @@
+//! Whether a spec is right.
+
+use std::sync::Arc;
+
+use abbe_report::text;
+use abbe_study::check::Check;
+use pyo3::prelude::*;
+
+use crate::job::run;
+use crate::machine::Machine;
+use crate::report::Report;
+
+#[pymethods]
+impl Machine {
+    /// Checks the spec: what it says, its chain at home, what measurements could tell, and J_e against the exact chain.
+    ///
+    /// Fields as those of `abbe check --json`.
+    ///
+    /// >>> import abbe
+    /// >>> all(law.holds for law in abbe.load("scara").check().laws)
+    /// True
+    fn check(&self, py: Python<'_>) -> PyResult<Report> {
+        let job = Check { machine: self.machine.clone() };
+        let (report, notes) = run(py, None, None, |notes| job.run(notes))?;
+        Report::new("check", &Arc::new(report), notes, text::check)
+    }
+}

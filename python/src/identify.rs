@@ -1,0 +1,113 @@
+//! Which errors a machine has, from measurements.
+#![allow(clippy::too_many_arguments, reason = "keywords of Python")]
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use abbe_report::{Provenance, text};
+use abbe_study::data::Data;
+use abbe_study::identify::options::{FOLDS, LOSSES, TERMS};
+use abbe_study::identify::{Family, Identify, Prior, Settings};
+use abbe_study::options::share;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+
+use crate::job::run;
+use crate::machine::Machine;
+use crate::measured::{Measured, unusable};
+use crate::options::{limits, named, seconds, within};
+use crate::report::{Pages, Report};
+
+#[pymethods]
+impl Machine {
+    /// Which errors the real machine has, from measurements, how well each is known, and how good the result is on unseen rows.
+    ///
+    /// `data`, `test`: CSV files or tables, as for `measure`; `map`: what their columns are. `terms`: "auto" for all families of richer terms, or names of some:
+    /// joint, load, elastic, backlash, product, drift. `robust`: "huber" or "tukey". `prior`: how large errors are expected to be, as
+    /// a share of the arm and in rad, or "spec" or "auto". `time`: seconds for richer terms. `resample=b`: repetition b of the bootstrap, with
+    /// configurations drawn with replacement (`abbe.fleet.bootstrap` does many). `.report(folder)` writes found.toml and
+    /// found.map.toml, too. Fields as those of `abbe identify --json`.
+    #[pyo3(signature = (data, map, *, test=None, terms=None, robust=None, prior=None, folds=10, time=None, resample=None, accept=None, threads=None, progress=None))]
+    fn identify(
+        &self,
+        py: Python<'_>,
+        data: &Bound<'_, PyAny>,
+        map: PathBuf,
+        test: Option<&Bound<'_, PyAny>>,
+        terms: Option<&Bound<'_, PyAny>>,
+        robust: Option<&str>,
+        prior: Option<&Bound<'_, PyAny>>,
+        folds: usize,
+        time: Option<f64>,
+        resample: Option<usize>,
+        accept: Option<&str>,
+        threads: Option<usize>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Report> {
+        let terms = families(terms)?;
+        let settings = Settings {
+            loss: robust.map(|name| named("robust", name, LOSSES)).transpose()?.unwrap_or_default(),
+            prior: expected(prior)?,
+            folds: within("folds", folds, FOLDS.range)?,
+            time: seconds("time", time)?,
+            points: true,
+        };
+        let map = self.map(py, &map)?;
+        let measured = Measured::new("data", data, &map)?;
+        let unseen = test.map(|test| Measured::new("test", test, &map)).transpose()?;
+        let ((job, report), notes) = run(py, threads, progress, |notes| {
+            let machine = self.machine.clone();
+            let test = unseen.as_ref().map(|test| Data::read(test.source(), &map)).transpose()?;
+            let accept = limits(accept, &machine.spec, &map)?;
+            let data = Data::read(measured.source(), &map)?;
+            test.iter().chain([&data]).for_each(|data| unusable(data, notes));
+            let data = resample.map_or_else(|| data.clone(), |number| data.resampled(0, number));
+            let job = Identify { machine, map, data, test, terms, harmonics: Vec::new(), settings, accept };
+            let report = job.run(notes)?;
+            Ok((job, report))
+        })?;
+        // A spec with changes has no room for what was found.
+        let nominal = self.machine.spec.hash == self.unchanged.spec.hash
+            && self.changes().is_ok_and(|changes| changes.is_empty());
+        let spec_text = self.text();
+        let (report, spec) = (Arc::new(report), job.machine.spec.clone());
+        let text = move |report: &_| text::identification(&spec, report);
+        let found = Report::new("identify", &report, notes, text)?.with_spec("found.toml");
+        Ok(found.with_pages(move || {
+            let Identify { machine, map, .. } = &job;
+            let test = unseen.iter().map(|test| ("test", test.source()));
+            let files = [("measurements", measured.source())].into_iter().chain(test);
+            let provenance = Provenance::new(&machine.spec, Some(map), files, None)?;
+            let page = abbe_report::identification(&machine.spec, map, &report, &provenance);
+            let mut pages: Pages = vec![("report.html".into(), page)];
+            if nominal {
+                let spec = report.found.identified_spec(&machine.spec, &spec_text.clone()?, "found.toml")?;
+                let map = report.found.identified_map(map, &machine.spec, "found.map.toml")?;
+                pages.extend([("found.toml".into(), spec.text), ("found.map.toml".into(), map)]);
+            }
+            Ok(pages)
+        }))
+    }
+}
+
+/// Returns the families of terms that are named: one name, or several.
+fn families(terms: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Family>> {
+    let names: Vec<String> = match terms {
+        None => Vec::new(),
+        Some(one) if one.is_instance_of::<PyString>() => vec![one.extract()?],
+        Some(several) => several.extract()?,
+    };
+    let asked = names.iter().map(|name| named("terms", name, TERMS));
+    Ok(asked.collect::<PyResult<Vec<_>>>()?.concat())
+}
+
+/// Reads a prior: a share, or text.
+fn expected(prior: Option<&Bound<'_, PyAny>>) -> PyResult<Prior> {
+    let Some(prior) = prior else { return Ok(Prior::default()) };
+    let read = match prior.extract::<String>() {
+        Ok(text) => text.parse().ok(),
+        Err(_) => prior.extract().ok().and_then(|value| share(value).ok()).map(Prior::Share),
+    };
+    read.ok_or_else(|| PyTypeError::new_err("`prior` is a share from 0 to 1, \"spec\" or \"auto\""))
+}

@@ -1,0 +1,55 @@
+//! Measurements of a machine whose errors are known.
+#![allow(clippy::too_many_arguments, reason = "keywords of Python")]
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use abbe_study::data::Data;
+use abbe_study::simulate::options::{OUTLIERS, SAMPLES};
+use abbe_study::simulate::{Places, Simulate};
+use pyo3::prelude::*;
+
+use crate::job::run;
+use crate::machine::Machine;
+use crate::measured::Measured;
+use crate::options::{length, within};
+use crate::report::Report;
+
+#[pymethods]
+impl Machine {
+    /// What an instrument would measure of the machine with the errors of its sources.
+    ///
+    /// `map`: what is measured; `data`: commands in a CSV file or a table, else `samples` random configurations. `noise`: one standard deviation
+    /// of a coordinate, in the length unit or as text; `outliers`: which share of the rows is grossly wrong; `random`: draw the random
+    /// sources, too. `.report(folder)` writes measurements.csv. Fields as those of `abbe simulate --json`.
+    #[pyo3(signature = (map, *, data=None, samples=100, noise=None, outliers=0.0, random=false, seed=0))]
+    fn simulate(
+        &self,
+        py: Python<'_>,
+        map: PathBuf,
+        data: Option<&Bound<'_, PyAny>>,
+        samples: usize,
+        noise: Option<&Bound<'_, PyAny>>,
+        outliers: f64,
+        random: bool,
+        seed: u64,
+    ) -> PyResult<Report> {
+        let samples = within("samples", samples, SAMPLES.range)?;
+        let outliers = within("outliers", outliers, OUTLIERS.range)?;
+        let noise = noise.map(|value| length("noise", value, &self.machine.spec)).transpose()?;
+        let map = self.map(py, &map)?;
+        let commands = data.map(|data| Measured::new("data", data, &map)).transpose()?;
+        let (report, notes) = run(py, None, None, |notes| {
+            let machine = self.machine.clone();
+            let at = match &commands {
+                Some(commands) => Places::Rows(Data::read_commanded(commands.source(), &map)?),
+                None => Places::Samples(samples),
+            };
+            Simulate { machine, map, at, noise, outliers, random, seed }.run(notes)
+        })?;
+        let report = Arc::new(report);
+        let found = Report::new("simulate", &report, notes, |report| report.table.csv())?;
+        let found = found.with_rows(report.table.clone());
+        Ok(found.with_pages(move || Ok(vec![("measurements.csv".into(), report.table.csv())])))
+    }
+}

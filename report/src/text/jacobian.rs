@@ -1,0 +1,51 @@
+//! Pose, error Jacobian and generalized errors at one configuration, as text.
+
+use std::fmt::Write;
+
+use abbe_study::jacobian::Report;
+use abbe_study::number::{self, unbroken};
+
+use super::{Table, wrapped};
+
+/// Returns what `abbe jacobian` prints.
+pub fn jacobian(report: &Report) -> String {
+    let mut text = String::new();
+    let values = number::variables(&report.q, &report.spec);
+    let unit = report.length;
+    let _ = write!(
+        text,
+        "{} ({}) at {}\n\n\
+         Units      {unit} and rad, in F_0\n\
+         Rows       {} of the tool point ({unit}); {} (rad, {})\n\
+         Columns    e_x e_y e_z ({unit}), e_s e_r e_p (rad) of each frame: turns about y, z, x\n\n\
+         Pose of the tool\n",
+        report.spec.title,
+        report.name,
+        wrapped(&unbroken(&values), 0),
+        report.rows[..3].join(", "),
+        report.rows[3..].join(", "),
+        report.orientation,
+    );
+    for row in &report.pose {
+        let cells = row.map(|entry| format!("{:>14}", number::fixed(entry, 6)));
+        let _ = writeln!(text, "{}", cells.concat());
+    }
+    for (i, frame) in report.spec.frames.iter().enumerate() {
+        let _ = writeln!(text, "\nFrame {}: {}", i + 1, frame.name);
+        let six = 6 * i..6 * (i + 1);
+        let mut header = vec![""];
+        header.extend(report.columns[six.clone()].iter().map(String::as_str));
+        let mut table = Table::new(&header);
+        for (name, row) in report.rows.iter().zip(&report.error_jacobian) {
+            table.row(cells(name, &row[six.clone()]));
+        }
+        table.row(cells("ε of the sources", &report.generalized_errors[six]));
+        text += &table.right(&[1, 2, 3, 4, 5, 6]).to_string();
+    }
+    text
+}
+
+fn cells(name: &str, values: &[f64]) -> Vec<String> {
+    let values = values.iter().map(|value| number::fixed(*value, 6));
+    std::iter::once(name.to_owned()).chain(values).collect()
+}

@@ -1,0 +1,54 @@
+//! The options of a bound.
+
+use std::fmt;
+use std::str::FromStr;
+
+use abbe_bound::Effort;
+
+use crate::options::Number;
+
+/// Largest number of boxes that are looked at for each error.
+pub const BOXES: Number<usize> = Number { default: Effort::DEFAULT.boxes, range: 1..=100_000_000 };
+
+/// Share of the error that was found by which the certified one may exceed it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap(f64);
+
+impl Gap {
+    /// Returns a gap, which is more than 0 and less than 10.
+    pub fn new(share: f64) -> Result<Self, &'static str> {
+        let is_gap = share > 0.0 && share < 10.0;
+        if is_gap { Ok(Self(share)) } else { Err("a gap is more than 0: `1%`, `0.1%`") }
+    }
+
+    /// Returns it as a share.
+    pub fn share(self) -> f64 {
+        self.0
+    }
+}
+
+impl Default for Gap {
+    fn default() -> Self {
+        Self(Effort::DEFAULT.gap)
+    }
+}
+
+/// `1%` or `0.01`.
+impl FromStr for Gap {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (digits, unit) = match text.trim().strip_suffix('%') {
+            Some(digits) => (digits, 0.01),
+            None => (text, 1.0),
+        };
+        let value = digits.trim().parse::<f64>().map_err(|error| error.to_string())?;
+        Ok(Self::new(value * unit)?)
+    }
+}
+
+impl fmt::Display for Gap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}%", 100.0 * self.0)
+    }
+}
