@@ -2,8 +2,8 @@
 #![no_main]
 
 use abbe::{Manipulator, Pose, real_pose, repeatable_magnitudes};
-use abbe_spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 use abbe_tests::abuse::{Choices, plain_spec};
 use libfuzzer_sys::fuzz_target;
 

@@ -1,9 +1,9 @@
 //! The one table from which every generator starts: the entries of `A_1 … A_n` and the tool, from the spec.
 
 use abbe_codegen::chain::Model;
-use abbe_spec::expr::{Function, Symbol};
 use abbe_codegen::graph::{Frame, Graph, Node, Op};
 use abbe_spec::Spec;
+use abbe_spec::expr::{Function, Symbol};
 use serde_json::{Value, json};
 
 /// Variables by name, and the upper three rows of every matrix as expressions that Python can read.

@@ -14,8 +14,8 @@ mod row;
 mod span;
 
 use abbe::lanes::Batches;
-use abbe_spec::Spec;
 use abbe_interpreter::Interpreter;
+use abbe_spec::Spec;
 
 use crate::answers::{Angles, Answers};
 use crate::report::Report;
