@@ -1,7 +1,6 @@
 //! What a study can ask for: workspaces of every form, compensation, draws, threads, interruption.
 
 use std::fs;
-use std::path::Path;
 
 use serde_json::Value;
 use tempfile::tempdir;
