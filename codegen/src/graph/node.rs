@@ -2,7 +2,7 @@
 
 use abbe_spec::expr::{Function, Lookup, Symbol};
 
-/// A handle to a node of a [`Graph`]. Operands have smaller handles than the node that uses them.
+/// A handle to a node of a [`Graph`](super::Graph). Operands have smaller handles than the node that uses them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Node(pub(super) u32);
 
