@@ -11,3 +11,6 @@ mod parts;
 mod readings;
 mod round_trips;
 mod verdict;
+
+#[path = "../../../tests/src/thorough.rs"]
+mod thorough;

@@ -7,6 +7,8 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde_json::{Value, json};
 
+use crate::thorough::sample_size;
+
 const FIGURES: &str = "[[figure]]\nkind = \"travel\"\nover = \"d1\"\n[[figure]]\nkind = \"surface\"\n\
                        over = [\"d1\", \"q4\"]\n[[figure]]\nkind = \"cloud\"\n[[figure]]\nkind = \"histogram\"\n";
 
@@ -129,7 +131,7 @@ fn damage(value: &mut Value, random: &mut Xoshiro256PlusPlus) {
 
 #[test]
 fn whatever_a_part_claims_it_merges_or_is_refused() {
-    let times = if std::env::var_os("ABBE_THOROUGH").is_some() { 20_000 } else { 400 };
+    let times = sample_size(400);
     let mut random = Xoshiro256PlusPlus::seed_from_u64(32);
     let (mut merged, mut refused) = (0, 0);
     for question in questions() {
